@@ -1,0 +1,115 @@
+// When two bodies touch. Everything here depends only on the states the partners hold (position,
+// velocity, and the time at which they held), never on when somebody asks; so any order of asking,
+// any neighbour structure, and a run resumed from a file give the same bits.
+//
+// Both bodies move uniformly, so with s their separation and v its rate of change at the later of
+// the two times held, |s + v τ|² = σ² is the quadratic
+//
+//     a τ² + 2 b τ + c = 0,     a = v·v,   b = s·v,   c = s·s − σ².
+//
+// The paper discards roots below 10⁻¹³ to be rid of the pair that has just collided. Asking whether
+// the two are approaching does the same without a tolerance (Bannerman, Strobl, Formella, Pöschel
+// 2014, arXiv:1211.6718): separating means never; touching, or overlapping by a rounding error, and
+// approaching means now. The roots are taken in the form in which nothing cancels.
+#pragma once
+
+#include "physics/container_path.hpp"
+#include "physics/disc.hpp"
+#include "physics/real.hpp"
+
+namespace swirl {
+
+/// Two discs, from outside: the smaller root, c / (√(b² − ac) − b), with b < 0.
+template <class Real>
+SWIRL_INLINE Real time_of_contact(const Flight<Real>& i, const Flight<Real>& j,
+                                  const Real& sum_of_radii) {
+    const Real now = larger(i.time, j.time);
+    const BasicVec2<Real> s = j.position_at(now) - i.position_at(now);
+    const BasicVec2<Real> v = j.velocity - i.velocity;
+    const Real a = dot(v, v);
+    const Real b = dot(s, v);
+    const Real c = dot(s, s) - sum_of_radii * sum_of_radii;
+    const Real discriminant = b * b - a * c;
+    const auto meet = (b < Real(0.0)) & (discriminant >= Real(0.0));
+    const Real wait = larger(c, Real(0.0)) / (square_root(discriminant) - b);
+    return select(meet, now + wait, Real(never));
+}
+
+/// A disc inside a circle that moves with it uniformly: the larger root. `s` is the disc's position
+/// and `v` its velocity seen from the centre of the circle, `clearance` the distance from the
+/// centre at which it touches (R − r for the wall). Gives the time to wait.
+///
+/// A circle seen from inside curves towards the disc, so after a contact there is always another:
+/// also a disc that leaves has its turn, at the root that is not now. A disc at the wall counts as
+/// 2⁻⁵² clearance² inside when it is not approaching: a disc that slides along the wall so evenly
+/// that b = 0 would otherwise collide with it for ever at one instant.
+template <class Real>
+SWIRL_INLINE Real time_to_leave(const BasicVec2<Real>& s, const BasicVec2<Real>& v,
+                                const Real& clearance) {
+    const Real a = dot(v, v);
+    const Real b = dot(s, v);
+    const Real square = clearance * clearance;
+    const Real c = dot(s, s) - square;
+    const Real inside = smaller(c, Real(-0x1p-52) * square);
+    const auto approaching = b > Real(0.0);
+    const Real root = square_root(b * b - a * select(approaching, smaller(c, Real(0.0)), inside));
+    const Real wait = select(approaching, larger(-c, Real(0.0)), root - b) /
+                      select(approaching, root + b, a);
+    return select(a > Real(0.0), wait, Real(never));
+}
+
+/// Disc and wall on a straight leg.
+template <class Real>
+SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
+                                       const Flight<Real>& container_centre,
+                                       const Real& clearance) {
+    const Real now = larger(disc.time, container_centre.time);
+    const BasicVec2<Real> s = disc.position_at(now) - container_centre.position_at(now);
+    const BasicVec2<Real> v = disc.velocity - container_centre.velocity;
+    return now + time_to_leave(s, v, clearance);
+}
+
+/// Disc and wall on a turning leg, where f(τ) = |s|² − clearance² is no polynomial. Its curvature
+/// f''/2 = |v|² − s·C'' is at most M = (|v_disc| + |V|)² + clearance |V| turning, so
+/// c + 2bτ + Mτ² ≥ f(τ) touches zero no later than f does. Stepping to its root, again and again,
+/// never oversteps the contact and converges quadratically onto it.
+inline double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
+                                           double clearance) {
+    const double container_speed = square_root(dot(leg.velocity, leg.velocity));
+    const double speed = square_root(dot(disc.velocity, disc.velocity)) + container_speed;
+    const double M = speed * speed + clearance * container_speed * magnitude(leg.turning);
+    double t = larger(disc.time, leg.begin);
+    // A dozen steps are usual. A disc that creeps along the wall takes more; after the limit it is
+    // at the wall to all digits that matter.
+    for (int steps = 0; steps < 1000 && t < leg.end; ++steps) {
+        const Vec2 s = disc.position_at(t) - leg.position_at(t);
+        const Vec2 v = disc.velocity - leg.velocity_at(t);
+        const double b = dot(s, v);
+        const double square = clearance * clearance;
+        const double c = dot(s, s) - square;
+        double wait;
+        if (b > 0.0) {
+            if (c >= 0.0) return t;
+            wait = -c / (b + square_root(b * b - M * c));
+        } else {
+            wait = (square_root(b * b - M * smaller(c, -0x1p-52 * square)) - b) / M;
+        }
+        if (!(t + wait > t)) return t;
+        t = t + wait;
+    }
+    return t < leg.end ? t : never;
+}
+
+inline double time_of_contact(const Disc& i, const Disc& j) {
+    return time_of_contact(i.flight(), j.flight(), i.radius + j.radius);
+}
+
+/// On a straight leg the answer may lie beyond the end of the leg; the leg's end comes first.
+inline double time_of_wall_contact(const Disc& disc, const Leg& leg, double container_radius) {
+    const double clearance = container_radius - disc.radius;
+    if (leg.turning != 0.0) return time_of_turning_wall_contact(disc.flight(), leg, clearance);
+    return time_of_wall_contact(disc.flight(), Flight<double>{leg.start, leg.velocity, leg.begin},
+                                clearance);
+}
+
+}  // namespace swirl

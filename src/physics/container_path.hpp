@@ -1,0 +1,82 @@
+// Where the centre C of the container is. It runs counter-clockwise round the swirl centre S, which
+// is the origin; the container never turns (paper, SI "Overview").
+//
+// A path is a closed sequence of legs of constant speed and constant turning. A side of the paper's
+// polygon is a leg with turning 0; the exact circle is one leg with turning Ω. "Path vertex", the
+// paper's third kind of event, is the end of a leg.
+#pragma once
+
+#include <vector>
+
+#include "physics/real.hpp"
+#include "physics/unit_circle.hpp"
+#include "physics/vec2.hpp"
+
+namespace swirl {
+
+/// One stretch of the path. Times are counted from the start of the swirl.
+struct Leg {
+    double begin, end;
+    Vec2 start, velocity;  // at `begin`
+    double turning;        // rad per unit time; 0 for a straight leg
+
+    Vec2 position_at(double t) const {
+        const double elapsed = t - begin;
+        if (turning == 0.0) return start + elapsed * velocity;
+        // ∫ of the turning velocity: (sin φ v + (1 − cos φ) v^⊥) / turning, φ = turning·elapsed.
+        const Vec2 u = unit_circle(elapsed * turning / (2.0 * pi));
+        return start + (1.0 / turning) * (u.y * velocity + (1.0 - u.x) * perpendicular(velocity));
+    }
+    Vec2 velocity_at(double t) const {
+        if (turning == 0.0) return velocity;
+        const Vec2 u = unit_circle((t - begin) * turning / (2.0 * pi));
+        return u.x * velocity + u.y * perpendicular(velocity);
+    }
+};
+
+struct ContainerPath {
+    double period;  // T; the swirl's angular velocity is Ω = 2π/T
+    std::vector<Leg> legs;
+
+    double omega() const { return 2.0 * pi / period; }
+    const Leg& leg_at(double t) const {
+        for (const Leg& leg : legs)
+            if (t < leg.end) return leg;
+        return legs.back();
+    }
+};
+
+/// The paper's numbers (SI "Simulation parameters"). The main text's A = 0.96 is in disc diameters;
+/// with these the container moves at speed 1 and A/R = 0.22 as in the experiment.
+inline constexpr double paper_period = 11.866071;
+inline constexpr double paper_amplitude = 1.892;
+inline constexpr double paper_container_radius = 8.6;
+inline constexpr int paper_sides = 30;
+
+/// A container that stands still; its clock still has a period.
+inline ContainerPath still_path(double period) {
+    return {period, {{0.0, period, {0.0, 0.0}, {0.0, 0.0}, 0.0}}};
+}
+
+/// Regular polygon with vertices A (cos 2πk/M, sin 2πk/M), run through at constant speed
+/// 2AM sin(π/M)/T. M ≥ 3.
+inline ContainerPath polygon_path(double amplitude, double period, int sides) {
+    if (amplitude == 0.0) return still_path(period);
+    ContainerPath path{period, {}};
+    for (int k = 0; k < sides; ++k) {
+        const double begin = period * k / sides, end = period * (k + 1) / sides;
+        const Vec2 from = amplitude * unit_circle(double(k) / sides);
+        const Vec2 to = amplitude * unit_circle(double(k + 1) / sides);
+        path.legs.push_back({begin, end, from, (sides / period) * (to - from), 0.0});
+    }
+    return path;
+}
+
+/// The true circle of radius A, which the paper's polygon approximates.
+inline ContainerPath circular_path(double amplitude, double period) {
+    if (amplitude == 0.0) return still_path(period);
+    const double omega = 2.0 * pi / period;
+    return {period, {{0.0, period, {amplitude, 0.0}, {0.0, amplitude * omega}, omega}}};
+}
+
+}  // namespace swirl

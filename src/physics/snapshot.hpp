@@ -1,0 +1,62 @@
+// The system at one instant, as an observer gets it: from the engine, from a file, or from a
+// camera's tracks. Everything in measure/ and draw/ takes this and nothing else.
+//
+// Columns, one entry per disc. Each disc's state is kept at its own time `held_at`, and moves
+// uniformly from there; a look at time `clock` brings it forward. So an observer who looks after
+// every event is handed two changed discs, not N. In recorded data held_at = clock.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/disc.hpp"
+#include "physics/vec2.hpp"
+
+namespace swirl {
+
+struct Snapshot {
+    std::int64_t swirls = 0;  // whole periods since the beginning
+    double clock = 0.0;       // time since the start of the current swirl
+    double period = 0.0;      // T; Ω = 2π/T
+    Vec2 container_centre{0.0, 0.0}, container_velocity{0.0, 0.0};
+    double container_radius = 0.0;
+
+    // spin and angle are NaN where they are not known (a camera's tracks).
+    std::vector<double> x, y, vx, vy, angle, spin, held_at;
+    std::vector<double> radius, mass, inertia;
+
+    std::size_t size() const { return x.size(); }
+    double time() const { return static_cast<double>(swirls) * period + clock; }
+
+    Vec2 position(std::size_t i) const {
+        const double elapsed = clock - held_at[i];
+        return {x[i] + elapsed * vx[i], y[i] + elapsed * vy[i]};
+    }
+    Vec2 velocity(std::size_t i) const { return {vx[i], vy[i]}; }
+    double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
+
+    Disc disc(std::size_t i) const {
+        return {{x[i], y[i]}, {vx[i], vy[i]}, angle[i],  spin[i],
+                held_at[i],   radius[i],      mass[i],   inertia[i]};
+    }
+    void set(std::size_t i, const Disc& d) {
+        x[i] = d.position.x;
+        y[i] = d.position.y;
+        vx[i] = d.velocity.x;
+        vy[i] = d.velocity.y;
+        angle[i] = d.angle;
+        spin[i] = d.spin;
+        held_at[i] = d.time;
+        radius[i] = d.radius;
+        mass[i] = d.mass;
+        inertia[i] = d.inertia;
+    }
+    void resize(std::size_t n) {
+        for (auto* column :
+             {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
+            column->resize(n);
+    }
+};
+
+}  // namespace swirl

@@ -1,0 +1,44 @@
+// Vectors of the plane. `Real` is double, or eight doubles side by side (lanes.hpp), so that one
+// text of the physics serves one disc and eight.
+#pragma once
+
+namespace swirl {
+
+#define SWIRL_INLINE [[gnu::always_inline]] inline
+
+template <class Real>
+struct BasicVec2 {
+    Real x, y;
+};
+using Vec2 = BasicVec2<double>;
+
+template <class Real>
+SWIRL_INLINE constexpr BasicVec2<Real> operator+(const BasicVec2<Real>& a,
+                                                 const BasicVec2<Real>& b) {
+    return {a.x + b.x, a.y + b.y};
+}
+template <class Real>
+SWIRL_INLINE constexpr BasicVec2<Real> operator-(const BasicVec2<Real>& a,
+                                                 const BasicVec2<Real>& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+template <class Real>
+SWIRL_INLINE constexpr BasicVec2<Real> operator*(const Real& s, const BasicVec2<Real>& a) {
+    return {s * a.x, s * a.y};
+}
+template <class Real>
+SWIRL_INLINE constexpr Real dot(const BasicVec2<Real>& a, const BasicVec2<Real>& b) {
+    return a.x * b.x + a.y * b.y;
+}
+/// z component of a × b.
+template <class Real>
+SWIRL_INLINE constexpr Real cross(const BasicVec2<Real>& a, const BasicVec2<Real>& b) {
+    return a.x * b.y - a.y * b.x;
+}
+/// a turned by +90°: ẑ × a, the paper's (x, y)^⊥ = (−y, x).
+template <class Real>
+SWIRL_INLINE constexpr BasicVec2<Real> perpendicular(const BasicVec2<Real>& a) {
+    return {-a.y, a.x};
+}
+
+}  // namespace swirl
