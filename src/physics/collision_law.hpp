@@ -92,12 +92,11 @@ SWIRL_INLINE Impulse collide(Body& i, Body& j, const Vec2& separation, const Sur
     // The sign of the approach is that of separation · relative, the same product that decided in
     // contact_time.hpp that the two are approaching; so a contact found there always has J_n > 0.
     const double inverse_masses = i.inverse_mass + j.inverse_mass;
-    const Approach approach{
-        -(dot(separation, relative) * inverse_distance),
-        dot(relative, tangent) + (i.radius * i.spin + j.radius * j.spin),
-        1.0 / inverse_masses,
-        1.0 / (inverse_masses + (i.radius * i.radius * i.inverse_inertia +
-                                 j.radius * j.radius * j.inverse_inertia))};
+    const Approach approach{-(dot(separation, relative) * inverse_distance),
+                            dot(relative, tangent) + (i.radius * i.spin + j.radius * j.spin),
+                            1.0 / inverse_masses,
+                            1.0 / (inverse_masses + (i.radius * i.radius * i.inverse_inertia +
+                                                     j.radius * j.radius * j.inverse_inertia))};
     const Impulse J = impulse(approach, surface);
 
     const Vec2 kick = J.normal * normal + J.tangential * tangent;

@@ -53,8 +53,8 @@ SWIRL_INLINE Real time_to_leave(const BasicVec2<Real>& s, const BasicVec2<Real>&
     const Real inside = smaller(c, Real(-0x1p-52) * square);
     const auto approaching = b > Real(0.0);
     const Real root = square_root(b * b - a * select(approaching, smaller(c, Real(0.0)), inside));
-    const Real wait = select(approaching, larger(-c, Real(0.0)), root - b) /
-                      select(approaching, root + b, a);
+    const Real wait =
+        select(approaching, larger(-c, Real(0.0)), root - b) / select(approaching, root + b, a);
     return select(a > Real(0.0), wait, Real(never));
 }
 

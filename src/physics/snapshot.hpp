@@ -37,8 +37,8 @@ struct Snapshot {
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
 
     Disc disc(std::size_t i) const {
-        return {{x[i], y[i]}, {vx[i], vy[i]}, angle[i],  spin[i],
-                held_at[i],   radius[i],      mass[i],   inertia[i]};
+        return {{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
+                held_at[i],   radius[i],      mass[i],  inertia[i]};
     }
     void set(std::size_t i, const Disc& d) {
         x[i] = d.position.x;
@@ -53,8 +53,7 @@ struct Snapshot {
         inertia[i] = d.inertia;
     }
     void resize(std::size_t n) {
-        for (auto* column :
-             {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
+        for (auto* column : {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
             column->resize(n);
     }
 };

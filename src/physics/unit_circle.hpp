@@ -15,8 +15,7 @@ inline constexpr double pi = 3.14159265358979323846;
 /// φ = 2πf, |φ| ≤ π/4, where the first term left out is below φ¹⁸/18! = 2·10⁻¹⁸.
 inline constexpr Vec2 unit_circle(double u) {
     const double quarters = 4.0 * u;
-    const auto k =
-        static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
+    const auto k = static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
     const double phi = (quarters - static_cast<double>(k)) * (pi / 2.0);
     const double q = phi * phi;
     double c = 1.0, s = 1.0;
@@ -26,10 +25,14 @@ inline constexpr Vec2 unit_circle(double u) {
     }
     s = s * phi;
     switch (k & 3) {
-        case 0: return {c, s};
-        case 1: return {-s, c};
-        case 2: return {-c, -s};
-        default: return {s, -c};
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
     }
 }
 
