@@ -1,0 +1,110 @@
+// How fast the cluster turns about its own centre of mass. Lab frame; positive is rotation (the
+// sense of the swirl), negative is counterrotation.
+//
+//   individual   ϖ = (1/N) Σ_i ϖ_i,   ϖ_i = (r_i − r_cm) × (v_i − v_cm) / |r_i − r_cm|²
+//                the paper's (main text, definition of ϖ, in the limit of frames infinitely close)
+//   rigid        ϖ = Σ_i (r_i − r_cm) × (v_i − v_cm) / Σ_i |r_i − r_cm|²
+//                the rotation of the rigid body that fits the velocities best. It weighs a disc
+//                with its distance squared, so those near the centre, which make the individual
+//                estimator noisy (its variance diverges, logarithmically, at |r_i − r_cm| → 0),
+//                count little.
+//
+// r_cm is weighted with the masses; the sums over discs are not. Both are averaged twice:
+//   by event     one sample after every event, as the paper's Figure 5b (SI, "Simulation
+//                parameters"): busy moments weigh more than quiet ones
+//   by time      samples at equal time steps: what a camera sees
+//
+// Units: results in units of Ω = 2π/T. Errors from blocks of whole periods (statistics.hpp).
+// Limits: a disc on the centre of mass (closer than 2⁻⁴⁰ container radii) has no angular velocity
+// about it and is left out of the individual mean; if no disc is left (one disc, all discs on one
+// point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
+//
+// A look after every event must cost less than the event. Eight discs are treated side by side,
+// always with eight partial sums added up in the same order, so the bits of the result do not
+// depend on the width of the processor's vectors.
+#pragma once
+
+#include <cstdint>
+
+#include "measure/statistics.hpp"
+#include "physics/snapshot.hpp"
+
+namespace swirl {
+
+/// Rotation of the cluster at one instant, in radians per unit time.
+struct RotationSample {
+    double individual, rigid;
+};
+
+/// Both estimators for one snapshot.
+RotationSample cluster_rotation(const Snapshot& snapshot);
+
+/// In units of Ω.
+struct RotationEstimates {
+    Estimate by_event, by_time, rigid_by_event, rigid_by_time;
+};
+
+class ClusterRotation {
+  public:
+    ClusterRotation();
+
+    /// One sample of the average by event: call after every event.
+    void look(const Snapshot& snapshot) { event_.add(kernel_(snapshot), snapshot.period); }
+    /// One sample of the average by time: call at equal time steps.
+    void look_in_time(const Snapshot& snapshot) { time_.add(kernel_(snapshot), snapshot.period); }
+
+    /// Call at the end of every period. What was seen since the last call becomes a block; what
+    /// has not been closed does not count.
+    void close_block();
+
+    RotationEstimates estimates() const;
+    /// Blocks in units of Ω: for the search for a steady state, and as a time series.
+    const BlockSeries& by_event() const { return individual_by_event_; }
+    const BlockSeries& by_time() const { return individual_by_time_; }
+    const BlockSeries& rigid_by_event() const { return rigid_by_event_; }
+    const BlockSeries& rigid_by_time() const { return rigid_by_time_; }
+
+    /// Adds the closed blocks of an independent run.
+    void merge(const ClusterRotation& other);
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        event_.fields(visit);
+        time_.fields(visit);
+        individual_by_event_.fields(visit);
+        individual_by_time_.fields(visit);
+        rigid_by_event_.fields(visit);
+        rigid_by_time_.fields(visit);
+    }
+
+  private:
+    struct OpenBlock {
+        double individual = 0.0, rigid = 0.0, samples = 0.0, period = not_known;
+
+        void add(const RotationSample& sample, double snapshot_period) {
+            individual += sample.individual;
+            rigid += sample.rigid;
+            samples += 1.0;
+            period = snapshot_period;
+        }
+        void close_into(BlockSeries& individual_series, BlockSeries& rigid_series);
+        template <class Visitor>
+        void fields(Visitor&& visit) {
+            visit(individual);
+            visit(rigid);
+            visit(samples);
+            visit(period);
+        }
+    };
+
+    RotationSample (*kernel_)(const Snapshot&);  // for this processor's vectors
+    OpenBlock event_, time_;
+    BlockSeries individual_by_event_, individual_by_time_, rigid_by_event_, rigid_by_time_;
+};
+
+/// The widths the kernel comes in; for tests, which hold that all give the same bits.
+enum class VectorWidth : std::uint8_t { baseline, avx2, avx512 };
+bool processor_has(VectorWidth width);
+RotationSample cluster_rotation(const Snapshot& snapshot, VectorWidth width);
+
+}  // namespace swirl

@@ -1,0 +1,167 @@
+#include "measure/cluster_rotation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+const double omega = 2.0 * pi / paper_period;
+
+/// N discs turning rigidly at `rate` about a point that moves.
+Snapshot rigid_cluster(std::size_t n, double rate, std::uint64_t seed) {
+    Snapshot s = random_discs(n, seed);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 v = Vec2{0.7, -0.2} + rate * perpendicular(s.position(i));
+        s.vx[i] = v.x;
+        s.vy[i] = v.y;
+    }
+    return s;
+}
+
+/// The definition, written as plainly as it is stated.
+RotationSample by_definition(const Snapshot& s) {
+    Vec2 r{0, 0}, v{0, 0};
+    double mass = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        mass += s.mass[i];
+        r = r + s.mass[i] * s.position(i);
+        v = v + s.mass[i] * s.velocity(i);
+    }
+    r = (1.0 / mass) * r;
+    v = (1.0 / mass) * v;
+    double individual = 0.0, angular = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 d = s.position(i) - r, u = s.velocity(i) - v;
+        individual += cross(d, u) / dot(d, d);
+        angular += cross(d, u);
+        square += dot(d, d);
+    }
+    return {individual / static_cast<double>(s.size()), angular / square};
+}
+
+TEST(ClusterRotation, RigidRotationGivesItsRate) {
+    for (const std::size_t n : {2u, 3u, 7u, 8u, 9u, 28u, 48u, 55u}) {
+        const RotationSample sample = cluster_rotation(rigid_cluster(n, omega, n));
+        // Rounding of positions of size 10 at distances of order 0.1 from the centre of mass.
+        EXPECT_NEAR(sample.individual, omega, 1e-13) << n;
+        EXPECT_NEAR(sample.rigid, omega, 1e-14) << n;
+    }
+}
+
+TEST(ClusterRotation, AgreesWithItsDefinitionForEveryNumberAndAnyMasses) {
+    for (std::size_t n = 2; n <= 60; ++n) {
+        Snapshot s = random_discs(n, 100 + n);
+        Noise noise(n);
+        for (std::size_t i = 0; i < n; ++i) s.mass[i] = 2.0 + noise();
+        const RotationSample expected = by_definition(s), sample = cluster_rotation(s);
+        const RotationSample earlier = cluster_rotation(held_earlier(s));
+        // Other order of additions; one disc near the centre of mass magnifies rounding.
+        EXPECT_NEAR(sample.individual, expected.individual, 1e-12) << n;
+        EXPECT_NEAR(sample.rigid, expected.rigid, 1e-14) << n;
+        EXPECT_NEAR(earlier.individual, expected.individual, 1e-12) << n;
+        EXPECT_NEAR(earlier.rigid, expected.rigid, 1e-14) << n;
+    }
+}
+
+TEST(ClusterRotation, EveryVectorWidthGivesTheSameBits) {
+    for (std::size_t n = 2; n <= 60; ++n) {
+        const Snapshot s = held_earlier(random_discs(n, n));
+        const RotationSample base = cluster_rotation(s, VectorWidth::baseline);
+        for (const VectorWidth width : {VectorWidth::avx2, VectorWidth::avx512}) {
+            if (!processor_has(width)) continue;
+            const RotationSample wide = cluster_rotation(s, width);
+            EXPECT_EQ(base.individual, wide.individual) << n;
+            EXPECT_EQ(base.rigid, wide.rigid) << n;
+        }
+    }
+}
+
+TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
+    Snapshot s = empty_dish();
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
+    add_disc(s, {1.0, 2.0}, {0.3, 0.4});
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
+    for (int i = 0; i < 6; ++i) add_disc(s, {1.0, 2.0}, {0.1 * i, 0.4});
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
+}
+
+TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
+    Snapshot s = empty_dish();
+    add_disc(s, {0.0, 0.0}, {0.0, 0.0});
+    for (int k = 0; k < 6; ++k) {
+        const Vec2 p = 2.0 * unit_circle(k / 6.0);
+        add_disc(s, p, 0.25 * perpendicular(p));
+    }
+    EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-15);
+    EXPECT_NEAR(cluster_rotation(s).rigid, 0.25, 1e-15);
+}
+
+TEST(ClusterRotation, AStateThatIsNotANumberShows) {
+    Snapshot s = random_discs(20, 4);
+    s.vx[3] = not_known;
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
+    EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
+}
+
+TEST(ClusterRotation, MeansAreInUnitsOfOmegaAndEventsAndTimeAreKeptApart) {
+    ClusterRotation rotation;
+    for (int block = 0; block < 4; ++block) {
+        rotation.look(rigid_cluster(9, omega, 1));
+        rotation.look(rigid_cluster(9, 3.0 * omega, 2));
+        rotation.look_in_time(rigid_cluster(9, -0.5 * omega, 3));
+        rotation.close_block();
+    }
+    const RotationEstimates e = rotation.estimates();
+    EXPECT_NEAR(e.by_event.mean, 2.0, 1e-12);
+    EXPECT_NEAR(e.rigid_by_event.mean, 2.0, 1e-12);
+    EXPECT_NEAR(e.by_time.mean, -0.5, 1e-12);
+    EXPECT_NEAR(e.rigid_by_time.mean, -0.5, 1e-12);
+    EXPECT_EQ(e.by_event.blocks, 4u);
+    EXPECT_NEAR(e.by_event.error, 0.0, 1e-12);
+}
+
+TEST(ClusterRotation, WithoutALookThereIsNoMean) {
+    ClusterRotation rotation;
+    EXPECT_TRUE(std::isnan(rotation.estimates().by_event.mean));
+    rotation.close_block();
+    EXPECT_TRUE(std::isnan(rotation.estimates().by_event.mean));
+    EXPECT_TRUE(std::isnan(rotation.estimates().rigid_by_time.mean));
+}
+
+TEST(ClusterRotation, WhatIsNotClosedDoesNotCount) {
+    ClusterRotation rotation;
+    rotation.look(rigid_cluster(9, omega, 1));
+    rotation.close_block();
+    rotation.look(rigid_cluster(9, 5.0 * omega, 1));
+    EXPECT_NEAR(rotation.estimates().by_event.mean, 1.0, 1e-12);
+}
+
+TEST(ClusterRotation, MergedRunsAreOneLongRun) {
+    ClusterRotation whole, first, second;
+    for (int block = 0; block < 10; ++block) {
+        for (int event = 0; event < 20 + block; ++event) {
+            const Snapshot s = random_discs(12, 50 * block + event);
+            whole.look(s);
+            whole.look_in_time(s);
+            (block < 4 ? first : second).look(s);
+            (block < 4 ? first : second).look_in_time(s);
+        }
+        whole.close_block();
+        (block < 4 ? first : second).close_block();
+    }
+    first.merge(second);
+    // Equal but for the order of a few additions.
+    EXPECT_NEAR(first.estimates().by_event.mean, whole.estimates().by_event.mean, 1e-14);
+    EXPECT_NEAR(first.estimates().rigid_by_time.mean, whole.estimates().rigid_by_time.mean, 1e-14);
+    EXPECT_EQ(first.by_event().size(), 10u);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,71 @@
+// Snapshots with known answers, for the tests of measure/.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/container_path.hpp"
+#include "physics/snapshot.hpp"
+
+namespace swirl {
+
+/// Numbers in (−1, 1), the same everywhere (xorshift64*).
+class Noise {
+  public:
+    explicit Noise(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
+    double operator()() {
+        state_ ^= state_ >> 12;
+        state_ ^= state_ << 25;
+        state_ ^= state_ >> 27;
+        return static_cast<double>((state_ * 0x2545F4914F6CDD1Du) >> 11) * 0x1p-52 - 1.0;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+/// The paper's dish, at the moment when the container is at the angle 2πu on its circle.
+inline Snapshot empty_dish(double u = 0.0) {
+    Snapshot s;
+    s.period = paper_period;
+    const double omega = 2.0 * pi / s.period;
+    s.container_centre = paper_amplitude * unit_circle(u);
+    s.container_velocity = omega * perpendicular(s.container_centre);
+    s.container_radius = paper_container_radius;
+    s.clock = u * s.period;
+    return s;
+}
+
+/// Adds a disc whose state holds now.
+inline void add_disc(Snapshot& s, const Vec2& position, const Vec2& velocity, double spin = 0.0,
+                     double radius = 1.0, double mass = 1.0) {
+    const std::size_t i = s.size();
+    s.resize(i + 1);
+    s.set(i, {position, velocity, 0.0, spin, s.clock, radius, mass, 10.0 * mass});
+}
+
+/// The same system with states held at other times, each disc its own: nothing a look may notice.
+inline Snapshot held_earlier(const Snapshot& s, std::uint64_t seed = 1) {
+    Snapshot t = s;
+    Noise noise(seed);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        const double earlier = s.clock - 0.1 * (1.0 + noise());
+        t.set(i, s.disc(i).at(earlier));
+    }
+    return t;
+}
+
+/// Points and velocities all over the dish.
+inline Snapshot random_discs(std::size_t n, std::uint64_t seed, double u = 0.0) {
+    Snapshot s = empty_dish(u);
+    Noise noise(seed);
+    while (s.size() < n) {
+        const Vec2 p{7.6 * noise(), 7.6 * noise()};
+        if (dot(p, p) > 7.6 * 7.6) continue;
+        add_disc(s, s.container_centre + p, {noise(), noise()}, noise());
+    }
+    return s;
+}
+
+}  // namespace swirl
