@@ -1,0 +1,182 @@
+#include "lab/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lab/failure.hpp"
+
+namespace swirl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Samples of the averages by time per swirl. Not a multiple of the paper's 30 sides, so that the
+/// corners of the path are met at different phases.
+constexpr int rotation_samples = 64;
+
+/// Events between two looks at the clock and at the stop flag.
+constexpr int patience = 256;
+constexpr std::chrono::milliseconds progress_interval(100);
+
+struct Budget {
+    double energy = 0.0, invariant = 0.0;
+};
+
+/// Kinetic energy K, and K − ΩL with the angular momentum about the swirl centre.
+Budget budget_of(const Snapshot& s) {
+    double K = 0.0, L = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Disc d = s.disc(i);
+        K += kinetic_energy(d);
+        L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
+    }
+    return {K, K - 2.0 * pi / s.period * L};
+}
+
+/// The equally spaced moments of a swirl, one after the other. Until the next event the state of
+/// the last snapshot holds, so a look at a moment in between needs nothing but its clock.
+class SampleTimes {
+  public:
+    SampleTimes(int per_period, double period) : per_period_(per_period), period_(period) {}
+
+    /// Calls look(snapshot) at every moment up to `clock` within the swirl of the snapshot. The
+    /// end of a swirl is the beginning of the next, and counts there.
+    template <class Look>
+    void pass(Snapshot& s, const ContainerPath& path, double clock, Look&& look) {
+        while (next_ < per_period_) {
+            const double moment = period_ * next_ / per_period_;
+            if (moment > clock) return;
+            s.clock = moment;
+            const Leg& leg = path.leg_at(moment);
+            s.container_centre = leg.position_at(moment);
+            s.container_velocity = leg.velocity_at(moment);
+            look(s);
+            ++next_;
+        }
+    }
+    void begin_swirl() { next_ = 0; }
+
+  private:
+    int per_period_;
+    double period_;
+    int next_ = 0;
+};
+
+class Run {
+  public:
+    Run(const RunConfig& config, const RunControl& control)
+        : config_(config),
+          control_(control),
+          path_(make_path(config)),
+          simulation_(make_scene(config)),
+          snapshot_(simulation_.snapshot()),
+          rotation_times_(rotation_samples, config.period),
+          caller_times_(control.samples_per_period, config.period),
+          warm_(config.warmup == 0) {
+        const Budget start = budget_of(snapshot_);
+        result_.config = config;
+        result_.energy_at_start = start.energy;
+        result_.invariant_at_start = start.invariant;
+    }
+
+    RunResult operator()() {
+        const auto begin = Clock::now();
+        auto last_report = begin;
+        while (!done()) {
+            for (int k = 0; k < patience && !done(); ++k) step();
+            if (control_.stop && control_.stop->load(std::memory_order_relaxed)) break;
+            const auto now = Clock::now();
+            if (!control_.progress || now - last_report < progress_interval) continue;
+            last_report = now;
+            control_.progress({fraction(), simulation_.events().total(), periods()});
+        }
+        result_.complete = done();
+        result_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+        finish();
+        return result_;
+    }
+
+  private:
+    bool done() const {
+        if (config_.periods) return simulation_.swirls() >= *config_.periods;
+        return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
+    }
+    double periods() const {
+        return static_cast<double>(simulation_.swirls()) + simulation_.clock() / config_.period;
+    }
+    double fraction() const {
+        if (config_.periods) return periods() / static_cast<double>(*config_.periods);
+        return static_cast<double>(simulation_.events().total()) /
+               static_cast<double>(config_.events);
+    }
+
+    void step() {
+        const Event event = simulation_.step();
+        rotation_times_.pass(snapshot_, path_, event.clock,
+                             [&](const Snapshot& s) { average().look_in_time(s); });
+        if (control_.sample) caller_times_.pass(snapshot_, path_, event.clock, control_.sample);
+
+        simulation_.refresh(snapshot_, event);
+        average().look(snapshot_);
+        result_.max_overlap = std::max(result_.max_overlap, event.overlap);
+        if (control_.after_event) control_.after_event(snapshot_, event);
+        if (event.kind == EventKind::path_vertex && simulation_.swirls() > event.swirls)
+            begin_swirl();
+    }
+
+    void begin_swirl() {
+        rotation_times_.begin_swirl();
+        caller_times_.begin_swirl();
+        average().close_block();
+        if (warm_ || !warm_now()) return;
+        warm_ = true;
+        result_.warmup = simulation_.swirls();
+        result_.warmup_events = simulation_.events();
+    }
+
+    /// At the end of a swirl: is the warm-up over?
+    bool warm_now() const {
+        if (config_.warmup) return simulation_.swirls() >= *config_.warmup;
+        return simulation_.swirls() >= default_warmup || fraction() >= 0.2;
+    }
+
+    /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
+    ClusterRotation& average() { return warm_ ? after_warmup_ : in_warmup_; }
+
+    void finish() {
+        // A run too short for a single whole swirl still has a mean, though no error.
+        if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
+        if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
+        if (!warm_ && config_.warmup && result_.complete)
+            throw Failure(fmt::format(
+                "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "
+                "more --events or a shorter --warmup would be right.",
+                periods(), *config_.warmup));
+        result_.rotation = average().estimates();
+        result_.events = simulation_.events();
+        result_.periods = periods();
+        const Budget end = budget_of(snapshot_);
+        result_.energy = end.energy;
+        result_.invariant = end.invariant;
+        result_.state_hash = simulation_.state_hash();
+    }
+
+    const RunConfig config_;
+    const RunControl& control_;
+    const ContainerPath path_;
+    Simulation simulation_;
+    Snapshot snapshot_;
+    SampleTimes rotation_times_, caller_times_;
+    ClusterRotation in_warmup_, after_warmup_;
+    bool warm_;
+    RunResult result_;
+};
+
+}  // namespace
+
+RunResult run(const RunConfig& config, const RunControl& control) { return Run(config, control)(); }
+
+}  // namespace swirl

@@ -1,0 +1,66 @@
+// One simulation from its seed to its averages. Everything larger (figures, sweeps, the search for
+// a crossing) is made of runs.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "lab/run_config.hpp"
+#include "measure/cluster_rotation.hpp"
+#include "physics/snapshot.hpp"
+#include "simulation/event.hpp"
+#include "simulation/simulation.hpp"
+
+namespace swirl {
+
+struct RunResult {
+    RunConfig config;
+    bool complete = false;       // false: stopped before its end
+    EventCounts events;          // all of them, warm-up included
+    double periods = 0.0;        // swirls simulated, warm-up included
+    std::int64_t warmup = 0;     // whole swirls left out
+    EventCounts warmup_events;   // the events in them
+    RotationEstimates rotation;  // in units of Ω, lab frame; by_event is the paper's average
+    double max_overlap = 0.0;    // largest overlap met at a contact: a rounding error
+    /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
+    double energy_at_start = 0.0, energy = 0.0;
+    /// K − ΩL, L about the swirl centre, spins included: conserved on the exact circle when there
+    /// is no friction (docs/physics.md).
+    double invariant_at_start = 0.0, invariant = 0.0;
+    std::uint64_t state_hash = 0;
+    double seconds = 0.0;
+
+    double events_per_second() const {
+        return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
+    }
+};
+
+struct RunProgress {
+    double fraction;       // of the run
+    std::uint64_t events;  // so far
+    double periods;        // so far
+};
+
+/// What a caller may want while the run goes on. Everything is optional, and nothing of it changes
+/// a bit of the trajectory.
+struct RunControl {
+    /// Set from outside (a signal) to end the run early; the result then says it is incomplete.
+    const std::atomic<bool>* stop = nullptr;
+
+    /// Called a few times a second at most.
+    std::function<void(const RunProgress&)> progress;
+
+    /// Called after every event, warm-up included, with the state just after it.
+    std::function<void(const Snapshot&, const Event&)> after_event;
+
+    /// Called at `samples_per_period` equal intervals, warm-up included: at the exact state at the
+    /// exact times k T / samples_per_period.
+    int samples_per_period = 0;
+    std::function<void(const Snapshot&)> sample;
+};
+
+/// The configuration must have no problem().
+RunResult run(const RunConfig& config, const RunControl& control = {});
+
+}  // namespace swirl

@@ -1,0 +1,86 @@
+#include "lab/run_json.hpp"
+
+#include <fmt/format.h>
+
+#include "lab/version.hpp"
+
+namespace swirl {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json counts_json(const EventCounts& counts) {
+    return {{"total", counts.total()},
+            {"disc_disc", counts.disc_disc},
+            {"disc_wall", counts.disc_wall},
+            {"path_vertex", counts.path_vertex}};
+}
+
+}  // namespace
+
+Json config_json(const RunConfig& c) {
+    Json json{{"discs", c.discs},
+              {"mu_disc", c.mu_disc},
+              {"mu_wall", c.mu_wall},
+              {"inertia", c.inertia},
+              {"mass", c.mass},
+              {"radius", c.radius},
+              {"mixture", nullptr},
+              {"restitution", c.restitution},
+              {"tangential_restitution", c.tangential_restitution},
+              {"container_radius", c.container_radius},
+              {"amplitude", c.amplitude},
+              {"period", c.period},
+              {"speed", container_speed(c)},
+              {"omega", c.omega()},
+              {"path", c.path == PathShape::circle ? "circle" : "polygon"},
+              {"sides", nullptr},
+              {"events", nullptr},
+              {"periods", nullptr},
+              {"warmup", nullptr},
+              {"seed", c.seed}};
+    if (c.mixture)
+        json["mixture"] = Json{{"count", c.mixture->count},
+                               {"radius", c.mixture->radius},
+                               {"mass", c.mixture->mass}};
+    if (c.path == PathShape::polygon) json["sides"] = c.sides;
+    if (c.periods)
+        json["periods"] = *c.periods;
+    else
+        json["events"] = c.events;
+    if (c.warmup) json["warmup"] = *c.warmup;
+    return json;
+}
+
+Json estimate_json(const Estimate& e) {
+    return {{"mean", e.mean},
+            {"error", e.error},
+            {"effective_samples", e.effective_samples},
+            {"blocks", e.blocks}};
+}
+
+Json result_json(const RunResult& r) {
+    return {{"config", config_json(r.config)},
+            {"complete", r.complete},
+            {"events", counts_json(r.events)},
+            {"periods", r.periods},
+            {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
+            {"rotation",
+             {{"by_event", estimate_json(r.rotation.by_event)},
+              {"by_time", estimate_json(r.rotation.by_time)},
+              {"rigid_by_event", estimate_json(r.rotation.rigid_by_event)},
+              {"rigid_by_time", estimate_json(r.rotation.rigid_by_time)}}},
+            {"max_overlap", r.max_overlap},
+            {"energy", r.energy},
+            {"energy_at_start", r.energy_at_start},
+            {"invariant", r.invariant},
+            {"invariant_at_start", r.invariant_at_start},
+            {"state_hash", fmt::format("{:016x}", r.state_hash)},
+            {"seconds", r.seconds},
+            {"events_per_second", r.events_per_second()},
+            {"version", version()},
+            {"build", build_description()}};
+}
+
+}  // namespace swirl
