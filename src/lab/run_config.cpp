@@ -18,7 +18,7 @@ constexpr double smallest = 1e-6, largest = 1e6;
 constexpr std::int64_t most_discs = 10'000'000;
 constexpr std::int64_t most_events = 1'000'000'000'000'000;
 constexpr std::int64_t most_periods = 1'000'000'000'000;
-constexpr int most_sides = 1'000'000;
+constexpr std::int64_t most_sides = 1'000'000;
 
 /// No arrangement of equal discs covers more of the plane (Thue 1910): π/√12.
 constexpr double densest_packing = 0.9069;
@@ -47,7 +47,7 @@ std::optional<std::string> number_out_of_range(const RunConfig& c) {
         outside("--inertia", c.inertia, 1e-12, 1e18),
         outside("--container-radius", c.container_radius, smallest, largest),
         outside("--amplitude", c.amplitude, 0.0, largest),
-        outside("--sides", c.sides, 3, most_sides),
+        outside("--sides", std::int64_t{c.sides}, 3, most_sides),
         outside("--period", c.period, smallest, largest),
         outside("--events", c.events, 1, most_events),
         outside("--periods", c.periods.value_or(1), 1, most_periods),
