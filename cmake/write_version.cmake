@@ -1,5 +1,23 @@
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+# Without git (a machine with the compiler only, or a tree owned by somebody else) the folder .git
+# still tells the commit, though not whether the sources were changed since.
+if(NOT commit AND EXISTS ${SOURCE_DIR}/.git/HEAD)
+  file(STRINGS ${SOURCE_DIR}/.git/HEAD commit LIMIT_COUNT 1)
+  if(commit MATCHES "^ref: (.*)$")
+    set(branch ${CMAKE_MATCH_1})
+    set(commit "")
+    if(EXISTS ${SOURCE_DIR}/.git/${branch})
+      file(STRINGS ${SOURCE_DIR}/.git/${branch} commit LIMIT_COUNT 1)
+    elseif(EXISTS ${SOURCE_DIR}/.git/packed-refs)
+      file(STRINGS ${SOURCE_DIR}/.git/packed-refs line REGEX " ${branch}$" LIMIT_COUNT 1)
+      string(REGEX REPLACE " .*" "" commit "${line}")
+    endif()
+  endif()
+  if(commit)
+    string(SUBSTRING ${commit} 0 12 commit)
+  endif()
+endif()
 if(NOT commit)
   set(commit "unknown")
 endif()
