@@ -156,6 +156,7 @@ class Run {
                 "more --events or a shorter --warmup would be right.",
                 periods(), *config_.warmup));
         result_.rotation = average().estimates();
+        result_.steady = find_steady_state(average().by_event().block_means());
         result_.events = simulation_.events();
         result_.periods = periods();
         const Budget end = budget_of(snapshot_);

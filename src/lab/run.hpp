@@ -22,6 +22,7 @@ struct RunResult {
     std::int64_t warmup = 0;     // whole swirls left out
     EventCounts warmup_events;   // the events in them
     RotationEstimates rotation;  // in units of Ω, lab frame; by_event is the paper's average
+    SteadyState steady;          // of the rotation by event, after the warm-up
     double max_overlap = 0.0;    // largest overlap met at a contact: a rounding error
     /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
     double energy_at_start = 0.0, energy = 0.0;

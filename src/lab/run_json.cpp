@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lab/run_report.hpp"
 #include "lab/version.hpp"
 
 namespace swirl {
@@ -15,6 +16,15 @@ Json counts_json(const EventCounts& counts) {
             {"disc_disc", counts.disc_disc},
             {"disc_wall", counts.disc_wall},
             {"path_vertex", counts.path_vertex}};
+}
+
+const char* word(SteadyState::Verdict verdict) {
+    switch (verdict) {
+        case SteadyState::Verdict::steady: return "steady";
+        case SteadyState::Verdict::drifting: return "drifting";
+        case SteadyState::Verdict::too_short: break;
+    }
+    return "too short to tell";
 }
 
 }  // namespace
@@ -71,6 +81,7 @@ Json result_json(const RunResult& r) {
               {"by_time", estimate_json(r.rotation.by_time)},
               {"rigid_by_event", estimate_json(r.rotation.rigid_by_event)},
               {"rigid_by_time", estimate_json(r.rotation.rigid_by_time)}}},
+            {"steady_state", {{"verdict", word(r.steady.verdict)}, {"drift", r.steady.drift}}},
             {"max_overlap", r.max_overlap},
             {"energy", r.energy},
             {"energy_at_start", r.energy_at_start},
@@ -79,6 +90,7 @@ Json result_json(const RunResult& r) {
             {"state_hash", fmt::format("{:016x}", r.state_hash)},
             {"seconds", r.seconds},
             {"events_per_second", r.events_per_second()},
+            {"warnings", warnings(r)},
             {"version", version()},
             {"build", build_description()}};
 }

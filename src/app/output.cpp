@@ -1,0 +1,56 @@
+#include "app/output.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "lab/failure.hpp"
+
+namespace swirl {
+namespace {
+
+std::string last_error() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+void refuse_unwritable(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (file.empty()) throw WrongCall("The name of an output file is empty.");
+    if (file.native().front() == '-')
+        throw WrongCall(fmt::format(
+            "'{0}' looks like an option, but here the name of a file must stand; a file of that "
+            "name would be ./{0}.",
+            file.string()));
+    if (std::filesystem::is_directory(file, ignored))
+        throw Failure(fmt::format("'{}' is a folder, but it must be the name of a file to write.",
+                                  file.string()));
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.",
+                                  file.string(), folder.string()));
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw Failure(fmt::format("The folder '{}' cannot be made: {}.", folder.string(),
+                                  error.message()));
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Failure(fmt::format("The folder '{}' cannot be written to: {}.", folder.string(),
+                                  last_error()));
+}
+
+void print_all(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+        std::fflush(stdout) == 0)
+        return;
+    throw Failure(fmt::format("Writing to standard output failed: {}.", last_error()));
+}
+
+}  // namespace swirl

@@ -1,0 +1,12 @@
+// Ctrl-C and SIGTERM end the work cleanly: they set a flag that the work looks at. A second one
+// ends the program at once.
+#pragma once
+
+#include <atomic>
+
+namespace swirl {
+
+/// From the first call on, the signals set the flag instead of killing.
+const std::atomic<bool>& stop_signal();
+
+}  // namespace swirl

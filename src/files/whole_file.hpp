@@ -1,0 +1,54 @@
+// Files that are there whole or not at all. The bytes go to a file beside the target, onto the
+// disk, and only then under the final name; so a reader, a second writer, a kill or a power cut
+// finds the old file or the new one, never a part. Two writers at once each use a name of their
+// own, and the last rename wins.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace swirl {
+
+/// A file written piece by piece. Throws FileError, leaving what was there.
+class WholeFile {
+  public:
+    explicit WholeFile(const std::filesystem::path& path);
+    ~WholeFile();  // unfinished: nothing is left
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    void append(std::string_view bytes);
+    /// Changes bytes that have been appended.
+    void replace(std::uint64_t offset, std::string_view bytes);
+    std::uint64_t size() const { return size_; }
+    /// Onto the disk, and under its name.
+    void finish();
+
+  private:
+    void empty_buffer();
+    [[noreturn]] void fail();
+
+    std::filesystem::path path_, aside_;
+    std::string buffer_;
+    std::uint64_t size_ = 0;
+    int file_ = -1;
+};
+
+/// All at once.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Throws FileError when it cannot be read.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// The end of the name under which a file is written until it is complete.
+inline constexpr std::string_view partial_suffix = ".partial";
+
+/// Gives a finished file its final name, on the disk too. Throws FileError.
+void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
+
+/// Why the last system call failed, in words.
+std::string system_reason();
+
+}  // namespace swirl
