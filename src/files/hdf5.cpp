@@ -1,0 +1,581 @@
+#include "files/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <type_traits>
+#include <utility>
+
+#include "files/file_error.hpp"
+
+namespace swirl {
+namespace {
+
+std::recursive_mutex& library_lock() {
+    static std::recursive_mutex lock;
+    return lock;
+}
+using Locked = std::lock_guard<std::recursive_mutex>;
+
+// --- HDF5's virtual file driver on top of StagedFile ---------------------------------------------
+
+struct StagedDriver {
+    H5FD_t common;  // must come first: the library sees this
+    StagedFile* file;
+    haddr_t end_of_allocation;
+    std::string* failure;  // the sentence of the first failure
+};
+
+StagedDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<StagedDriver*>(file); }
+const StagedDriver& driver_of(const H5FD_t* file) {
+    return *reinterpret_cast<const StagedDriver*>(file);
+}
+
+template <class Action>
+herr_t guarded(StagedDriver& driver, Action&& action) {
+    try {
+        action();
+        return 0;
+    } catch (const std::exception& error) {
+        if (driver.failure->empty()) *driver.failure = error.what();
+        return -1;
+    }
+}
+
+// What the library is to open travels to the driver's open() through here, under the lock.
+struct Opening {
+    StagedFile* file;
+    std::string* failure;
+};
+Opening opening;
+
+const H5FD_class_t& driver_class() {
+    static const H5FD_class_t driver = [] {
+        H5FD_class_t c;
+        std::memset(&c, 0, sizeof c);
+        c.name = "swirl_staged";
+        c.maxaddr = haddr_t(1) << 62;
+        c.fc_degree = H5F_CLOSE_STRONG;
+        c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
+            auto* d = static_cast<StagedDriver*>(std::calloc(1, sizeof(StagedDriver)));
+            if (d == nullptr) return nullptr;
+            d->file = opening.file;
+            d->failure = opening.failure;
+            return &d->common;
+        };
+        c.close = [](H5FD_t* file) -> herr_t {
+            std::free(&driver_of(file));
+            return 0;
+        };
+        c.cmp = [](const H5FD_t* a, const H5FD_t* b) {
+            const auto *x = driver_of(a).file, *y = driver_of(b).file;
+            return x < y ? -1 : x > y ? 1 : 0;
+        };
+        c.query = [](const H5FD_t*, unsigned long* flags) -> herr_t {
+            *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
+                     H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+            return 0;
+        };
+        c.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return driver_of(file).end_of_allocation; };
+        c.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
+            driver_of(file).end_of_allocation = end;
+            return 0;
+        };
+        c.get_eof = [](const H5FD_t* file, H5FD_mem_t) -> haddr_t {
+            return driver_of(file).file->size();
+        };
+        c.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* to) -> herr_t {
+            return guarded(driver_of(file), [&] { driver_of(file).file->read(at, to, size); });
+        };
+        c.write = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size,
+                     const void* from) -> herr_t {
+            return guarded(driver_of(file), [&] { driver_of(file).file->write(at, from, size); });
+        };
+        c.truncate = [](H5FD_t* file, hid_t, hbool_t) -> herr_t {
+            driver_of(file).file->resize(driver_of(file).end_of_allocation);
+            return 0;
+        };
+        const H5FD_mem_t map[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
+        std::copy(std::begin(map), std::end(map), std::begin(c.fl_map));
+        return c;
+    }();
+    return driver;
+}
+
+hid_t driver_id() {
+    static const hid_t id = [] {
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are ours to tell
+        return H5FDregister(&driver_class());
+    }();
+    return id;
+}
+
+// --- handles -------------------------------------------------------------------------------------
+
+class Handle {
+  public:
+    Handle(hid_t id, herr_t (*how)(hid_t)) : id_(id), close_(how) {}
+    ~Handle() { close(); }
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+    operator hid_t() const { return id_; }
+    herr_t close() { return id_ >= 0 ? close_(std::exchange(id_, -1)) : 0; }
+
+  private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+/// The innermost thing the library has to say about its last failure.
+std::string library_reason() {
+    std::string reason;
+    H5Ewalk2(
+        H5E_DEFAULT, H5E_WALK_UPWARD,
+        [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
+            if (depth == 0 && error->desc != nullptr)
+                *static_cast<std::string*>(out) = error->desc;
+            return 0;
+        },
+        &reason);
+    return reason.empty() ? "the HDF5 library gave no reason" : reason;
+}
+
+template <class T>
+hid_t memory_type() {
+    if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+    if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+    if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+    return H5T_NATIVE_UINT8;
+}
+/// Little-endian on the disk, whatever the machine.
+template <class T>
+hid_t disk_type() {
+    if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
+    if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
+    if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_STD_U32LE;
+    return H5T_STD_U8LE;
+}
+
+Handle text_type(std::size_t length) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, std::max<std::size_t>(length, 1));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    return type;
+}
+
+std::uint64_t product(const Dimensions& shape) {
+    std::uint64_t n = 1;
+    for (const std::uint64_t d : shape) n *= d;
+    return n;
+}
+
+}  // namespace
+
+struct Hdf5File::State {
+    std::string path;
+    StagedFile staged;
+    std::string failure;
+    hid_t id = -1;
+
+    State(const std::filesystem::path& p, StagedFile::Mode mode) : path(p.string()), staged(p, mode) {}
+
+    static void leak(const std::shared_ptr<State>& state) { new std::shared_ptr<State>(state); }
+    [[noreturn]] void fail(std::string_view what) {
+        const std::string reason =
+            failure.empty() ? fmt::format("'{}': {} failed ({}).", path, what, library_reason())
+                            : failure;
+        staged.abandon();
+        throw FileError(reason);
+    }
+    hid_t check(hid_t result, std::string_view what) {
+        if (result < 0) fail(what);
+        return result;
+    }
+    Handle object(const std::string& name) {
+        return {check(H5Oopen(id, name.c_str(), H5P_DEFAULT), "opening " + name), H5Oclose};
+    }
+    void write_attribute(const std::string& owner, const std::string& name, hid_t type, hid_t space,
+                         const void* value) {
+        const Handle target = object(owner);
+        H5Adelete(target, name.c_str());
+        const Handle attribute(
+            H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        check(attribute, "creating attribute " + name);
+        check(H5Awrite(attribute, type, value), "writing attribute " + name);
+    }
+};
+
+struct Column::Handle {
+    std::shared_ptr<Hdf5File::State> file;
+    hid_t id;
+    Handle(std::shared_ptr<Hdf5File::State> f, hid_t i) : file(std::move(f)), id(i) {}
+    ~Handle() {
+        const Locked lock(library_lock());
+        // Closing the file closes its datasets; the number may belong to something else by then.
+        if (file->id >= 0) H5Dclose(id);
+    }
+};
+
+Column::Column(std::shared_ptr<Handle> handle, std::string name)
+    : handle_(std::move(handle)), name_(std::move(name)) {
+    const ::swirl::Handle space(H5Dget_space(handle_->id), H5Sclose);
+    Dimensions shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
+    std::vector<hsize_t> extent(shape.size());
+    H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+    std::copy(extent.begin(), extent.end(), shape.begin());
+    if (shape.empty()) return;
+    rows_ = shape.front();
+    row_shape_.assign(shape.begin() + 1, shape.end());
+}
+
+void Column::resize(std::uint64_t rows) {
+    const Locked lock(library_lock());
+    std::vector<hsize_t> extent{rows};
+    extent.insert(extent.end(), row_shape_.begin(), row_shape_.end());
+    handle_->file->check(H5Dset_extent(handle_->id, extent.data()), "resizing " + name_);
+    rows_ = rows;
+}
+
+template <ColumnValue T>
+void Column::append(const T* values, std::uint64_t count) {
+    if (count == 0) return;
+    const Locked lock(library_lock());
+    const std::uint64_t first = rows_;
+    resize(first + count);
+    std::vector<hsize_t> from(1 + row_shape_.size(), 0), size{count};
+    from[0] = first;
+    size.insert(size.end(), row_shape_.begin(), row_shape_.end());
+    const ::swirl::Handle there(H5Dget_space(handle_->id), H5Sclose);
+    H5Sselect_hyperslab(there, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
+    const ::swirl::Handle here(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    handle_->file->check(H5Dwrite(handle_->id, memory_type<T>(), here, there, H5P_DEFAULT, values),
+                         "writing " + name_);
+}
+
+template <ColumnValue T>
+std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
+    const Locked lock(library_lock());
+    if (first + count > rows_)
+        throw FileError(fmt::format("'{}' has {} entries in {}, entries {} to {} were asked for.",
+                                    handle_->file->path, rows_, name_, first, first + count));
+    std::vector<T> values(count * product(row_shape_));
+    if (values.empty()) return values;
+    std::vector<hsize_t> from(1 + row_shape_.size(), 0), size{count};
+    from[0] = first;
+    size.insert(size.end(), row_shape_.begin(), row_shape_.end());
+    const ::swirl::Handle there(H5Dget_space(handle_->id), H5Sclose);
+    H5Sselect_hyperslab(there, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
+    const ::swirl::Handle here(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    handle_->file->check(
+        H5Dread(handle_->id, memory_type<T>(), here, there, H5P_DEFAULT, values.data()),
+        "reading " + name_);
+    return values;
+}
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
+    const Locked lock(library_lock());
+    const hid_t driver = driver_id();
+    state_ = std::make_shared<State>(path, mode);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_driver(access, driver, nullptr);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    opening = {&state_->staged, &state_->failure};
+    if (mode == StagedFile::Mode::create) {
+        // Without access times two runs with the same data write the same bytes.
+        state_->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        state_->check(state_->id, "creating the file");
+        return;
+    }
+    const unsigned how = mode == StagedFile::Mode::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+    state_->id = H5Fopen(path.c_str(), how, access);
+    if (state_->id < 0)
+        throw FileError(fmt::format("'{}' is not an HDF5 file, or is damaged ({}).", path.string(),
+                                    library_reason()));
+}
+
+Hdf5File::~Hdf5File() {
+    if (state_ == nullptr || state_->id < 0) return;
+    const Locked lock(library_lock());
+    state_->staged.abandon();
+    // If the library cannot let go of the file it will try again at exit; what it then reaches for
+    // must still be there.
+    if (H5Fclose(std::exchange(state_->id, -1)) < 0) state_->leak(state_);
+}
+Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
+Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
+    std::swap(state_, other.state_);
+    return *this;
+}
+
+void Hdf5File::flush(bool durable) {
+    const Locked lock(library_lock());
+    state_->check(H5Fflush(state_->id, H5F_SCOPE_GLOBAL), "writing");
+    try {
+        state_->staged.commit(durable);
+    } catch (const FileError& error) {
+        state_->failure = error.what();
+        state_->fail("writing");
+    }
+}
+
+void Hdf5File::close() {
+    const Locked lock(library_lock());
+    flush(true);
+    const herr_t closed = H5Fclose(std::exchange(state_->id, -1));
+    if (closed < 0) {
+        state_->leak(state_);  // see the destructor
+        state_->fail("closing");
+    }
+    // Closing may have trimmed the file.
+    state_->staged.commit(true);
+}
+
+void Hdf5File::create_group(const std::string& name) {
+    const Locked lock(library_lock());
+    const Handle group(H5Gcreate2(state_->id, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose);
+    state_->check(group, "creating group " + name);
+}
+
+bool Hdf5File::has(const std::string& name) const {
+    const Locked lock(library_lock());
+    // Each part of the path has to be asked for by itself.
+    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+        const std::string part = name.substr(0, end);
+        if (H5Lexists(state_->id, part.c_str(), H5P_DEFAULT) <= 0) return false;
+        if (end == std::string::npos) return true;
+    }
+}
+
+std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
+    const Locked lock(library_lock());
+    const Handle target = state_->object(group);
+    std::vector<std::string> names;
+    H5Literate(
+        target, H5_INDEX_NAME, H5_ITER_INC, nullptr,
+        [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+            static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+            return 0;
+        },
+        &names);
+    return names;
+}
+
+template <ColumnValue T>
+Column Hdf5File::create_column(const std::string& name, const Dimensions& row_shape,
+                               std::uint64_t chunk_rows, int compression) {
+    const Locked lock(library_lock());
+    std::vector<hsize_t> size{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows};
+    for (auto* shape : {&size, &limit, &chunk})
+        shape->insert(shape->end(), row_shape.begin(), row_shape.end());
+    const Handle space(H5Screate_simple(int(size.size()), size.data(), limit.data()), H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(properties, int(chunk.size()), chunk.data());
+    H5Pset_obj_track_times(properties, false);  // no clock in the bytes
+    if (compression > 0) {
+        H5Pset_shuffle(properties);
+        H5Pset_deflate(properties, unsigned(compression));
+    }
+    const hid_t id = H5Dcreate2(state_->id, name.c_str(), disk_type<T>(), space, H5P_DEFAULT,
+                                properties, H5P_DEFAULT);
+    state_->check(id, "creating " + name);
+    return {std::make_shared<Column::Handle>(state_, id), name};
+}
+
+template <ColumnValue T>
+void Hdf5File::write(const std::string& name, const std::vector<T>& values,
+                     const Dimensions& shape) {
+    const Locked lock(library_lock());
+    const std::vector<hsize_t> size(shape.begin(), shape.end());
+    const Handle space(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties, false);
+    const Handle set(H5Dcreate2(state_->id, name.c_str(), disk_type<T>(), space, H5P_DEFAULT,
+                                properties, H5P_DEFAULT),
+                     H5Dclose);
+    state_->check(set, "creating " + name);
+    state_->check(
+        H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        "writing " + name);
+}
+
+void Hdf5File::write(const std::string& name, const std::string& text) {
+    const Locked lock(library_lock());
+    const Handle type = text_type(text.size());
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties, false);
+    const Handle set(H5Dcreate2(state_->id, name.c_str(), type, space, H5P_DEFAULT, properties,
+                                H5P_DEFAULT),
+                     H5Dclose);
+    state_->check(set, "creating " + name);
+    const std::string padded = text.empty() ? std::string(1, '\0') : text;
+    state_->check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()),
+                  "writing " + name);
+}
+
+Column Hdf5File::column(const std::string& name) const {
+    const Locked lock(library_lock());
+    if (!has(name)) throw FileError(fmt::format("'{}' has no {}.", state_->path, name));
+    const hid_t id = H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT);
+    if (id < 0)
+        throw FileError(fmt::format("{} in '{}' is not a dataset.", name, state_->path));
+    return {std::make_shared<Column::Handle>(state_, id), name};
+}
+
+std::string Hdf5File::read_text(const std::string& name) const {
+    const Locked lock(library_lock());
+    if (!has(name)) throw FileError(fmt::format("'{}' has no {}.", state_->path, name));
+    const Handle set(H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT), H5Dclose);
+    state_->check(set, "opening " + name);
+    const Handle type(H5Dget_type(set), H5Tclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+        throw FileError(fmt::format("{} in '{}' is not a text of fixed length.", name,
+                                    state_->path));
+    std::string text(H5Tget_size(type), '\0');
+    state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
+                  "reading " + name);
+    text.resize(std::min(text.find('\0'), text.size()));
+    return text;
+}
+
+void Hdf5File::link(const std::string& existing, const std::string& name) {
+    const Locked lock(library_lock());
+    state_->check(H5Lcreate_hard(state_->id, existing.c_str(), state_->id, name.c_str(),
+                                 H5P_DEFAULT, H5P_DEFAULT),
+                  "linking " + name);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             const std::string& text) {
+    const Locked lock(library_lock());
+    const Handle type = text_type(text.size());
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const std::string padded = text.empty() ? std::string(1, '\0') : text;
+    state_->write_attribute(object, name, type, space, padded.data());
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             const std::vector<std::string>& texts) {
+    const Locked lock(library_lock());
+    std::size_t width = 1;
+    for (const std::string& text : texts) width = std::max(width, text.size());
+    std::string padded;
+    for (const std::string& text : texts) padded += text + std::string(width - text.size(), '\0');
+    const Handle type = text_type(width);
+    const hsize_t size = texts.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    state_->write_attribute(object, name, type, space, padded.data());
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+    const Locked lock(library_lock());
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    state_->write_attribute(object, name, H5T_NATIVE_DOUBLE, space, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             const std::vector<std::int64_t>& values) {
+    const Locked lock(library_lock());
+    const hsize_t size = values.size();
+    const Handle space(
+        size == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
+    state_->write_attribute(object, name, H5T_NATIVE_INT64, space, values.data());
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+    const Locked lock(library_lock());
+    return has(object) &&
+           H5Aexists_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+    const Locked lock(library_lock());
+    if (!has_attribute(object, name))
+        throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
+    const Handle attribute(
+        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Sget_simple_extent_npoints(space) != 1)
+        throw FileError(fmt::format("Attribute {} at {} in '{}' is not one text of fixed length.",
+                                    name, object, state_->path));
+    std::string text(H5Tget_size(type), '\0');
+    state_->check(H5Aread(attribute, type, text.data()), "reading attribute " + name);
+    text.resize(std::min(text.find('\0'), text.size()));
+    return text;
+}
+
+double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
+    const Locked lock(library_lock());
+    if (!has_attribute(object, name))
+        throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
+    const Handle attribute(
+        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    double value = 0.0;
+    if (H5Sget_simple_extent_npoints(space) != 1 ||
+        H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+        throw FileError(fmt::format("Attribute {} at {} in '{}' is not a number.", name, object,
+                                    state_->path));
+    return value;
+}
+
+std::vector<std::int64_t> Hdf5File::integers_attribute(const std::string& object,
+                                                       const std::string& name) const {
+    const Locked lock(library_lock());
+    if (!has_attribute(object, name))
+        throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
+    const Handle attribute(
+        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    std::vector<std::int64_t> values(count > 0 ? std::size_t(count) : 0);
+    if (values.empty() || H5Aread(attribute, H5T_NATIVE_INT64, values.data()) < 0)
+        throw FileError(fmt::format("Attribute {} at {} in '{}' is not a list of integers.", name,
+                                    object, state_->path));
+    return values;
+}
+
+void Hdf5File::make_scale(const std::string& dataset, const std::string& name) {
+    const Locked lock(library_lock());
+    const Handle set = state_->object(dataset);
+    state_->check(H5DSset_scale(set, name.c_str()), "naming the dimension " + name);
+}
+
+void Hdf5File::attach_scales(const std::string& dataset, const std::vector<std::string>& scales) {
+    const Locked lock(library_lock());
+    const Handle set = state_->object(dataset);
+    for (unsigned k = 0; k < scales.size(); ++k) {
+        const Handle scale = state_->object(scales[k]);
+        state_->check(H5DSattach_scale(set, scale, k), "attaching the dimension " + scales[k]);
+    }
+}
+
+#define SWIRL_FOR_COLUMNS_OF(T)                                                                   \
+    template void Column::append<T>(const T*, std::uint64_t);                                     \
+    template std::vector<T> Column::read<T>(std::uint64_t, std::uint64_t) const;                  \
+    template Column Hdf5File::create_column<T>(const std::string&, const Dimensions&,             \
+                                               std::uint64_t, int);                               \
+    template void Hdf5File::write<T>(const std::string&, const std::vector<T>&, const Dimensions&)
+
+SWIRL_FOR_COLUMNS_OF(double);
+SWIRL_FOR_COLUMNS_OF(std::int64_t);
+SWIRL_FOR_COLUMNS_OF(std::uint32_t);
+SWIRL_FOR_COLUMNS_OF(std::uint8_t);
+
+}  // namespace swirl

@@ -1,0 +1,114 @@
+// HDF5, as much of it as we need: typed columns that grow, attributes, groups, links. The C library
+// with its handles closed by themselves and its failures as FileError. Files are written through
+// StagedFile, so what was flushed survives a kill, and a full disk leaves the last flushed state.
+//
+// The library keeps global state and is not built for threads in every distribution; one lock
+// around each call makes files on different threads safe.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/staged_file.hpp"
+
+namespace swirl {
+
+using Dimensions = std::vector<std::uint64_t>;
+
+/// The types a column may have: double, std::int64_t, std::uint32_t, std::uint8_t.
+template <class T>
+concept ColumnValue = std::same_as<T, double> || std::same_as<T, std::int64_t> ||
+                      std::same_as<T, std::uint32_t> || std::same_as<T, std::uint8_t>;
+
+class Hdf5File;
+
+/// A dataset. `row` is the shape of one entry along the first dimension.
+class Column {
+  public:
+    Column() = default;
+    std::uint64_t rows() const { return rows_; }
+    const Dimensions& row_shape() const { return row_shape_; }
+
+    /// Adds rows at the end; `count` values of row_shape each.
+    template <ColumnValue T>
+    void append(const T* values, std::uint64_t count);
+    template <ColumnValue T>
+    std::vector<T> read(std::uint64_t first, std::uint64_t count) const;
+    template <ColumnValue T>
+    std::vector<T> read() const {
+        return read<T>(0, rows_);
+    }
+    /// Cuts off what lies behind.
+    void resize(std::uint64_t rows);
+
+  private:
+    friend class Hdf5File;
+    struct Handle;
+    Column(std::shared_ptr<Handle> handle, std::string name);
+    std::shared_ptr<Handle> handle_;
+    std::string name_;
+    std::uint64_t rows_ = 0;
+    Dimensions row_shape_;
+};
+
+class Hdf5File {
+  public:
+    /// Throws FileError, also when the file is no HDF5 file.
+    Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode);
+    /// Closes. What was not flushed is lost; see close().
+    ~Hdf5File();
+    Hdf5File(Hdf5File&&) noexcept;
+    Hdf5File& operator=(Hdf5File&&) noexcept;
+
+    void create_group(const std::string& name);
+    bool has(const std::string& name) const;
+    std::vector<std::string> names_in(const std::string& group) const;
+
+    /// A column that grows along its first dimension in chunks of `chunk_rows`. `compression`: 0
+    /// none, 1…9 deflate, after a byte shuffle.
+    template <ColumnValue T>
+    Column create_column(const std::string& name, const Dimensions& row_shape,
+                         std::uint64_t chunk_rows, int compression);
+    /// A dataset that is written once.
+    template <ColumnValue T>
+    void write(const std::string& name, const std::vector<T>& values, const Dimensions& shape);
+    void write(const std::string& name, const std::string& text);
+    Column column(const std::string& name) const;
+    std::string read_text(const std::string& name) const;
+    /// A second name for the same object.
+    void link(const std::string& existing, const std::string& name);
+
+    void set_attribute(const std::string& object, const std::string& name,
+                       const std::string& text);
+    void set_attribute(const std::string& object, const std::string& name,
+                       const std::vector<std::string>& texts);
+    void set_attribute(const std::string& object, const std::string& name, double value);
+    void set_attribute(const std::string& object, const std::string& name,
+                       const std::vector<std::int64_t>& values);
+    bool has_attribute(const std::string& object, const std::string& name) const;
+    std::string text_attribute(const std::string& object, const std::string& name) const;
+    double number_attribute(const std::string& object, const std::string& name) const;
+    std::vector<std::int64_t> integers_attribute(const std::string& object,
+                                                 const std::string& name) const;
+
+    /// Makes a dataset a dimension scale (a netCDF coordinate), and names the dimensions of others.
+    void make_scale(const std::string& dataset, const std::string& name);
+    void attach_scales(const std::string& dataset, const std::vector<std::string>& scales);
+
+    /// What has been written survives a kill; `durable`: a power cut too.
+    void flush(bool durable = false);
+    /// Flushes and closes; throws FileError if that fails.
+    void close();
+
+  private:
+    friend class Column;
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,302 @@
+#include "files/tracks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "files/file_error.hpp"
+#include "files/whole_file.hpp"
+#include "physics/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr std::int64_t longest_gap = 5;  // frames
+
+/// The lines of a text, with their numbers.
+class Lines {
+  public:
+    Lines(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {}
+
+    bool next(std::string_view& line) {
+        if (rest_.empty()) return false;
+        const std::size_t end = rest_.find('\n');
+        line = rest_.substr(0, end);
+        rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        ++number_;
+        return true;
+    }
+    std::string_view expect(std::string_view what) {
+        std::string_view line;
+        if (!next(line))
+            throw FileError(fmt::format("'{}' ends after line {}, where {} was expected.",
+                                        path_.string(), number_, what));
+        return line;
+    }
+    [[noreturn]] void wrong(std::string_view what) const {
+        throw FileError(fmt::format("'{}', line {}: {}.", path_.string(), number_, what));
+    }
+    double number(std::string_view text) const {
+        while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+        while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+        double value;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+            wrong(fmt::format("'{}' is not a finite number", text));
+        return value;
+    }
+    std::int64_t whole(std::string_view text) const {
+        const double value = number(text);  // pandas writes frame 3 as 3.0 when a column had gaps
+        if (value != std::floor(value) || std::abs(value) > 0x1p53)
+            wrong(fmt::format("'{}' is not a whole number", text));
+        return static_cast<std::int64_t>(value);
+    }
+
+  private:
+    const std::filesystem::path& path_;
+    std::string_view rest_;
+    std::size_t number_ = 0;
+};
+
+std::vector<std::string_view> split(std::string_view line, char separator) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t end = line.find(separator);
+        const std::string_view part = line.substr(0, end);
+        if (separator != ' ' || !part.empty()) parts.push_back(part);
+        if (end == line.npos) return parts;
+        line.remove_prefix(end + 1);
+    }
+}
+
+std::optional<std::size_t> index_of(const std::vector<std::string_view>& names,
+                                    std::string_view name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return {};
+    return std::size_t(found - names.begin());
+}
+
+using Track = std::map<std::int64_t, Vec2>;  // by frame
+
+std::uint64_t fill_gaps(std::map<std::int64_t, Track>& tracks) {
+    std::uint64_t filled = 0;
+    for (auto& [id, track] : tracks) {
+        Track added;
+        for (auto a = track.begin(), b = std::next(a); b != track.end(); a = b++) {
+            const std::int64_t gap = b->first - a->first;
+            if (gap - 1 > longest_gap) continue;
+            for (std::int64_t k = 1; k < gap; ++k)
+                added[a->first + k] =
+                    a->second + double(k) / double(gap) * (b->second - a->second);
+        }
+        filled += added.size();
+        track.merge(added);
+    }
+    return filled;
+}
+
+/// Snapshots out of frames, with the velocities that are missing taken from the neighbours.
+class TrackSeries {
+  public:
+    TrackSeries(Tracks tracks, const TrackScale& scale)
+        : tracks_(std::move(tracks)), scale_(scale) {}
+
+    std::uint64_t frames() const { return tracks_.frames.size(); }
+    bool same_discs() const {
+        for (const TrackFrame& f : tracks_.frames)
+            if (f.id != tracks_.frames.front().id) return false;
+        return true;
+    }
+
+    Snapshot frame(std::uint64_t k) const {
+        const TrackFrame& f = tracks_.frames.at(k);
+        Snapshot s;
+        s.resize(f.id.size());
+        const double time = time_of(k);
+        s.period = scale_.period;
+        s.swirls = static_cast<std::int64_t>(std::floor(time / s.period));
+        s.clock = time - double(s.swirls) * s.period;
+        s.container_radius = scale_.container_radius;
+        const Vec2 direction = unit_circle(scale_.phase / (2.0 * pi) + s.clock / s.period);
+        s.container_centre = scale_.amplitude * direction;
+        s.container_velocity =
+            (scale_.amplitude * 2.0 * pi / s.period) * perpendicular(direction);
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const double mass = f.mass.empty() ? 1.0 : f.mass[i];
+            s.set(i, {lab(f.position[i]), velocity(k, i),
+                      std::numeric_limits<double>::quiet_NaN(),
+                      f.spin.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                     : sense() * f.spin[i],
+                      s.clock, f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius,
+                      mass, std::numeric_limits<double>::quiet_NaN()});
+        }
+        return s;
+    }
+
+  private:
+    double sense() const { return tracks_.y_down != scale_.clockwise ? -1.0 : 1.0; }
+    double time_of(std::uint64_t k) const {
+        return double(tracks_.frames[k].number) / scale_.frames_per_time;
+    }
+    Vec2 turned(const Vec2& v) const {
+        return {(scale_.clockwise ? -1.0 : 1.0) * v.x / scale_.pixels_per_radius,
+                (tracks_.y_down ? -1.0 : 1.0) * v.y / scale_.pixels_per_radius};
+    }
+    Vec2 lab(const Vec2& p) const { return turned(p - scale_.swirl_centre); }
+
+    std::optional<Vec2> seen(std::uint64_t k, std::int64_t id) const {
+        if (k >= tracks_.frames.size()) return {};
+        const TrackFrame& f = tracks_.frames[k];
+        const auto at = std::lower_bound(f.id.begin(), f.id.end(), id);
+        if (at == f.id.end() || *at != id) return {};
+        return f.position[std::size_t(at - f.id.begin())];
+    }
+    Vec2 velocity(std::uint64_t k, std::size_t i) const {
+        const TrackFrame& f = tracks_.frames[k];
+        if (!f.velocity.empty()) return turned(f.velocity[i]);
+        std::uint64_t from = k, to = k;
+        Vec2 first = f.position[i], last = first;
+        if (const auto before = k > 0 ? seen(k - 1, f.id[i]) : std::nullopt)
+            from = k - 1, first = *before;
+        if (const auto after = seen(k + 1, f.id[i])) to = k + 1, last = *after;
+        if (from == to) return {0.0, 0.0};
+        return (1.0 / (time_of(to) - time_of(from))) * turned(last - first);
+    }
+
+    Tracks tracks_;
+    TrackScale scale_;
+};
+
+}  // namespace
+
+Tracks read_trackpy_csv(const std::filesystem::path& path) {
+    const std::string text = read_whole_file(path);
+    Lines lines(path, text);
+    const auto names = split(lines.expect("a header line with frame, particle, x, y"), ',');
+    const auto frame = index_of(names, "frame"), particle = index_of(names, "particle");
+    const auto x = index_of(names, "x"), y = index_of(names, "y");
+    if (!frame || !particle || !x || !y)
+        lines.wrong("the header must name the columns frame, particle, x and y, separated by commas");
+
+    std::map<std::int64_t, Track> tracks;
+    std::string_view line;
+    while (lines.next(line)) {
+        if (line.empty()) continue;
+        const auto parts = split(line, ',');
+        if (parts.size() != names.size())
+            lines.wrong(fmt::format("{} values, but the header names {} columns", parts.size(),
+                                    names.size()));
+        const bool fresh =
+            tracks[lines.whole(parts[*particle])]
+                .try_emplace(lines.whole(parts[*frame]),
+                             Vec2{lines.number(parts[*x]), lines.number(parts[*y])})
+                .second;
+        if (!fresh)
+            lines.wrong(fmt::format("particle {} appears twice in frame {}", parts[*particle],
+                                    parts[*frame]));
+    }
+    if (tracks.empty())
+        throw FileError(fmt::format("'{}' holds no positions.", path.string()));
+
+    Tracks result;
+    result.y_down = true;
+    result.filled = fill_gaps(tracks);
+    std::map<std::int64_t, TrackFrame> frames;
+    for (const auto& [id, track] : tracks)
+        for (const auto& [number, position] : track) {
+            TrackFrame& f = frames[number];
+            f.number = number;
+            f.id.push_back(id);
+            f.position.push_back(position);
+        }
+    for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
+    return result;
+}
+
+Tracks read_lammps_dump(const std::filesystem::path& path) {
+    const std::string text = read_whole_file(path);
+    Lines lines(path, text);
+    Tracks result;
+    TrackFrame frame;
+    std::int64_t atoms = -1;
+    std::string_view line;
+    while (lines.next(line)) {
+        if (line == "ITEM: TIMESTEP") {
+            frame = {};
+            atoms = -1;
+            frame.number = lines.whole(lines.expect("a time step"));
+            if (!result.frames.empty() && frame.number <= result.frames.back().number)
+                lines.wrong("the time steps do not ascend");
+        } else if (line == "ITEM: NUMBER OF ATOMS") {
+            atoms = lines.whole(lines.expect("the number of atoms"));
+            if (atoms < 0 || atoms > std::int64_t(text.size()))
+                lines.wrong(fmt::format("{} atoms cannot be in this file", atoms));
+        } else if (line.starts_with("ITEM: BOX BOUNDS")) {
+            for (int k = 0; k < 3; ++k) lines.expect("the bounds of the box");
+        } else if (line.starts_with("ITEM: ATOMS")) {
+            if (atoms < 0) lines.wrong("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
+            const auto names = split(line.substr(11), ' ');
+            const auto id = index_of(names, "id");
+            const auto x = index_of(names, "x") ? index_of(names, "x") : index_of(names, "xu");
+            const auto y = index_of(names, "y") ? index_of(names, "y") : index_of(names, "yu");
+            if (!id || !x || !y)
+                lines.wrong("the atoms must have the columns id, x and y (or xu and yu)");
+            const auto vx = index_of(names, "vx"), vy = index_of(names, "vy");
+            const auto radius = index_of(names, "radius"), mass = index_of(names, "mass");
+            const auto omega = index_of(names, "omegaz");
+            struct Row {
+                Vec2 position, velocity;
+                double radius, mass, spin;
+            };
+            std::map<std::int64_t, Row> rows;
+            for (std::int64_t k = 0; k < atoms; ++k) {
+                const auto parts = split(lines.expect("an atom"), ' ');
+                if (parts.size() != names.size())
+                    lines.wrong(fmt::format("{} values for {} columns", parts.size(),
+                                            names.size()));
+                const auto value = [&](const std::optional<std::size_t>& at, double otherwise) {
+                    return at ? lines.number(parts[*at]) : otherwise;
+                };
+                const Row row{{value(x, 0), value(y, 0)},
+                              {value(vx, 0), value(vy, 0)},
+                              value(radius, 1.0),
+                              value(mass, 1.0),
+                              value(omega, 0.0)};
+                if (!rows.emplace(lines.whole(parts[*id]), row).second)
+                    lines.wrong(fmt::format("atom {} appears twice", parts[*id]));
+            }
+            for (const auto& [number, row] : rows) {
+                frame.id.push_back(number);
+                frame.position.push_back(row.position);
+                if (vx && vy) frame.velocity.push_back(row.velocity);
+                if (radius) frame.radius.push_back(row.radius);
+                if (mass) frame.mass.push_back(row.mass);
+                if (omega) frame.spin.push_back(row.spin);
+            }
+            result.frames.push_back(frame);
+        } else if (line == "ITEM: UNITS" || line == "ITEM: TIME") {
+            lines.expect("a value");
+        } else if (!line.empty()) {
+            lines.wrong("this is not a LAMMPS text dump: 'ITEM: …' was expected");
+        }
+    }
+    if (result.frames.empty())
+        throw FileError(fmt::format("'{}' holds no frames.", path.string()));
+    return result;
+}
+
+SnapshotSeries series_of(Tracks tracks, const TrackScale& scale) {
+    auto series = std::make_shared<TrackSeries>(std::move(tracks), scale);
+    return {series->frames(), scale.amplitude + scale.container_radius, series->same_discs(),
+            [series](std::uint64_t k) { return series->frame(k); }};
+}
+
+}  // namespace swirl

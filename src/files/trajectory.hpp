@@ -1,0 +1,123 @@
+// Recorded frames: an HDF5 file that is valid H5MD 1.1 (de Buyl, Colberg, Höfling 2014,
+// doi:10.1016/j.cpc.2014.01.018; nongnu.org/h5md), loads in MDAnalysis, and opens in xarray and
+// h5py as netCDF-4.
+//
+//   /h5md                                version {1,1}; author, creator
+//   /particles/trajectory/box            dimension 3, boundary "none"; there is no box
+//   /particles/trajectory/position       step i64[T], time f64[T], value f64[T][N][3], z = 0
+//   /particles/trajectory/velocity         the same; step and time are links to position's
+//   /particles/trajectory/angle            value f64[T][N], rad, not reduced
+//   /particles/trajectory/angular_velocity value f64[T][N]
+//   /particles/trajectory/mass, radius, moment_of_inertia f64[N]; species, id i64[N]
+//   /observables/NAME                    step, time, value f64[T] (or i64), the same T:
+//       swirls (i64), clock              time = swirls·T + clock, but exact for ever
+//       events (i64)                     events executed before the frame
+//       container_x, container_y, container_vx, container_vy
+//   /parameters                          attributes: period, container_radius, complete (0 or 1);
+//                                        texts: one dataset for each entry of the provenance
+//
+// Units: length = disc radius, mass = disc mass, speed of the container = 1. All columns float64,
+// compressed without loss. `step` is the number of the frame.
+//
+// While it is being written the file is called NAME.partial; it gets its name when it is complete.
+// What was written more than a second ago survives a kill: NAME.partial is then a valid file with
+// complete = 0, and --resume carries on with it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files/hdf5.hpp"
+#include "physics/snapshot.hpp"
+
+namespace swirl {
+
+/// Who made a file, from what: name and text, in order ("version", "command", "config", "seed" …).
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+/// 0: none, fast; 1…9: deflate.
+inline constexpr int default_compression = 1;
+
+class TrajectoryWriter {
+  public:
+    /// `first` gives what does not change: number, radii, masses, period, container.
+    TrajectoryWriter(const std::filesystem::path& path, const Snapshot& first,
+                     const Provenance& provenance, int compression = default_compression);
+    /// Carries on with an unfinished file, of which the first `frames` frames count. Throws
+    /// FileError if it holds fewer.
+    static TrajectoryWriter resume(const std::filesystem::path& path, std::uint64_t frames);
+
+    TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
+    TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept = default;
+
+    /// Adds a frame; `events`: how many had been executed.
+    void write(const Snapshot& snapshot, std::uint64_t events);
+    std::uint64_t frames() const { return frames_; }
+    /// Everything written so far survives a kill; `durable`: a power cut too.
+    void flush(bool durable = false);
+    /// Completes the file and gives it its name.
+    void finish();
+
+  private:
+    TrajectoryWriter(const std::filesystem::path& path, Hdf5File file);
+    void open_columns();
+    void empty_buffers();
+
+    // Frames gathered here become one write.
+    struct Buffers {
+        std::vector<double> position, velocity, angle, angular_velocity;
+        std::vector<double> time, clock, container_x, container_y, container_vx, container_vy;
+        std::vector<std::int64_t> step, swirls, events;
+    };
+    struct Columns {
+        Column step, time, position, velocity, angle, angular_velocity;
+        Column swirls, clock, events, container_x, container_y, container_vx, container_vy;
+    };
+
+    std::filesystem::path path_;
+    std::unique_ptr<Hdf5File> file_;  // before the columns, which refer to it
+    Columns columns_;
+    Buffers buffers_;
+    std::size_t discs_ = 0;
+    std::uint64_t frames_ = 0, frames_per_chunk_ = 1;
+    std::chrono::steady_clock::time_point last_flush_;
+};
+
+/// Frames that can be asked for by number: recorded by us, or by a camera.
+class TrajectoryReader {
+  public:
+    /// Reads finished and unfinished files. Throws FileError.
+    explicit TrajectoryReader(const std::filesystem::path& path);
+
+    std::uint64_t frames() const { return frames_; }
+    std::size_t discs() const { return fixed_.size(); }
+    bool complete() const { return complete_; }
+    Snapshot frame(std::uint64_t k);
+    std::uint64_t events_before(std::uint64_t k) const;
+    /// Half the width of a square about the swirl centre that holds the container at all times.
+    double reach() const;
+    /// "" where there is none.
+    std::string provenance(const std::string& name) const;
+    std::vector<std::string> provenance_names() const;
+
+  private:
+    void load_block_of(std::uint64_t k);
+
+    std::unique_ptr<Hdf5File> file_;
+    Column position_, velocity_, angle_, angular_velocity_;
+    std::vector<std::int64_t> swirls_, events_;
+    std::vector<double> clock_, container_x_, container_y_, container_vx_, container_vy_;
+    Snapshot fixed_;
+    std::uint64_t frames_ = 0, block_ = 0, block_begin_ = 0, block_end_ = 0;
+    bool complete_ = false;
+    struct {
+        std::vector<double> position, velocity, angle, angular_velocity;
+    } loaded_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,192 @@
+#include "files/trajectory.hpp"
+
+#include <csignal>
+
+#include "files/export.hpp"
+#include "files/file_error.hpp"
+#include "files/scratch.hpp"
+#include "files/whole_file.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr std::size_t discs = 5;
+constexpr std::uint64_t frames = 20;
+
+void expect_same(const Snapshot& a, const Snapshot& b) {
+    EXPECT_EQ(a.swirls, b.swirls);
+    EXPECT_EQ(a.clock, b.clock);
+    EXPECT_EQ(a.period, b.period);
+    EXPECT_EQ(a.container_radius, b.container_radius);
+    EXPECT_EQ(a.container_centre.x, b.container_centre.x);
+    EXPECT_EQ(a.container_velocity.y, b.container_velocity.y);
+    EXPECT_EQ(a.x, b.x);
+    EXPECT_EQ(a.y, b.y);
+    EXPECT_EQ(a.vx, b.vx);
+    EXPECT_EQ(a.vy, b.vy);
+    EXPECT_EQ(a.angle, b.angle);
+    EXPECT_EQ(a.spin, b.spin);
+    EXPECT_EQ(a.held_at, b.held_at);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.mass, b.mass);
+    EXPECT_EQ(a.inertia, b.inertia);
+}
+
+std::filesystem::path known_trajectory(const Scratch& scratch) {
+    const auto path = scratch / "known.h5";
+    TrajectoryWriter writer(path, known_frame(discs, 0),
+                            {{"version", "1.2.3"}, {"config", "discs = 5\n"}});
+    for (std::uint64_t k = 0; k < frames; ++k) writer.write(known_frame(discs, k), 10 * k);
+    writer.finish();
+    return path;
+}
+
+TEST(Trajectory, GivesBackEveryBit) {
+    const Scratch scratch;
+    TrajectoryReader reader(known_trajectory(scratch));
+    ASSERT_EQ(reader.frames(), frames);
+    EXPECT_TRUE(reader.complete());
+    EXPECT_EQ(reader.provenance("config"), "discs = 5\n");
+    EXPECT_EQ(reader.provenance("absent"), "");
+    for (std::uint64_t k : {0u, 19u, 7u, 8u}) {
+        expect_same(reader.frame(k), known_frame(discs, k));
+        EXPECT_EQ(reader.events_before(k), 10 * k);
+    }
+    EXPECT_THROW(reader.frame(frames), FileError);
+}
+
+TEST(Trajectory, IsWrittenByteForByteTheSameTwice) {
+    const Scratch a, b;
+    EXPECT_EQ(read_whole_file(known_trajectory(a)), read_whole_file(known_trajectory(b)));
+}
+
+TEST(Trajectory, HasItsNameOnlyWhenComplete) {
+    const Scratch scratch;
+    const auto path = scratch / "t.h5";
+    {
+        TrajectoryWriter writer(path, known_frame(discs, 0), {});
+        writer.write(known_frame(discs, 0), 0);
+        writer.flush();
+        EXPECT_FALSE(std::filesystem::exists(path));
+        TrajectoryReader reader(scratch / "t.h5.partial");
+        EXPECT_FALSE(reader.complete());
+        EXPECT_EQ(reader.frames(), 1u);
+    }
+    auto writer = TrajectoryWriter::resume(path, 1);
+    writer.finish();
+    EXPECT_TRUE(TrajectoryReader(path).complete());
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.folder()), {}), 1);
+}
+
+TEST(Trajectory, ResumedFromFewerFramesItHoldsTheSameAsUninterrupted) {
+    const Scratch scratch;
+    const auto path = scratch / "t.h5";
+    const std::size_t many = 400;  // several chunks
+    {
+        TrajectoryWriter writer(path, known_frame(many, 0), {});
+        for (std::uint64_t k = 0; k < 70; ++k) writer.write(known_frame(many, k), k);
+        writer.flush();
+        for (std::uint64_t k = 70; k < 90; ++k) writer.write(known_frame(many, 1000 + k), k);
+    }
+    auto writer = TrajectoryWriter::resume(path, 61);
+    for (std::uint64_t k = 61; k < 120; ++k) writer.write(known_frame(many, k), k);
+    writer.finish();
+    TrajectoryReader reader(path);
+    ASSERT_EQ(reader.frames(), 120u);
+    for (std::uint64_t k = 0; k < 120; ++k) expect_same(reader.frame(k), known_frame(many, k));
+}
+
+TEST(Trajectory, RefusesToResumeWhatHoldsTooLittle) {
+    const Scratch scratch;
+    { TrajectoryWriter writer(scratch / "t.h5", known_frame(discs, 0), {}); }
+    EXPECT_THROW(TrajectoryWriter::resume(scratch / "t.h5", 3), FileError);
+    EXPECT_THROW(TrajectoryWriter::resume(scratch / "absent.h5", 0), FileError);
+}
+
+TEST(Trajectory, KilledAtRandomMomentsItLosesAtMostTheLastSecond) {
+    const Scratch scratch;
+    for (int round = 0; round < 6; ++round) {
+        const auto path = scratch / "t.h5", partial = scratch / "t.h5.partial";
+        const pid_t child = ::fork();
+        if (child == 0) {
+            TrajectoryWriter writer(path, known_frame(48, 0), {});
+            for (std::uint64_t k = 0;; ++k) {
+                writer.write(known_frame(48, k), k);
+                if (k % 50 == 49) writer.flush();  // far more often than each second
+            }
+        }
+        ::usleep(unsigned(60'000 + 7'001 * round));
+        ::kill(child, SIGKILL);
+        ::waitpid(child, nullptr, 0);
+        TrajectoryReader reader(partial);
+        EXPECT_FALSE(reader.complete());
+        EXPECT_EQ(reader.frames() % 50, 0u);  // exactly what was flushed
+        for (std::uint64_t k = 0; k < reader.frames(); k += 13)
+            expect_same(reader.frame(k), known_frame(48, k));
+    }
+}
+
+TEST(Trajectory, RefusesForeignAndDamagedFiles) {
+    const Scratch scratch;
+    const auto refused = [&](const std::string& bytes) -> std::string {
+        write_whole_file(scratch / "f", bytes);
+        try {
+            TrajectoryReader reader(scratch / "f");
+            for (std::uint64_t k = 0; k < reader.frames(); ++k) reader.frame(k);
+        } catch (const FileError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(refused("").find("is not an HDF5 file"), std::string::npos);
+    EXPECT_NE(refused("frame,particle,x,y\n").find("is not an HDF5 file"), std::string::npos);
+    const std::string whole = read_whole_file(known_trajectory(scratch));
+    for (std::size_t cut = 1; cut < whole.size(); cut += whole.size() / 40)
+        EXPECT_NE(refused(whole.substr(0, cut)), "") << cut;
+    EXPECT_EQ(refused(whole), "");
+}
+
+TEST(Trajectory, OpensInH5py) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("h5py", known_trajectory(scratch), discs, frames);
+}
+TEST(Trajectory, LoadsInMDAnalysis) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("mdanalysis", known_trajectory(scratch), discs, frames);
+}
+TEST(Trajectory, OpensInXarrayAsNetCDF) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("xarray", known_trajectory(scratch), discs, frames);
+}
+
+std::filesystem::path exported(const Scratch& scratch, const std::string& format,
+                               const std::string& name) {
+    const auto reader = std::make_shared<TrajectoryReader>(known_trajectory(scratch));
+    export_series(series_of(reader), *export_format(format), scratch / name);
+    return scratch / name;
+}
+
+TEST(Export, LammpsDumpLoadsInMDAnalysis) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("lammps", exported(scratch, "lammps", "out.dump"), discs, frames);
+}
+TEST(Export, ExtendedXyzLoadsInMDAnalysis) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("xyz", exported(scratch, "xyz", "out.xyz"), discs, frames);
+}
+TEST(Export, PolydataLoadsInVtk) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("vtp", exported(scratch, "vtp", "out.pvd"), discs, frames);
+}
+TEST(Export, TrackpyTableLoadsInPandas) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("csv", exported(scratch, "csv", "out.csv"), discs, frames);
+}
+TEST(Export, GsdLoadsInGsd) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("gsd", exported(scratch, "gsd", "out.gsd"), discs, frames);
+}
+TEST(Export, KnowsItsFormats) { EXPECT_FALSE(export_format("netcdf")); }
+
+}  // namespace
+}  // namespace swirl
