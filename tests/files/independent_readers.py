@@ -66,7 +66,7 @@ def read_h5py():
     import h5py
     with h5py.File(FILE, "r") as f:
         same(f["h5md"].attrs["version"], [1, 1], "H5MD version")
-        assert f["h5md/creator"].attrs["name"] == "swirl"
+        assert f["h5md/creator"].attrs["name"] == b"swirl"
         assert f["h5md/creator"].attrs["version"]
         assert list(f["particles"]) == ["trajectory"]
         p = f["particles/trajectory"]
