@@ -1,170 +1,130 @@
+#define SWIRL_ROTATION_KERNEL
 #include "measure/cluster_rotation.hpp"
 
 #include <cstddef>
-#include <cstring>
 
+#include "measure/cluster_rotation_kernel.hpp"
 #include "physics/unit_circle.hpp"
 
 namespace swirl {
 namespace {
 
-// Eight doubles side by side (GCC's vector extension): one AVX-512 register, two of AVX, four of
-// SSE2. The operations are exactly rounded and never fused, lane by lane.
-typedef double Eight __attribute__((vector_size(64)));
-typedef long long Mask __attribute__((vector_size(64)));
-
 constexpr std::size_t lanes = 8;
 
-SWIRL_INLINE Eight all(double value) {
-    return Eight{value, value, value, value, value, value, value, value};
+RotationColumns columns_of(const Snapshot& s) {
+    return {s.x.data(),
+            s.y.data(),
+            s.vx.data(),
+            s.vy.data(),
+            s.held_at.data(),
+            s.mass.data(),
+            static_cast<std::ptrdiff_t>(s.size()),
+            s.clock};
 }
 
-SWIRL_INLINE Eight load(const double* from) {
-    Eight e;
-    std::memcpy(&e, from, sizeof e);
-    return e;
-}
+// Fewer than eight discs, behind zeros.
+struct Few {
+    double x[lanes] = {}, y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {}, held_at[lanes] = {},
+           mass[lanes] = {};
 
-SWIRL_INLINE double sum(const Eight& e) {
-    return ((e[0] + e[4]) + (e[2] + e[6])) + ((e[1] + e[5]) + (e[3] + e[7]));
-}
-
-// The columns of eight discs. Lanes beyond the last disc hold zeros, mass 0 among them.
-struct Columns {
-    Eight x, y, vx, vy, mass;
-};
-
-SWIRL_INLINE Columns full_columns(const Snapshot& s, std::size_t first) {
-    const Eight elapsed = all(s.clock) - load(&s.held_at[first]);
-    const Eight vx = load(&s.vx[first]), vy = load(&s.vy[first]);
-    return {load(&s.x[first]) + elapsed * vx, load(&s.y[first]) + elapsed * vy, vx, vy,
-            load(&s.mass[first])};
-}
-
-SWIRL_INLINE Columns last_columns(const Snapshot& s, std::size_t first) {
-    Columns c{};
-    for (std::size_t k = 0; first + k < s.size(); ++k) {
-        const std::size_t i = first + k;
-        const double elapsed = s.clock - s.held_at[i];
-        c.vx[k] = s.vx[i];
-        c.vy[k] = s.vy[i];
-        c.x[k] = s.x[i] + elapsed * s.vx[i];
-        c.y[k] = s.y[i] + elapsed * s.vy[i];
-        c.mass[k] = s.mass[i];
-    }
-    return c;
-}
-
-struct Moments {
-    Eight mass = {}, x = {}, y = {}, vx = {}, vy = {};
-
-    SWIRL_INLINE void add(const Columns& c) {
-        mass += c.mass;
-        x += c.mass * c.x;
-        y += c.mass * c.y;
-        vx += c.mass * c.vx;
-        vy += c.mass * c.vy;
+    RotationColumns fill(const Snapshot& s) {
+        const std::size_t before = lanes - s.size();
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            x[before + i] = s.x[i];
+            y[before + i] = s.y[i];
+            vx[before + i] = s.vx[i];
+            vy[before + i] = s.vy[i];
+            held_at[before + i] = s.held_at[i];
+            mass[before + i] = s.mass[i];
+        }
+        return {x + before,
+                y + before,
+                vx + before,
+                vy + before,
+                held_at + before,
+                mass + before,
+                static_cast<std::ptrdiff_t>(s.size()),
+                s.clock};
     }
 };
 
-struct Turning {
-    Eight individual = {}, counted = {}, angular = {}, square = {};
-
-    // `there` is all ones in the lanes that hold a disc.
-    SWIRL_INLINE void add(const Columns& c, const Eight& cx, const Eight& cy, const Eight& cvx,
-                          const Eight& cvy, const Eight& closest, const Mask& there) {
-        const Eight rx = c.x - cx, ry = c.y - cy;
-        const Eight ux = c.vx - cvx, uy = c.vy - cvy;
-        const Eight l = rx * uy - ry * ux;
-        const Eight q = rx * rx + ry * ry;
-        // A state that is not a number must show in the mean, so only what is too close drops out.
-        const Mask counts = there & ~(q <= closest);
-        individual += counts ? l / q : all(0.0);
-        counted += counts ? all(1.0) : all(0.0);
-        angular += there ? l : all(0.0);
-        square += there ? q : all(0.0);
+// Somebody sits on the centre of mass, and is left out.
+double individual_without_the_centre(const Snapshot& s, const RotationSums& sums,
+                                     double closest_square) {
+    double sum = 0.0;
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 r = s.position(i) - Vec2{sums.x, sums.y};
+        const double q = dot(r, r);
+        if (q <= closest_square) continue;
+        sum += cross(r, s.velocity(i) - Vec2{sums.vx, sums.vy}) / q;
+        ++counted;
     }
-};
-
-SWIRL_INLINE RotationSample rotation_of(const Snapshot& s) {
-    const std::size_t n = s.size();
-    if (n < 2) return {not_known, not_known};
-    const std::size_t whole = n - n % lanes;
-
-    Moments moments;
-    for (std::size_t i = 0; i < whole; i += lanes) moments.add(full_columns(s, i));
-    Columns last{};
-    if (whole < n) {
-        last = last_columns(s, whole);
-        moments.add(last);
-    }
-    const double mass = sum(moments.mass);
-    const Eight cx = all(sum(moments.x) / mass), cy = all(sum(moments.y) / mass);
-    const Eight cvx = all(sum(moments.vx) / mass), cvy = all(sum(moments.vy) / mass);
-
-    const double closest = 0x1p-40 * s.container_radius;
-    const Eight closest_square = all(closest * closest);
-    const Mask everybody = ~Mask{};
-    Turning turning;
-    for (std::size_t i = 0; i < whole; i += lanes)
-        turning.add(full_columns(s, i), cx, cy, cvx, cvy, closest_square, everybody);
-    if (whole < n) {
-        const Mask lane{0, 1, 2, 3, 4, 5, 6, 7};
-        const long long left = static_cast<long long>(n - whole);
-        const Mask there = lane < Mask{left, left, left, left, left, left, left, left};
-        turning.add(last, cx, cy, cvx, cvy, closest_square, there);
-    }
-
-    const double counted = sum(turning.counted), square = sum(turning.square);
-    if (counted == 0.0) return {not_known, not_known};
-    return {sum(turning.individual) / counted, sum(turning.angular) / square};
+    return counted > 0 ? sum / static_cast<double>(counted) : not_known;
 }
 
-RotationSample baseline_rotation(const Snapshot& s) { return rotation_of(s); }
-
-#if defined(__x86_64__) && defined(__GNUC__)
-__attribute__((target("avx2"))) RotationSample avx2_rotation(const Snapshot& s) {
-    return rotation_of(s);
+RotationSample sample_of(const Snapshot& s, RotationKernel kernel) {
+    if (s.size() < 2) return {not_known, not_known};
+    RotationSums sums;
+    if (s.size() < lanes) {
+        Few few;
+        sums = kernel(few.fill(s));
+    } else {
+        sums = kernel(columns_of(s));
+    }
+    RotationSample sample{sums.individual / static_cast<double>(s.size()),
+                          sums.angular / sums.square};
+    const double closest = 0x1p-40 * s.container_radius, closest_square = closest * closest;
+    if (sums.least <= closest_square) {
+        sample.individual = individual_without_the_centre(s, sums, closest_square);
+        if (!(sums.square > closest_square)) sample.rigid = not_known;
+    }
+    return sample;
 }
-__attribute__((target("avx512f,avx512dq"))) RotationSample avx512_rotation(const Snapshot& s) {
-    return rotation_of(s);
-}
-#endif
 
-using Kernel = RotationSample (*)(const Snapshot&);
-
-Kernel kernel_for(VectorWidth width) {
-#if defined(__x86_64__) && defined(__GNUC__)
-    if (width == VectorWidth::avx512) return avx512_rotation;
-    if (width == VectorWidth::avx2) return avx2_rotation;
+RotationKernel kernel_for(VectorWidth width) {
+#if defined(__x86_64__)
+    if (width == VectorWidth::avx512) return rotation_avx512::rotation_sums;
+    if (width == VectorWidth::avx2) return rotation_avx2::rotation_sums;
 #endif
     (void)width;
-    return baseline_rotation;
+    return rotation_baseline::rotation_sums;
 }
 
-Kernel best_kernel() {
+RotationKernel best_kernel() {
     for (const VectorWidth width : {VectorWidth::avx512, VectorWidth::avx2})
         if (processor_has(width)) return kernel_for(width);
-    return baseline_rotation;
+    return rotation_baseline::rotation_sums;
 }
 
 }  // namespace
 
 bool processor_has(VectorWidth width) {
     if (width == VectorWidth::baseline) return true;
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__)
     if (width == VectorWidth::avx2) return __builtin_cpu_supports("avx2");
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
 #else
     return false;
 #endif
 }
 
 RotationSample cluster_rotation(const Snapshot& snapshot, VectorWidth width) {
-    return kernel_for(processor_has(width) ? width : VectorWidth::baseline)(snapshot);
+    return sample_of(snapshot, kernel_for(processor_has(width) ? width : VectorWidth::baseline));
 }
 
-RotationSample cluster_rotation(const Snapshot& snapshot) { return best_kernel()(snapshot); }
+RotationSample cluster_rotation(const Snapshot& snapshot) {
+    return sample_of(snapshot, best_kernel());
+}
+
+void ClusterRotation::look(const Snapshot& snapshot) {
+    event_.add(sample_of(snapshot, kernel_), snapshot.period);
+}
+
+void ClusterRotation::look_in_time(const Snapshot& snapshot) {
+    time_.add(sample_of(snapshot, kernel_), snapshot.period);
+}
 
 ClusterRotation::ClusterRotation() : kernel_(best_kernel()) {}
 

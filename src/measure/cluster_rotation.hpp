@@ -26,6 +26,7 @@
 
 #include <cstdint>
 
+#include "measure/cluster_rotation_kernel.hpp"
 #include "measure/statistics.hpp"
 #include "physics/snapshot.hpp"
 
@@ -49,9 +50,9 @@ class ClusterRotation {
     ClusterRotation();
 
     /// One sample of the average by event: call after every event.
-    void look(const Snapshot& snapshot) { event_.add(kernel_(snapshot), snapshot.period); }
+    void look(const Snapshot& snapshot);
     /// One sample of the average by time: call at equal time steps.
-    void look_in_time(const Snapshot& snapshot) { time_.add(kernel_(snapshot), snapshot.period); }
+    void look_in_time(const Snapshot& snapshot);
 
     /// Call at the end of every period. What was seen since the last call becomes a block; what
     /// has not been closed does not count.
@@ -97,7 +98,7 @@ class ClusterRotation {
         }
     };
 
-    RotationSample (*kernel_)(const Snapshot&);  // for this processor's vectors
+    RotationKernel kernel_;  // for this processor's vectors
     OpenBlock event_, time_;
     BlockSeries individual_by_event_, individual_by_time_, rigid_by_event_, rigid_by_time_;
 };
