@@ -1,0 +1,78 @@
+// swirl paper: the paper's figures.
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/stop_signal.hpp"
+#include "lab/paper.hpp"
+#include "lab/run_report.hpp"
+
+namespace swirl {
+namespace {
+
+struct PaperCall {
+    PaperSettings settings;
+    std::string out = "out";
+    std::vector<std::string> figures;
+    bool quiet = false;
+};
+
+void make_paper(PaperCall& call) {
+    call.settings.out = call.out;
+    std::vector<PaperFigure> figures;
+    for (const std::string& name : call.figures) figures.push_back(paper_figure(name));
+    if (figures.empty()) figures = paper_figures();
+    make_folder(call.out);
+
+    PaperResult result;
+    {
+        const std::string what =
+            figures.size() == 1 ? fmt::format("Figure {}", figures.front().name) : "paper";
+        ProgressLine line(what, call.quiet);
+        PaperControl control;
+        control.stop = &stop_signal();
+        control.progress = [&](double fraction, double rate) {
+            line.show(fraction, short_number(rate) + " events/s");
+        };
+        result = make_figures(figures, call.settings, control);
+    }
+    std::string text;
+    for (const std::string& finding : result.findings) text += finding + "\n";
+    text += fmt::format("{} runs{} in {}.\n", result.tasks,
+                        result.remembered > 0
+                            ? fmt::format(", {} of them from an earlier call,", result.remembered)
+                            : "",
+                        short_duration(result.seconds));
+    for (const auto& file : result.files) text += fmt::format("wrote {}\n", file.string());
+    print_all(text);
+}
+
+std::string figure_list() {
+    std::string text = "Figures:";
+    for (const PaperFigure& figure : paper_figures())
+        text += fmt::format("\n  {:<6}{}", figure.name, figure.description);
+    return text;
+}
+
+void add_paper_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<PaperCall>();
+    subcommand
+        .add_option("--figure", call->figures, "which ones [all]; may be given several times")
+        ->type_name("NAME")
+        ->expected(1, 100);
+    subcommand.add_flag("--quick", call->settings.quick,
+                        "fewer points and shorter runs: the shape in a minute");
+    subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");
+    subcommand.add_flag("--quiet", call->quiet, "no progress");
+    set_examples(subcommand, {"swirl paper --figure 5b --quick", "swirl paper --figure 5b --out fig5b",
+                              "swirl paper --quick"});
+    subcommand.footer(figure_list() + "\n\n" + subcommand.get_footer());
+    subcommand.callback([call] { make_paper(*call); });
+}
+
+const Command command(20, "paper", "The paper's figures: tables and drawings, from simulation.",
+                      add_paper_command);
+
+}  // namespace
+}  // namespace swirl

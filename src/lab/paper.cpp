@@ -1,0 +1,187 @@
+#include "lab/paper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+#include "files/file_error.hpp"
+#include "files/whole_file.hpp"
+#include "lab/all_cores.hpp"
+#include "lab/failure.hpp"
+#include "lab/python_script.hpp"
+#include "lab/run_json.hpp"
+#include "lab/version.hpp"
+
+namespace swirl {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Results that an earlier, interrupted call left in OUT/parts; those of another version do not
+/// count.
+class Parts {
+  public:
+    explicit Parts(const fs::path& out) : folder_(out / "parts") {
+        std::error_code error;
+        fs::create_directories(folder_, error);
+        if (error)
+            throw Failure(fmt::format("The folder '{}' cannot be made: {}.", folder_.string(),
+                                      error.message()));
+    }
+    std::optional<Json> recall(const std::string& key) const {
+        if (!fs::exists(file(key))) return {};
+        const Json part = Json::parse(read_whole_file(file(key)), nullptr, false);
+        if (part.is_discarded() || part.value("key", "") != key ||
+            part.value("version", "") != version() || !part.contains("result"))
+            return {};
+        return part["result"];
+    }
+    void remember(const std::string& key, const Json& result) const {
+        const Json part{{"key", key}, {"version", version()}, {"result", result}};
+        write_whole_file(file(key), part.dump(1) + "\n");
+    }
+
+  private:
+    fs::path file(const std::string& key) const { return folder_ / (key + ".json"); }
+    fs::path folder_;
+};
+
+/// How far all tasks are together, from what each says of itself.
+class Progress {
+  public:
+    Progress(const PaperControl& control, double total) : control_(control), total_(total) {}
+
+    void add(double cost) {
+        const std::lock_guard lock(mutex_);
+        done_ += cost;
+        if (!control_.progress) return;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+        control_.progress(done_ / total_, done_ / elapsed.count());
+    }
+
+  private:
+    const PaperControl& control_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::mutex mutex_;
+    double total_, done_ = 0.0;
+};
+
+bool stopped(const PaperControl& control) {
+    return control.stop && control.stop->load(std::memory_order_relaxed);
+}
+
+Json work_on(const PaperTask& task, const PaperControl& control, Progress& progress) {
+    double reported = 0.0;
+    RunControl inner;
+    inner.stop = control.stop;
+    inner.progress = [&](const RunProgress& p) {
+        progress.add(task.cost * (p.fraction - reported));
+        reported = p.fraction;
+    };
+    Json result = task.work(inner);
+    progress.add(task.cost * (1.0 - reported));
+    return result;
+}
+
+[[noreturn]] void throw_interrupted(const PaperSettings& settings) {
+    throw Interrupted(fmt::format(
+        "Stopped before the end; what is done is kept in '{}', and the same call continues there.",
+        (settings.out / "parts").string()));
+}
+
+}  // namespace
+
+const PaperFigure& paper_figure(const std::string& name) {
+    std::string known;
+    for (const PaperFigure& figure : paper_figures()) {
+        if (figure.name == name) return figure;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.name);
+    }
+    throw WrongCall(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
+}
+
+PaperTask run_task(const std::string& key, const RunConfig& config) {
+    const double events =
+        config.periods ? 1000.0 * static_cast<double>(*config.periods) : static_cast<double>(config.events);
+    return {key, events, [config](const RunControl& control) {
+                const RunResult result = run(config, control);
+                if (!result.complete) throw Interrupted("Stopped.");
+                return result_json(result);
+            }};
+}
+
+PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
+                         const PaperControl& control) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Parts parts(settings.out);
+    PaperResult all;
+
+    std::vector<FigurePlan> plans;
+    std::map<std::string, PaperTask> tasks;
+    for (const PaperFigure& figure : figures) {
+        plans.push_back(figure.plan(settings));
+        for (const PaperTask& task : plans.back().tasks) tasks.emplace(task.key, task);
+    }
+    std::map<std::string, Json> results;
+    std::vector<const PaperTask*> left;
+    for (const auto& [key, task] : tasks) {
+        if (auto known = parts.recall(key))
+            results[key] = std::move(*known);
+        else
+            left.push_back(&task);
+    }
+    all.tasks = tasks.size();
+    all.remembered = results.size();
+    std::stable_sort(left.begin(), left.end(), [](const PaperTask* a, const PaperTask* b) {
+        return a->cost > b->cost;
+    });
+
+    const double total = std::accumulate(left.begin(), left.end(), 0.0,
+                                         [](double sum, const PaperTask* t) { return sum + t->cost; });
+    Progress progress(control, total);
+    std::mutex results_mutex;
+    try {
+        on_all_cores(
+            left.size(),
+            [&](std::size_t k) {
+                if (stopped(control)) throw_interrupted(settings);
+                Json result = work_on(*left[k], control, progress);
+                parts.remember(left[k]->key, result);
+                const std::lock_guard lock(results_mutex);
+                results[left[k]->key] = std::move(result);
+            },
+            control.threads);
+    } catch (const Interrupted&) {
+        throw_interrupted(settings);
+    }
+
+    for (const FigurePlan& plan : plans) {
+        std::vector<Json> in_order;
+        for (const PaperTask& task : plan.tasks) in_order.push_back(results.at(task.key));
+        FigureOutcome outcome = plan.finish(in_order, settings.out);
+        if (!plan.script.empty()) {
+            const auto drawn = draw_figure(plan.script, outcome.files.front());
+            outcome.files.insert(outcome.files.end(), drawn.begin(), drawn.end());
+        }
+        all.findings.insert(all.findings.end(), outcome.findings.begin(), outcome.findings.end());
+        all.files.insert(all.files.end(), outcome.files.begin(), outcome.files.end());
+    }
+    all.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return all;
+}
+
+std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table) {
+    run_python_script(script, {table.string()});
+    std::vector<fs::path> drawn;
+    for (const char* kind : {".png", ".pdf"}) drawn.push_back(fs::path(table).replace_extension(kind));
+    return drawn;
+}
+
+}  // namespace swirl

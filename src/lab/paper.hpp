@@ -1,0 +1,84 @@
+// The paper's figures, from simulation: each is a set of independent pieces of work, a table made
+// of their results, and a script in figures/ that draws the table.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab/run.hpp"
+
+namespace swirl {
+
+struct PaperSettings {
+    bool quick = false;  // fewer points, shorter runs: the shape of the figure in a minute
+    std::filesystem::path out = "out";
+    std::uint64_t seed = 1;
+};
+
+/// One piece of work. Its result is remembered in OUT/parts/KEY.json, so a study that was
+/// interrupted continues, and two figures that need the same piece do it once.
+struct PaperTask {
+    std::string key;  // names what is done: two tasks of one key must be the same work
+    double cost;      // expected, in events: long tasks begin first, and the progress is weighted
+    /// Returns the result; throws Interrupted if it was stopped.
+    std::function<nlohmann::ordered_json(const RunControl&)> work;
+};
+
+/// What a figure leaves behind when its tasks are done.
+struct FigureOutcome {
+    std::vector<std::string> findings;  // sentences to print
+    std::vector<std::filesystem::path> files;
+};
+
+struct FigurePlan {
+    std::vector<PaperTask> tasks;
+    /// Gets the results in the order of the tasks; writes the tables into the folder.
+    std::function<FigureOutcome(const std::vector<nlohmann::ordered_json>& results,
+                                const std::filesystem::path& out)>
+        finish;
+    /// figures/SCRIPT draws from the first file of the outcome; empty: nothing to draw.
+    std::string script;
+};
+
+struct PaperFigure {
+    const char* name;         // "5b"
+    const char* description;  // one line
+    FigurePlan (*plan)(const PaperSettings& settings);
+};
+
+/// All figures there are, in the order of the paper (paper_figures.cpp).
+const std::vector<PaperFigure>& paper_figures();
+/// Throws WrongCall, naming those there are.
+const PaperFigure& paper_figure(const std::string& name);
+
+struct PaperControl {
+    const std::atomic<bool>* stop = nullptr;
+    std::function<void(double fraction, double events_per_second)> progress;
+    unsigned threads = 0;  // 0: all cores
+};
+
+struct PaperResult {
+    std::vector<std::string> findings;
+    std::vector<std::filesystem::path> files;
+    std::size_t tasks = 0, remembered = 0;
+    double seconds = 0.0;
+};
+
+/// Makes the figures: tasks on all cores, tables, drawings. Throws Interrupted when stopped; what
+/// was done until then is remembered.
+PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
+                         const PaperControl& control);
+
+/// A task that runs one configuration and returns result_json().
+PaperTask run_task(const std::string& key, const RunConfig& config);
+
+/// The script must be one of figures/; draws `table` to PNG and PDF beside it. Returns the files.
+std::vector<std::filesystem::path> draw_figure(const std::string& script,
+                                               const std::filesystem::path& table);
+
+}  // namespace swirl
