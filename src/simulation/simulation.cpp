@@ -1,130 +1,243 @@
 #include "simulation/simulation.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <map>
+#include <new>
 
-#include "physics/contact_time.hpp"
+#include "physics/real.hpp"
+#include "simulation/machine.hpp"
 
 namespace swirl {
+namespace {
 
-struct Simulation::Machine {
-    Scene scene;
-    std::int64_t swirls = 0;
-    double clock = 0.0;
-    std::size_t leg = 0;
-    EventCounts events;
+const EventLoop& event_loop(Width width) {
+#if defined(__x86_64__)
+    if (width == Width::best)
+        width = has_width(Width::avx512) ? Width::avx512
+                : has_width(Width::avx2) ? Width::avx2
+                                         : Width::baseline;
+    if (width == Width::avx512) return event_loop_avx512;
+    if (width == Width::avx2) return event_loop_avx2;
+#endif
+    return event_loop_baseline;
+}
 
-    struct Next {
-        double time;
-        std::size_t i, j;
+/// Memory for columns, aligned to cache lines.
+class Columns {
+  public:
+    template <class T>
+    T* add(std::size_t count) {
+        const std::size_t bytes = (count * sizeof(T) + 63) / 64 * 64;
+        auto* block = static_cast<unsigned char*>(::operator new (bytes, std::align_val_t{64}));
+        std::memset(block, 0, bytes);
+        blocks_.emplace_back(block);
+        bytes_ += bytes;
+        return reinterpret_cast<T*>(block);
+    }
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    struct Free {
+        void operator()(unsigned char* p) const { ::operator delete (p, std::align_val_t{64}); }
     };
-    Next next() const {
-        Next soonest{never, 0, 0};
-        const auto& d = scene.discs;
-        for (std::size_t i = 0; i < d.size(); ++i) {
-            const double wall =
-                time_of_wall_contact(d[i], scene.path.legs[leg], scene.container_radius);
-            if (wall < soonest.time) soonest = {wall, i, i};
-            for (std::size_t j = i + 1; j < d.size(); ++j) {
-                const double t = time_of_contact(d[i], d[j]);
-                if (t < soonest.time) soonest = {t, i, j};
-            }
-        }
-        return soonest;
-    }
-    static Body body(const Disc& d) {
-        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
-    }
-    Event execute(const Next& n) {
-        const Leg& now = scene.path.legs[leg];
-        if (now.end <= n.time) {
-            clock = now.end;
-            const Event event{swirls, clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-            ++events.path_vertex;
-            if (++leg == scene.path.legs.size()) {
-                for (Disc& d : scene.discs) {
-                    d = d.at(clock);
-                    d.time = 0.0;
-                }
-                leg = 0;
-                clock = 0.0;
-                ++swirls;
-            }
-            return event;
-        }
-        clock = n.time;
-        const bool wall = n.i == n.j;
-        Disc& i = scene.discs[n.i];
-        Disc& j = scene.discs[n.j];
-        i = i.at(clock);
-        if (!wall) j = j.at(clock);
-        Body a = body(i), b = wall ? wall_body(now.velocity_at(clock)) : body(j);
-        const Vec2 s = wall ? i.position - now.position_at(clock) : j.position - i.position;
-        const Impulse impulse = collide(a, b, s, wall ? scene.wall_surface : scene.disc_surface);
-        i.velocity = a.velocity;
-        i.spin = a.spin;
-        if (!wall) {
-            j.velocity = b.velocity;
-            j.spin = b.spin;
-        }
-        const double distance = square_root(dot(s, s));
-        ++(wall ? events.disc_wall : events.disc_disc);
-        return {
-            swirls,
-            clock,
-            wall ? EventKind::disc_wall : EventKind::disc_disc,
-            static_cast<std::uint32_t>(n.i),
-            static_cast<std::uint32_t>(n.j),
-            (1.0 / distance) * s,
-            impulse,
-            wall ? distance - (scene.container_radius - i.radius) : i.radius + j.radius - distance};
-    }
+    std::vector<std::unique_ptr<unsigned char, Free>> blocks_;
+    std::uint64_t bytes_ = 0;
 };
 
-Simulation::Simulation(const Scene& scene) : machine_(new Machine{scene, 0, 0.0, 0, {}}) {}
+/// How many small discs can touch a large one at once, at most: π / asin(1/(1 + q)) for a ratio q
+/// of the radii, and half as much again for those that are merely near.
+std::uint32_t list_capacity(double ratio) {
+    const double contacts = pi / std::asin(1.0 / (1.0 + ratio));
+    const auto wanted = static_cast<std::uint32_t>(1.5 * contacts) + 3;
+    return std::min<std::uint32_t>(64, (wanted + 3) / 4 * 4);
+}
+
+}  // namespace
+
+bool has_width(Width width) {
+#if defined(__x86_64__)
+    if (width == Width::avx512)
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq");
+    if (width == Width::avx2) return __builtin_cpu_supports("avx2");
+#endif
+    return width == Width::baseline || width == Width::best;
+}
+
+struct Simulation::Storage {
+    const EventLoop* loop;
+    std::vector<Leg> legs;
+    std::vector<DiscKind> kinds;
+    Columns columns;
+    Machine machine{};
+
+    Storage(const Scene& scene, const Progress& progress, const Tuning& tuning);
+    void allocate(std::size_t size);
+    void lay_cells(const Scene& scene, int cells_per_side);
+    void place(const Scene& scene);
+};
+
+Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const Tuning& tuning)
+    : loop(&event_loop(tuning.width)), legs(scene.path.legs) {
+    Machine& m = machine;
+    m.size = static_cast<std::uint32_t>(scene.discs.size());
+    m.legs = legs.data();
+    m.leg_count = static_cast<std::uint32_t>(legs.size());
+    m.leg = progress.leg;
+    m.period = scene.path.period;
+    m.container_radius = scene.container_radius;
+    m.disc_surface = scene.disc_surface;
+    m.wall_surface = scene.wall_surface;
+    m.swirls = progress.swirls;
+    m.clock = progress.clock;
+    m.disc_disc = progress.events.disc_disc;
+    m.disc_wall = progress.events.disc_wall;
+    m.path_vertex = progress.events.path_vertex;
+
+    double smallest = never, largest = 0.0;
+    for (const Disc& d : scene.discs) {
+        smallest = smaller(smallest, d.radius);
+        largest = larger(largest, d.radius);
+    }
+    m.smallest_radius = smallest;
+    m.capacity = list_capacity(largest / smallest);
+    m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
+    m.longest_freedom = largest;  // until lay_cells
+    allocate(scene.discs.size());
+    lay_cells(scene, tuning.cells_per_side);
+    place(scene);
+    loop->start(m);
+}
+
+void Simulation::Storage::allocate(std::size_t size) {
+    Machine& m = machine;
+    m.discs = columns.add<HotDisc>(size + 1);
+    m.plans = columns.add<unsigned char>((size + 1) * m.plan_bytes);
+    m.rest = columns.add<Rest>(size);
+    std::size_t entries = size;
+    do {
+        const std::size_t padded = (entries + 7) / 8 * 8;
+        m.level_times[m.levels] = columns.add<double>(padded);
+        if (m.levels > 0) m.level_winners[m.levels] = columns.add<std::uint32_t>(padded);
+        ++m.levels;
+        entries = padded / 8;
+    } while (entries > 1);
+}
+
+/// Cells wide enough that the neighbourhoods of discs in cells that do not touch never overlap:
+/// |X_i − X_k| < 2 (largest radius + longest freedom) = the width. On average a cell's worth of
+/// area holds three discs; a small dish is one cell, all pairs.
+void Simulation::Storage::lay_cells(const Scene& scene, int cells_per_side) {
+    Machine& m = machine;
+    double largest = 0.0;
+    for (const Disc& d : scene.discs) largest = larger(largest, d.radius);
+    double reach = scene.container_radius;
+    for (const Leg& leg : legs)
+        if (leg.turning != 0.0)
+            reach = scene.container_radius + square_root(dot(leg.start, leg.start));
+    const double side = 2.0 * reach;
+    const double density = static_cast<double>(m.size) / (pi * reach * reach);
+    double width = larger(2.6 * largest, square_root(3.0 / density));
+    if (cells_per_side > 0) width = side / cells_per_side;
+    width = larger(width, 2.1 * largest);
+    m.cells_per_side = static_cast<std::uint32_t>(larger(1.0, smaller(side / width, 30000.0)));
+    if (cells_per_side == 0 && m.size <= 100) m.cells_per_side = 1;
+    m.cell_width = side / m.cells_per_side;
+    m.cell_origin = -reach;
+    m.longest_freedom = m.cells_per_side == 1 ? 4.0 * side : 0.5 * m.cell_width - largest;
+    m.cell_heads = columns.add<std::uint32_t>(m.cells_per_side * m.cells_per_side);
+}
+
+void Simulation::Storage::place(const Scene& scene) {
+    Machine& m = machine;
+    std::map<std::array<double, 3>, std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < m.size; ++i) {
+        const Disc& d = scene.discs[i];
+        const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
+                                                    static_cast<std::uint32_t>(kinds.size()));
+        if (is_new) kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
+        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second};
+        m.rest[i].angle = d.angle;
+    }
+    m.kinds = kinds.data();
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    m.discs[m.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0};
+}
+
+Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)
+    : storage_(std::make_unique<Storage>(scene, progress, tuning)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Event Simulation::step() { return machine_->execute(machine_->next()); }
+Event Simulation::step() { return storage_->loop->step(storage_->machine); }
+
+void Simulation::run(std::uint64_t count) {
+    storage_->loop->run(storage_->machine, count, std::numeric_limits<std::int64_t>::max(), never);
+}
 
 void Simulation::advance_to(std::int64_t swirls, double clock) {
-    Machine& m = *machine_;
-    for (;;) {
-        const auto next = m.next();
-        const double leg_end = m.scene.path.legs[m.leg].end;
-        const double time = next.time < leg_end ? next.time : leg_end;
-        if (m.swirls > swirls || (m.swirls == swirls && time > clock)) break;
-        m.execute(next);
-    }
+    Machine& m = storage_->machine;
+    storage_->loop->run(m, std::numeric_limits<std::uint64_t>::max(), swirls, clock);
     if (m.swirls == swirls && m.clock < clock) m.clock = clock;
 }
 
-std::int64_t Simulation::swirls() const { return machine_->swirls; }
-double Simulation::clock() const { return machine_->clock; }
-const EventCounts& Simulation::events() const { return machine_->events; }
+std::int64_t Simulation::swirls() const { return storage_->machine.swirls; }
+double Simulation::clock() const { return storage_->machine.clock; }
+std::size_t Simulation::size() const { return storage_->machine.size; }
+EventCounts Simulation::events() const {
+    const Machine& m = storage_->machine;
+    return {m.disc_disc, m.disc_wall, m.path_vertex};
+}
+Progress Simulation::progress() const {
+    const Machine& m = storage_->machine;
+    return {m.swirls, m.clock, m.leg, events()};
+}
+LoopCounts Simulation::loop_counts() const {
+    const Machine& m = storage_->machine;
+    return {m.stale,
+            m.relists,
+            m.crowded,
+            m.overcrowded,
+            storage_->columns.bytes(),
+            storage_->loop->width};
+}
+
+Disc Simulation::disc(std::size_t i) const {
+    const Machine& m = storage_->machine;
+    const HotDisc& d = m.discs[i];
+    const DiscKind& kind = m.kinds[d.kind & ~far_from_wall];
+    return {d.position, d.velocity,  m.rest[i].angle, d.spin,
+            d.time,     kind.radius, kind.mass,       kind.inertia};
+}
 
 Snapshot Simulation::snapshot() const {
     Snapshot s;
-    s.resize(machine_->scene.discs.size());
-    s.period = machine_->scene.path.period;
-    s.container_radius = machine_->scene.container_radius;
-    for (std::size_t i = 0; i < s.size(); ++i) s.set(i, machine_->scene.discs[i]);
-    refresh(s, Event{0, 0, EventKind::path_vertex, 0, 0, {}, {}, 0.0});
+    s.resize(size());
+    s.period = storage_->machine.period;
+    s.container_radius = storage_->machine.container_radius;
+    for (std::size_t i = 0; i < s.size(); ++i) s.set(i, disc(i));
+    refresh(s, Event{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0});
     return s;
 }
 
 void Simulation::refresh(Snapshot& s, const Event& event) const {
-    const Machine& m = *machine_;
-    const Leg& leg = m.scene.path.legs[m.leg];
+    const Machine& m = storage_->machine;
+    const Leg& leg = m.legs[m.leg];
     s.swirls = m.swirls;
     s.clock = m.clock;
     s.container_centre = leg.position_at(m.clock);
     s.container_velocity = leg.velocity_at(m.clock);
     if (event.kind != EventKind::path_vertex) {
-        s.set(event.i, m.scene.discs[event.i]);
-        s.set(event.j, m.scene.discs[event.j]);
+        s.set(event.i, disc(event.i));
+        if (event.j != event.i) s.set(event.j, disc(event.j));
     } else if (m.leg == 0) {
-        for (std::size_t i = 0; i < s.size(); ++i) s.set(i, m.scene.discs[i]);
+        for (std::size_t i = 0; i < s.size(); ++i) s.set(i, disc(i));
     }
 }
 
@@ -139,14 +252,16 @@ std::uint64_t Simulation::state_hash() const {
         std::memcpy(&bits, &x, sizeof bits);
         mix(bits);
     };
-    const Machine& m = *machine_;
+    const Machine& m = storage_->machine;
     mix(static_cast<std::uint64_t>(m.swirls));
     mix(m.leg);
-    mix(m.events.total());
-    for (const Disc& d : m.scene.discs)
+    mix(events().total());
+    for (std::size_t i = 0; i < size(); ++i) {
+        const Disc d = disc(i);
         for (const double x :
              {d.position.x, d.position.y, d.velocity.x, d.velocity.y, d.angle, d.spin, d.time})
             mix_double(x);
+    }
     return hash;
 }
 

@@ -1,6 +1,7 @@
 // The event machine: which event comes next, and what it does.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -26,9 +27,42 @@ struct EventCounts {
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex; }
 };
 
+/// How far a trajectory has come. Together with the discs, each at its own time, this is all there
+/// is to save: a simulation resumed from it continues bit for bit.
+struct Progress {
+    std::int64_t swirls = 0;
+    double clock = 0.0;
+    std::uint32_t leg = 0;
+    EventCounts events;
+};
+
+/// Vector width of the event loop. Every width gives the same bits; `best` is the widest that this
+/// processor has.
+enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
+
+/// Changes the speed, never a bit.
+struct Tuning {
+    int cells_per_side = 0;  // of the neighbour grid; 0 chooses by the density, 1 is all pairs
+    Width width = Width::best;
+};
+
+/// Whether this processor can run the loop at that width.
+bool has_width(Width width);
+
+/// Work of the loop besides the events themselves.
+struct LoopCounts {
+    std::uint64_t stale = 0;        // cards whose partner had changed, predicted again
+    std::uint64_t relists = 0;      // neighbour lists renewed
+    std::uint64_t crowded = 0;      // of these, with room to be made on the lists around
+    std::uint64_t overcrowded = 0;  // times all lists were renewed for lack of room
+    std::uint64_t bytes = 0;        // memory of the loop
+    const char* width = "";
+};
+
 class Simulation {
   public:
-    explicit Simulation(const Scene& scene);
+    explicit Simulation(const Scene& scene, const Progress& progress = {},
+                        const Tuning& tuning = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -36,13 +70,21 @@ class Simulation {
     /// Executes the next event and says what it was.
     Event step();
 
-    /// Executes every event up to the given moment, and stands there. Discs are not touched, so
-    /// looking never changes a bit.
+    /// Executes `count` events.
+    void run(std::uint64_t count);
+
+    /// Executes every event up to and including the given moment, and stands there. Discs are not
+    /// touched, so looking never changes a bit.
     void advance_to(std::int64_t swirls, double clock);
 
     std::int64_t swirls() const;
     double clock() const;
-    const EventCounts& events() const;
+    EventCounts events() const;
+    Progress progress() const;
+    LoopCounts loop_counts() const;
+    std::size_t size() const;
+    /// Disc i as it is kept: the state after its last collision, at its own time.
+    Disc disc(std::size_t i) const;
 
     /// All discs, the container, and the time, now.
     Snapshot snapshot() const;
@@ -54,8 +96,8 @@ class Simulation {
     std::uint64_t state_hash() const;
 
   private:
-    struct Machine;
-    std::unique_ptr<Machine> machine_;
+    struct Storage;
+    std::unique_ptr<Storage> storage_;
 };
 
 }  // namespace swirl

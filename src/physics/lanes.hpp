@@ -1,0 +1,282 @@
+// Doubles side by side: one text of the physics computes several contact times at once.
+//
+// `Lanes<W>` holds W doubles in as many registers of the target as that takes: one for W = 8 with
+// AVX-512, two with AVX2, four with SSE2, eight plain doubles elsewhere. Every operation is the
+// same operation on each lane, exactly rounded and never fused, so all targets give the same bits.
+//
+// Everything here lives in an inline namespace named after the target, because one program holds
+// several (simulation/event_loop.hpp is compiled once for each).
+#pragma once
+
+#include <cstdint>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "physics/real.hpp"
+
+#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+#define SWIRL_TARGET avx512
+#define SWIRL_REGISTER_BYTES 64
+#elif defined(__AVX2__)
+#define SWIRL_TARGET avx2
+#define SWIRL_REGISTER_BYTES 32
+#else
+#define SWIRL_TARGET baseline
+#define SWIRL_REGISTER_BYTES 16
+#endif
+
+namespace swirl {
+inline namespace SWIRL_TARGET {
+
+// The scalar ones beside those below.
+using ::swirl::select;
+using ::swirl::smaller;
+using ::swirl::square_root;
+
+typedef double Double2 __attribute__((vector_size(16), may_alias));
+typedef double Double4 __attribute__((vector_size(32), may_alias));
+typedef double Double8 __attribute__((vector_size(64), may_alias));
+typedef std::int64_t Mask2 __attribute__((vector_size(16)));
+typedef std::int64_t Mask4 __attribute__((vector_size(32)));
+typedef std::int64_t Mask8 __attribute__((vector_size(64)));
+
+template <int Bytes>
+struct Register;
+template <>
+struct Register<16> {
+    using Real = Double2;
+    using Mask = Mask2;
+};
+template <>
+struct Register<32> {
+    using Real = Double4;
+    using Mask = Mask4;
+};
+template <>
+struct Register<64> {
+    using Real = Double8;
+    using Mask = Mask8;
+};
+
+template <int W>
+struct LaneMask {
+    static constexpr int bytes = 8 * W < SWIRL_REGISTER_BYTES ? 8 * W : SWIRL_REGISTER_BYTES;
+    static constexpr int parts = 8 * W / bytes;
+    typename Register<bytes>::Mask part[parts];
+};
+
+template <int W>
+struct Lanes {
+    static constexpr int bytes = LaneMask<W>::bytes;
+    static constexpr int parts = LaneMask<W>::parts;
+    static constexpr int per_part = bytes / 8;
+    using Part = typename Register<bytes>::Real;
+    Part part[parts];
+
+    Lanes() = default;
+    SWIRL_INLINE explicit Lanes(double x) {
+        for (int p = 0; p < parts; ++p) part[p] = x - Part{};
+    }
+    /// W doubles from memory aligned to 8W bytes.
+    SWIRL_INLINE static Lanes load(const double* from) {
+        Lanes r;
+        for (int p = 0; p < parts; ++p)
+            r.part[p] = *reinterpret_cast<const Part*>(from + p * per_part);
+        return r;
+    }
+    SWIRL_INLINE void store(double* to) const {
+        for (int p = 0; p < parts; ++p) *reinterpret_cast<Part*>(to + p * per_part) = part[p];
+    }
+};
+
+SWIRL_INLINE Lanes<2> two_lanes(double a, double b) {
+    Lanes<2> r;
+    r.part[0] = Double2{a, b};
+    return r;
+}
+
+#define SWIRL_LANES_BINARY(op)                                                        \
+    template <int W>                                                                  \
+    SWIRL_INLINE Lanes<W> operator op(const Lanes<W>& a, const Lanes<W>& b) {         \
+        Lanes<W> r;                                                                   \
+        for (int p = 0; p < Lanes<W>::parts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        return r;                                                                     \
+    }
+SWIRL_LANES_BINARY(+)
+SWIRL_LANES_BINARY(-)
+SWIRL_LANES_BINARY(*)
+SWIRL_LANES_BINARY(/)
+#undef SWIRL_LANES_BINARY
+
+template <int W>
+SWIRL_INLINE Lanes<W> operator-(const Lanes<W>& a) {
+    Lanes<W> r;
+    for (int p = 0; p < Lanes<W>::parts; ++p) r.part[p] = -a.part[p];
+    return r;
+}
+
+#define SWIRL_LANES_COMPARE(op)                                                       \
+    template <int W>                                                                  \
+    SWIRL_INLINE LaneMask<W> operator op(const Lanes<W>& a, const Lanes<W>& b) {      \
+        LaneMask<W> r;                                                                \
+        for (int p = 0; p < Lanes<W>::parts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        return r;                                                                     \
+    }
+SWIRL_LANES_COMPARE(<)
+SWIRL_LANES_COMPARE(>)
+SWIRL_LANES_COMPARE(>=)
+SWIRL_LANES_COMPARE(==)
+#undef SWIRL_LANES_COMPARE
+
+template <int W>
+SWIRL_INLINE LaneMask<W> operator&(const LaneMask<W>& a, const LaneMask<W>& b) {
+    LaneMask<W> r;
+    for (int p = 0; p < LaneMask<W>::parts; ++p) r.part[p] = a.part[p] & b.part[p];
+    return r;
+}
+
+template <int W>
+SWIRL_INLINE Lanes<W> select(const LaneMask<W>& condition, const Lanes<W>& yes,
+                             const Lanes<W>& no) {
+    Lanes<W> r;
+    for (int p = 0; p < Lanes<W>::parts; ++p)
+        r.part[p] = condition.part[p] ? yes.part[p] : no.part[p];
+    return r;
+}
+
+#if defined(__SSE2__)
+SWIRL_INLINE Double2 square_root_of(Double2 a) { return _mm_sqrt_pd(a); }
+#if SWIRL_REGISTER_BYTES >= 32
+SWIRL_INLINE Double4 square_root_of(Double4 a) { return _mm256_sqrt_pd(a); }
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+SWIRL_INLINE Double8 square_root_of(Double8 a) { return _mm512_sqrt_pd(a); }
+#endif
+#else
+SWIRL_INLINE Double2 square_root_of(Double2 a) {
+    return Double2{square_root(a[0]), square_root(a[1])};
+}
+#endif
+
+template <int W>
+SWIRL_INLINE Lanes<W> square_root(const Lanes<W>& a) {
+    Lanes<W> r;
+    for (int p = 0; p < Lanes<W>::parts; ++p) r.part[p] = square_root_of(a.part[p]);
+    return r;
+}
+
+// smaller() of real.hpp, as one instruction: minpd is (a < b) ? a : b.
+#if defined(__SSE2__)
+SWIRL_INLINE Double2 smaller_of(Double2 a, Double2 b) { return _mm_min_pd(a, b); }
+#if SWIRL_REGISTER_BYTES >= 32
+SWIRL_INLINE Double4 smaller_of(Double4 a, Double4 b) { return _mm256_min_pd(a, b); }
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+SWIRL_INLINE Double8 smaller_of(Double8 a, Double8 b) { return _mm512_min_pd(a, b); }
+#endif
+#else
+SWIRL_INLINE Double2 smaller_of(Double2 a, Double2 b) { return a < b ? a : b; }
+#endif
+
+/// The smallest lane (times: no NaN, no −0).
+SWIRL_INLINE double smallest_of(Double2 a) { return smaller(a[0], a[1]); }
+#if SWIRL_REGISTER_BYTES >= 32
+SWIRL_INLINE double smallest_of(Double4 a) {
+    return smallest_of(
+        smaller_of(__builtin_shufflevector(a, a, 0, 1), __builtin_shufflevector(a, a, 2, 3)));
+}
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+SWIRL_INLINE double smallest_of(Double8 a) {
+    return smallest_of(smaller_of(__builtin_shufflevector(a, a, 0, 1, 2, 3),
+                                  __builtin_shufflevector(a, a, 4, 5, 6, 7)));
+}
+#endif
+template <int W>
+SWIRL_INLINE double smallest(const Lanes<W>& a) {
+    typename Lanes<W>::Part m = a.part[0];
+    for (int p = 1; p < Lanes<W>::parts; ++p) m = smaller_of(m, a.part[p]);
+    return smallest_of(m);
+}
+
+/// Bit k is set where lane k of `a` equals x.
+template <int W>
+SWIRL_INLINE unsigned lanes_equal(const Lanes<W>& a, double x) {
+    unsigned bits = 0;
+    for (int p = 0; p < Lanes<W>::parts; ++p) {
+        unsigned part_bits = 0;
+#if SWIRL_REGISTER_BYTES >= 64
+        if constexpr (Lanes<W>::bytes == 64)
+            part_bits = _mm512_cmp_pd_mask(a.part[p], _mm512_set1_pd(x), _CMP_EQ_OQ);
+#endif
+#if SWIRL_REGISTER_BYTES >= 32
+        if constexpr (Lanes<W>::bytes == 32)
+            part_bits = static_cast<unsigned>(
+                _mm256_movemask_pd(_mm256_cmp_pd(a.part[p], _mm256_set1_pd(x), _CMP_EQ_OQ)));
+#endif
+        if constexpr (Lanes<W>::bytes == 16) {
+#if defined(__SSE2__)
+            part_bits =
+                static_cast<unsigned>(_mm_movemask_pd(_mm_cmpeq_pd(a.part[p], _mm_set1_pd(x))));
+#else
+            part_bits = (a.part[p][0] == x ? 1u : 0u) | (a.part[p][1] == x ? 2u : 0u);
+#endif
+        }
+        bits |= part_bits << (p * Lanes<W>::per_part);
+    }
+    return bits;
+}
+
+/// The vector with lane k replaced by x.
+template <int W>
+SWIRL_INLINE Lanes<W> with_lane(const Lanes<W>& a, unsigned k, double x) {
+    Lanes<W> r;
+    for (int p = 0; p < Lanes<W>::parts; ++p) {
+        typename Register<Lanes<W>::bytes>::Mask number;
+        for (int l = 0; l < Lanes<W>::per_part; ++l) number[l] = p * Lanes<W>::per_part + l;
+        const auto here = number == (static_cast<std::int64_t>(k) - decltype(number){});
+        r.part[p] = here ? (x - typename Lanes<W>::Part{}) : a.part[p];
+    }
+    return r;
+}
+
+/// Two columns from W rows that start with a pair of doubles each: rows[k] → (first[k], second[k]).
+/// Pairs are loaded whole, so a pair that was stored whole a moment ago comes straight from the
+/// store buffer.
+template <int W>
+SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, Lanes<W>& second) {
+    const auto pair = [&](int k) { return *reinterpret_cast<const Double2*>(rows[k]); };
+    if constexpr (Lanes<W>::bytes == 16) {
+        for (int p = 0; p < Lanes<W>::parts; ++p) {
+            const Double2 a = pair(2 * p), b = pair(2 * p + 1);
+            first.part[p] = __builtin_shufflevector(a, b, 0, 2);
+            second.part[p] = __builtin_shufflevector(a, b, 1, 3);
+        }
+    }
+#if SWIRL_REGISTER_BYTES >= 32
+    const auto four = [&](int k, Double4& lo, Double4& hi) {
+        const Double4 a = __builtin_shufflevector(pair(k), pair(k + 2), 0, 1, 2, 3);
+        const Double4 b = __builtin_shufflevector(pair(k + 1), pair(k + 3), 0, 1, 2, 3);
+        lo = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        hi = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    };
+    if constexpr (Lanes<W>::bytes == 32) {
+        for (int p = 0; p < Lanes<W>::parts; ++p) four(4 * p, first.part[p], second.part[p]);
+    }
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+    if constexpr (Lanes<W>::bytes == 64) {
+        for (int p = 0; p < Lanes<W>::parts; ++p) {
+            Double4 a, b, c, d;
+            four(8 * p, a, b);
+            four(8 * p + 4, c, d);
+            first.part[p] = __builtin_shufflevector(a, c, 0, 1, 2, 3, 4, 5, 6, 7);
+            second.part[p] = __builtin_shufflevector(b, d, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+    }
+#endif
+}
+
+}  // namespace SWIRL_TARGET
+}  // namespace swirl

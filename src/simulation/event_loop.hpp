@@ -1,0 +1,317 @@
+// The loop: take the event that comes first, execute it, predict again for those it changed.
+//
+// Each disc has one pending event, its earliest (Lubachevsky 1991; Smallenburg 2022). When i and k
+// are due to meet, at least one of them, the one that changed last, has seen the other as it is
+// now; so the soonest of all meetings is on somebody's card. A card whose partner has changed
+// since, `changes` tells, is too early rather than too late: when its time comes, its owner
+// predicts again.
+//
+// Each disc keeps the state it had after its last collision, at its own time, until the next; no
+// prediction and no list touches it.
+//
+// Included by one file per vector width, and compiled with that width's instructions. So that the
+// linker cannot mix them up, nothing in here may leave a symbol of its own: functions are inlined
+// or static, and a test looks at the objects.
+#pragma once
+
+#include "physics/collision_law.hpp"
+#include "physics/contact_time.hpp"
+#include "physics/lanes.hpp"
+#include "simulation/event_queue.hpp"
+#include "simulation/machine.hpp"
+#include "simulation/neighbours.hpp"
+
+namespace swirl {
+inline namespace SWIRL_TARGET {
+
+struct Prediction {
+    double time;
+    std::uint32_t partner;
+};
+
+SWIRL_INLINE Flight<double> flight_of(const HotDisc& d) { return {d.position, d.velocity, d.time}; }
+
+/// The earliest contact of `disc` with W discs of its list, or `soonest` if that is earlier.
+template <int W>
+SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
+                                         const std::uint32_t* neighbours, Prediction soonest) {
+    const double *positions[W], *velocities[W], *times[W];
+    for (int k = 0; k < W; ++k) {
+        const HotDisc& other = m.discs[neighbours[k]];
+        positions[k] = &other.position.x;
+        velocities[k] = &other.velocity.x;
+        times[k] = &other.time;
+    }
+    Flight<Lanes<W>> others;
+    Lanes<W> radii;
+    load_pairs<W>(positions, others.position.x, others.position.y);
+    load_pairs<W>(velocities, others.velocity.x, others.velocity.y);
+    load_pairs<W>(times, others.time, radii);
+    const Flight<Lanes<W>> mine{{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)},
+                                {Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)},
+                                Lanes<W>(disc.time)};
+    const Lanes<W> contact = time_of_contact(mine, others, Lanes<W>(disc.radius) + radii);
+
+    const double time = smallest(contact);
+    if (time > soonest.time || time == never) return soonest;
+    // Of several at the same instant, the one with the smallest number.
+    unsigned equal = lanes_equal(contact, time);
+    std::uint32_t partner = neighbours[__builtin_ctz(equal)];
+    while (equal &= equal - 1) {
+        const std::uint32_t other = neighbours[__builtin_ctz(equal)];
+        if (other < partner) partner = other;
+    }
+    if (time == soonest.time && soonest.partner < partner) return soonest;
+    return {time, partner};
+}
+
+SWIRL_INLINE Prediction earliest_contact(const Machine& m, std::uint32_t i) {
+    const HotDisc& disc = m.discs[i];
+    const std::uint32_t* const list = m.plan(i).neighbours();
+    Prediction soonest = earliest_contact<8>(m, disc, list, {never, leaves_neighbourhood});
+    for (std::uint32_t k = 8; k < m.capacity && list[k] != m.size; k += 4)
+        soonest = earliest_contact<4>(m, disc, list + k, soonest);
+    return soonest;
+}
+
+/// When disc i touches the wall, and when it leaves its neighbourhood; both are circles seen from
+/// inside that move with the container. The first follows from the state the disc holds alone; the
+/// second, which decides nothing but when to make a list, is counted from the moment t of asking:
+/// the disc was perhaps outside the neighbourhood when it last changed.
+struct Leaving {
+    double wall, neighbourhood;
+};
+SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) {
+    const HotDisc& disc = m.discs[i];
+    const Leg& leg = m.legs[m.leg];
+    const Plan& plan = m.plan(i);
+    const Flight<double> flight = flight_of(disc);
+    const Flight<double> frame = carried_frame(leg);
+    const double now = larger(flight.time, frame.time);
+    const Vec2 s = flight.position_at(now) - frame.position_at(now);
+    const Vec2 v = flight.velocity - frame.velocity;
+    const Vec2 offset = s + (t - now) * v - Vec2{plan.X, plan.Y};
+    const double clearance = m.container_radius - disc.radius;
+    const double freedom = static_cast<double>(m.rest[i].freedom) * (1.0 - freedom_margin);
+    const BasicVec2<Lanes<2>> from{two_lanes(s.x, offset.x), two_lanes(s.y, offset.y)};
+    const BasicVec2<Lanes<2>> velocity{Lanes<2>(v.x), Lanes<2>(v.y)};
+    const Lanes<2> wait = time_to_leave(from, velocity, two_lanes(clearance, freedom));
+    const double neighbourhood = t + wait.part[0][1];
+    if (leg.turning != 0.0) [[unlikely]]
+        return {time_of_turning_wall_contact(flight, leg, clearance), neighbourhood};
+    return {disc.kind & far_from_wall ? never : now + wait.part[0][0], neighbourhood};
+}
+
+/// Puts disc i's earliest event on its card. At equal times a disc comes before the wall exactly if
+/// its number is smaller, as in comes_first().
+SWIRL_INLINE void predict(Machine& m, std::uint32_t i, double t) {
+    Prediction soonest = earliest_contact(m, i);
+    const Leaving leaving = leaving_times(m, i, t);
+    if (leaving.wall < soonest.time || (leaving.wall == soonest.time && i < soonest.partner))
+        soonest = {leaving.wall, i};
+    if (leaving.neighbourhood < soonest.time)
+        soonest = {leaving.neighbourhood, leaves_neighbourhood};
+    Plan& plan = m.plan(i);
+    plan.partner = soonest.partner;
+    plan.partner_changes = soonest.partner < m.size ? m.discs[soonest.partner].changes : 0;
+    set_pending(m, i, soonest.time);
+}
+
+[[gnu::noinline]] static void predict_all(Machine& m, double t) {
+    for (std::uint32_t i = 0; i < m.size; ++i) predict(m, i, t);
+}
+
+SWIRL_INLINE FreedomRange freedom_range(const Machine& m) {
+    return {0.005 * m.smallest_radius, m.longest_freedom};
+}
+
+/// With a freedom this small a list holds only discs that all but touch, for which its capacity is
+/// made; each widens again when its disc next leaves.
+static void start_narrow(Machine& m, double t) {
+    FreedomRange narrow = freedom_range(m);
+    narrow.longest = 0.02 * m.smallest_radius;
+    narrow.least = 0.0;
+    make_all_neighbourhoods(m, t, narrow);
+}
+
+[[gnu::noinline]] static void renew_neighbourhood(Machine& m, std::uint32_t i, double t) {
+    ++m.relists;
+    settle(m, i, t);
+    if (claim(m, i, freedom_range(m))) {
+        predict(m, i, t);
+        return;
+    }
+    ++m.crowded;
+    std::uint32_t settled[256];
+    const std::uint32_t count = make_room(m, i, t, freedom_range(m), settled);
+    for (std::uint32_t k = 0; k < count; ++k) predict(m, settled[k], t);
+    if (count > 0) return;
+    ++m.overcrowded;
+    start_narrow(m, t);
+    predict_all(m, t);
+}
+
+[[gnu::noinline]] static void start(Machine& m) {
+    for (std::uint32_t level = 0; level < m.levels; ++level) {
+        const std::uint32_t rows = ((m.size - 1) >> (3 * (level + 1))) + 1;
+        for (std::uint32_t k = 0; k < 8 * rows; ++k) {
+            m.level_times[level][k] = never;
+            if (level > 0) m.level_winners[level][k] = 0;
+        }
+    }
+    start_narrow(m, m.clock);
+    for (std::uint32_t i = 0; i < m.size; ++i) {
+        settle(m, i, m.clock);
+        if (claim(m, i, freedom_range(m))) continue;
+        start_narrow(m, m.clock);
+        break;
+    }
+    predict_all(m, m.clock);
+}
+
+/// The container takes its next leg. Only what depends on the container's motion is renewed: wall
+/// and neighbourhood. A wall event that now comes later leaves its disc to predict again at the
+/// time it held, which is early enough for whatever comes next.
+SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i) {
+    const Leaving leaving = leaving_times(m, i, m.clock);
+    Plan& plan = m.plan(i);
+    const double pending = pending_time(m, i);
+    const bool wall_first = leaving.wall <= leaving.neighbourhood;
+    const double first = wall_first ? leaving.wall : leaving.neighbourhood;
+    if (first < pending || (first == pending && plan.partner >= i)) {
+        plan.partner = wall_first ? i : leaves_neighbourhood;
+        plan.partner_changes = m.discs[i].changes;
+        set_pending(m, i, first);
+    } else if (plan.partner == i || plan.partner == leaves_neighbourhood) {
+        plan.partner = predict_again;
+    }
+}
+
+[[gnu::noinline]] static Event end_leg(Machine& m) {
+    m.clock = m.legs[m.leg].end;
+    ++m.path_vertex;
+    const Event event{m.swirls, m.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    if (++m.leg < m.leg_count) {
+        for (std::uint32_t i = 0; i < m.size; ++i) renew_leaving(m, i);
+        return event;
+    }
+    // A new swirl: everybody is brought up to date and all clocks restart, so that times stay
+    // short and precise however long the run.
+    for (std::uint32_t i = 0; i < m.size; ++i) {
+        HotDisc& disc = m.discs[i];
+        m.rest[i].angle = m.rest[i].angle + (m.clock - disc.time) * disc.spin;
+        disc.position = flight_of(disc).position_at(m.clock);
+        disc.time = 0.0;
+        ++disc.changes;
+    }
+    m.leg = 0;
+    m.clock = 0.0;
+    ++m.swirls;
+    predict_all(m, m.clock);
+    return event;
+}
+
+/// Brings disc i to time t and gives it its new velocities.
+SWIRL_INLINE void write_back(Machine& m, std::uint32_t i, const Vec2& position, double t,
+                             const Body& body) {
+    HotDisc& disc = m.discs[i];
+    m.rest[i].angle = m.rest[i].angle + (t - disc.time) * disc.spin;
+    const auto store = [](double* to, double a, double b) {
+        *reinterpret_cast<Double2*>(to) = Double2{a, b};
+    };
+    store(&disc.position.x, position.x, position.y);
+    store(&disc.velocity.x, body.velocity.x, body.velocity.y);
+    store(&disc.time, t, disc.radius);
+    disc.spin = body.spin;
+    ++disc.changes;
+}
+
+SWIRL_INLINE Body body_of(const Machine& m, const HotDisc& d) {
+    const DiscKind& kind = m.kinds[d.kind & ~far_from_wall];
+    return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
+}
+
+SWIRL_INLINE Event collide_discs(Machine& m, std::uint32_t a, std::uint32_t b, double t) {
+    const std::uint32_t i = a < b ? a : b, j = a < b ? b : a;
+    const Vec2 at_i = flight_of(m.discs[i]).position_at(t);
+    const Vec2 at_j = flight_of(m.discs[j]).position_at(t);
+    Body body_i = body_of(m, m.discs[i]), body_j = body_of(m, m.discs[j]);
+    const Vec2 s = at_j - at_i;
+    const Impulse impulse = collide(body_i, body_j, s, m.disc_surface);
+    write_back(m, i, at_i, t, body_i);
+    write_back(m, j, at_j, t, body_j);
+    predict(m, i, t);
+    predict(m, j, t);
+    ++m.disc_disc;
+    const double distance = square_root(dot(s, s));
+    return {m.swirls,
+            t,
+            EventKind::disc_disc,
+            i,
+            j,
+            (1.0 / distance) * s,
+            impulse,
+            body_i.radius + body_j.radius - distance};
+}
+
+SWIRL_INLINE Event collide_with_wall(Machine& m, std::uint32_t i, double t) {
+    const Leg& leg = m.legs[m.leg];
+    const Vec2 at = flight_of(m.discs[i]).position_at(t);
+    Body body = body_of(m, m.discs[i]), wall = wall_body(leg.velocity_at(t));
+    const Vec2 s = at - leg.position_at(t);
+    const Impulse impulse = collide(body, wall, s, m.wall_surface);
+    write_back(m, i, at, t, body);
+    predict(m, i, t);
+    ++m.disc_wall;
+    const double distance = square_root(dot(s, s));
+    return {m.swirls,
+            t,
+            EventKind::disc_wall,
+            i,
+            i,
+            (1.0 / distance) * s,
+            impulse,
+            distance - (m.container_radius - body.radius)};
+}
+
+/// Brings the cards in order until the first one is an event that happens, and says when.
+SWIRL_INLINE Next next_event(Machine& m) {
+    for (;;) {
+        const Next next = next_pending(m);
+        if (next.time >= m.legs[m.leg].end) return {m.legs[m.leg].end, m.size};
+        const Plan& plan = m.plan(next.disc);
+        if (plan.partner == leaves_neighbourhood) {
+            renew_neighbourhood(m, next.disc, next.time);
+            continue;
+        }
+        if (plan.partner == predict_again ||
+            m.discs[plan.partner].changes != plan.partner_changes) {
+            ++m.stale;
+            predict(m, next.disc, next.time);
+            continue;
+        }
+        return next;
+    }
+}
+
+SWIRL_INLINE Event execute(Machine& m, const Next& next) {
+    if (next.disc == m.size) return end_leg(m);
+    m.clock = next.time;
+    const std::uint32_t partner = m.plan(next.disc).partner;
+    if (partner == next.disc) return collide_with_wall(m, partner, next.time);
+    return collide_discs(m, next.disc, partner, next.time);
+}
+
+static Event step(Machine& m) { return execute(m, next_event(m)); }
+
+static std::uint64_t run(Machine& m, std::uint64_t count, std::int64_t swirls, double clock) {
+    for (std::uint64_t done = 0; done < count; ++done) {
+        const Next next = next_event(m);
+        if (m.swirls > swirls || (m.swirls == swirls && next.time > clock)) return done;
+        execute(m, next);
+    }
+    return count;
+}
+
+}  // namespace SWIRL_TARGET
+}  // namespace swirl

@@ -1,0 +1,111 @@
+// All the state the event loop works on, as plain columns. The types a reader meets are Disc, Leg
+// and Event; this is how they are stored while the loop runs, in the order in which it touches
+// them: 154 bytes per disc of one kind.
+#pragma once
+
+#include <cstdint>
+
+#include "physics/collision_law.hpp"
+#include "physics/container_path.hpp"
+#include "physics/disc.hpp"
+#include "simulation/event.hpp"
+
+namespace swirl {
+
+/// What a prediction reads of a disc: one cache line, in pairs that are stored and loaded whole.
+struct alignas(64) HotDisc {
+    Vec2 position;
+    Vec2 velocity;
+    double time, radius;
+    double spin;
+    std::uint32_t changes;  // collisions so far, mod 2³²: tells that a prediction has gone stale
+    std::uint32_t kind;     // row of Machine::kinds, and whether its neighbourhood is off the wall
+};
+inline constexpr std::uint32_t far_from_wall = 0x80000000u;
+static_assert(sizeof(HotDisc) == 64);
+
+/// What discs of one kind share.
+struct DiscKind {
+    double radius, mass, inertia;
+    double inverse_mass, inverse_inertia;
+};
+
+/// A disc's pending event and the discs it may meet. The list holds every disc k with
+/// |X_i − X_k| < r_i + r_k + h_i + h_k, where X is the centre of a disc's neighbourhood, carried
+/// along by the container, and h how far the disc may stray from it. While both are within theirs,
+/// discs that are not on each other's list cannot touch.
+struct Plan {
+    std::uint32_t partner;          // a disc; itself for the wall; or one of the marks below
+    std::uint32_t partner_changes;  // HotDisc::changes of the partner when this was predicted
+    float X, Y;                     // centre of the neighbourhood in the carried frame
+    // followed by `capacity` disc numbers, unused ones being `Machine::size`
+    std::uint32_t* neighbours() { return reinterpret_cast<std::uint32_t*>(this + 1); }
+    const std::uint32_t* neighbours() const {
+        return reinterpret_cast<const std::uint32_t*>(this + 1);
+    }
+};
+static_assert(sizeof(Plan) == 16);
+
+/// Marks in Plan::partner. Neither changes a disc.
+inline constexpr std::uint32_t leaves_neighbourhood = 0xffffffffu;  // make a new list
+inline constexpr std::uint32_t predict_again = 0xfffffffeu;  // the wall event that was here is void
+
+struct Rest {
+    double angle;                // at HotDisc::time
+    float freedom;               // h; 0 marks a disc without a neighbourhood
+    std::uint32_t next_in_cell;  // the number of a disc, or Machine::size
+};
+
+struct Machine {
+    std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
+    std::uint32_t capacity;  // of a neighbour list; a multiple of 4
+    std::uint32_t plan_bytes;
+    HotDisc* discs;
+    unsigned char* plans;
+    Rest* rest;
+    const DiscKind* kinds;
+
+    // The tournament (event_queue.hpp).
+    std::uint32_t levels;
+    double* level_times[12];
+    std::uint32_t* level_winners[12];
+
+    // Square cells over the dish, in the carried frame (neighbours.hpp).
+    std::uint32_t cells_per_side;
+    double cell_width, cell_origin;
+    std::uint32_t* cell_heads;
+    double smallest_radius;
+    double longest_freedom;  // the cells next door must hold everybody within reach
+
+    const Leg* legs;
+    std::uint32_t leg, leg_count;
+    double period, container_radius;
+    Surface disc_surface, wall_surface;
+
+    std::int64_t swirls;
+    double clock;
+    std::uint64_t disc_disc, disc_wall, path_vertex;
+    std::uint64_t stale, relists, crowded,
+        overcrowded;  // bookkeeping of the loop, for docs/performance.md
+
+    Plan& plan(std::uint32_t i) const {
+        return *reinterpret_cast<Plan*>(plans + static_cast<std::uint64_t>(i) * plan_bytes);
+    }
+};
+
+/// The event loop, compiled for one vector width; all of them give the same bits.
+struct EventLoop {
+    const char* width;
+    /// Makes all lists and all predictions from the discs as they stand.
+    void (*start)(Machine&);
+    /// Executes the next event.
+    Event (*step)(Machine&);
+    /// Executes `count` events, or as many as come before (swirls, clock]; says how many.
+    std::uint64_t (*run)(Machine&, std::uint64_t count, std::int64_t swirls, double clock);
+};
+
+extern const EventLoop event_loop_baseline;
+extern const EventLoop event_loop_avx2;
+extern const EventLoop event_loop_avx512;
+
+}  // namespace swirl

@@ -1,0 +1,136 @@
+#include "simulation/reference_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+#include "simulation/scenes.hpp"
+
+namespace swirl {
+namespace {
+
+::testing::AssertionResult same_bits(double a, double b) {
+    if (std::memcmp(&a, &b, sizeof a) == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << a << " differs from " << b << " by " << a - b;
+}
+
+/// Runs both and compares every event's time, partners and impulse, and all discs at the end.
+void expect_same_trajectory(const Scene& scene, int events, const Tuning& tuning) {
+    ReferenceLoop plain(scene);
+    Simulation engine(scene, {}, tuning);
+    for (int k = 0; k < events; ++k) {
+        const Event expected = plain.step(), found = engine.step();
+        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+        ASSERT_EQ(expected.swirls, found.swirls);
+        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
+        ASSERT_EQ(expected.i, found.i) << "event " << k;
+        ASSERT_EQ(expected.j, found.j) << "event " << k;
+        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
+        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
+    }
+    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+        const Disc a = plain.disc(i), b = engine.disc(i);
+        ASSERT_TRUE(same_bits(a.position.x, b.position.x));
+        ASSERT_TRUE(same_bits(a.position.y, b.position.y));
+        ASSERT_TRUE(same_bits(a.velocity.x, b.velocity.x));
+        ASSERT_TRUE(same_bits(a.velocity.y, b.velocity.y));
+        ASSERT_TRUE(same_bits(a.angle, b.angle));
+        ASSERT_TRUE(same_bits(a.spin, b.spin));
+        ASSERT_TRUE(same_bits(a.time, b.time));
+    }
+}
+
+class EveryWidth : public ::testing::TestWithParam<Width> {
+  protected:
+    void SetUp() override {
+        if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
+    }
+    Tuning tuning(int cells = 0) const { return {cells, GetParam()}; }
+};
+
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInThePaperDish) {
+    for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
+        expect_same_trajectory(paper_scene(n), 100000, tuning());
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
+    expect_same_trajectory(paper_scene(40, 0.0, 0.0), 30000, tuning());
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
+    expect_same_trajectory(mixture_scene(), 100000, tuning());
+    expect_same_trajectory(mixture_scene(), 30000, tuning(3));
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
+    Scene scene = paper_scene(28);
+    scene.path = circular_path(paper_amplitude, paper_period);
+    expect_same_trajectory(scene, 10000, tuning());
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
+    expect_same_trajectory(gas_scene(300, 0.6), 20000, tuning());
+    expect_same_trajectory(gas_scene(300, 0.05), 5000, tuning());
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryWidth,
+                         ::testing::Values(Width::baseline, Width::avx2, Width::avx512),
+                         [](const auto& parameter) -> std::string {
+                             switch (parameter.param) {
+                                 case Width::avx512: return "avx512";
+                                 case Width::avx2: return "avx2";
+                                 default: return "baseline";
+                             }
+                         });
+
+TEST(Grid, EveryGridGivesTheSameBits) {
+    const Scene scene = paper_scene(48);
+    Simulation all_pairs(scene, {}, {1, Width::best});
+    all_pairs.run(100000);
+    for (const int cells : {2, 3, 4, 5, 6, 7, 8, 1000}) {
+        Simulation grid(scene, {}, {cells, Width::best});
+        grid.run(100000);
+        EXPECT_EQ(all_pairs.state_hash(), grid.state_hash()) << cells << " cells per side";
+    }
+}
+
+TEST(Observation, LookingDoesNotChangeABit) {
+    const Scene scene = paper_scene(48);
+    Simulation alone(scene), watched(scene);
+    alone.run(50000);
+    Snapshot snapshot = watched.snapshot();
+    std::int64_t frame = 0;
+    while (watched.events().total() < 50000) {
+        const double clock = paper_period * static_cast<double>(frame % 511) / 511.0;
+        if (watched.events().total() + 500 < 50000) watched.advance_to(frame / 511, clock);
+        else watched.step();
+        snapshot = watched.snapshot();
+        ++frame;
+    }
+    EXPECT_EQ(alone.state_hash(), watched.state_hash());
+}
+
+TEST(Observation, RefreshedSnapshotEqualsANewOne) {
+    Simulation simulation(paper_scene(28));
+    Snapshot kept = simulation.snapshot();
+    for (int k = 0; k < 5000; ++k) simulation.refresh(kept, simulation.step());
+    const Snapshot fresh = simulation.snapshot();
+    EXPECT_EQ(kept.x, fresh.x);
+    EXPECT_EQ(kept.vy, fresh.vy);
+    EXPECT_EQ(kept.spin, fresh.spin);
+    EXPECT_EQ(kept.angle, fresh.angle);
+    EXPECT_EQ(kept.held_at, fresh.held_at);
+    EXPECT_EQ(kept.container_centre.x, fresh.container_centre.x);
+}
+
+TEST(Resume, FromTheDiscsAndTheProgressContinuesBitForBit) {
+    const Scene scene = paper_scene(48);
+    Simulation whole(scene), first(scene);
+    whole.run(60000);
+    first.run(23456);
+    Scene saved = scene;
+    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
+    Simulation resumed(saved, first.progress());
+    resumed.run(60000 - 23456);
+    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
+}  // namespace
+}  // namespace swirl
