@@ -20,9 +20,9 @@ class ReferenceLoop {
         std::size_t i = 0, j = 0;
         for (std::size_t a = 0; a < scene_.discs.size(); ++a) {
             for (std::size_t b = a; b < scene_.discs.size(); ++b) {
-                const double t = a == b ? time_of_wall_contact(scene_.discs[a], leg,
-                                                               scene_.container_radius)
-                                        : time_of_contact(scene_.discs[a], scene_.discs[b]);
+                const double t =
+                    a == b ? time_of_wall_contact(scene_.discs[a], leg, scene_.container_radius)
+                           : time_of_contact(scene_.discs[a], scene_.discs[b]);
                 if (t < time) {
                     time = t;
                     i = a;
@@ -54,14 +54,12 @@ class ReferenceLoop {
         Disc& a = scene_.discs[i];
         a = a.at(t);
         Body left = body(a), wall = wall_body(leg.velocity_at(t));
-        const Impulse J =
-            collide(left, wall, a.position - leg.position_at(t), scene_.wall_surface);
+        const Impulse J = collide(left, wall, a.position - leg.position_at(t), scene_.wall_surface);
         a.velocity = left.velocity, a.spin = left.spin;
         return event(EventKind::disc_wall, t, i, i, J);
     }
     Event end_leg() {
-        const Event e =
-            event(EventKind::path_vertex, scene_.path.legs[leg_].end, 0, 0, Impulse{});
+        const Event e = event(EventKind::path_vertex, scene_.path.legs[leg_].end, 0, 0, Impulse{});
         if (++leg_ < scene_.path.legs.size()) return e;
         for (Disc& d : scene_.discs) {
             d = d.at(e.clock);
@@ -72,7 +70,7 @@ class ReferenceLoop {
         return e;
     }
     Event event(EventKind kind, double t, std::size_t i, std::size_t j, const Impulse& J) const {
-        return {swirls_, t,  kind, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+        return {swirls_, t, kind, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
                 {},      J, 0.0};
     }
 

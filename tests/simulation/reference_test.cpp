@@ -66,17 +66,20 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     expect_same_trajectory(scene, 10000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
-    expect_same_trajectory(gas_scene(300, 0.6), 20000, tuning());
-    expect_same_trajectory(gas_scene(300, 0.05), 5000, tuning());
+    expect_same_trajectory(gas_scene(200, 0.6), 8000, tuning());
+    expect_same_trajectory(gas_scene(200, 0.05), 4000, tuning());
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryWidth,
                          ::testing::Values(Width::baseline, Width::avx2, Width::avx512),
                          [](const auto& parameter) -> std::string {
                              switch (parameter.param) {
-                                 case Width::avx512: return "avx512";
-                                 case Width::avx2: return "avx2";
-                                 default: return "baseline";
+                                 case Width::avx512:
+                                     return "avx512";
+                                 case Width::avx2:
+                                     return "avx2";
+                                 default:
+                                     return "baseline";
                              }
                          });
 
@@ -99,8 +102,10 @@ TEST(Observation, LookingDoesNotChangeABit) {
     std::int64_t frame = 0;
     while (watched.events().total() < 50000) {
         const double clock = paper_period * static_cast<double>(frame % 511) / 511.0;
-        if (watched.events().total() + 500 < 50000) watched.advance_to(frame / 511, clock);
-        else watched.step();
+        if (watched.events().total() + 500 < 50000)
+            watched.advance_to(frame / 511, clock);
+        else
+            watched.step();
         snapshot = watched.snapshot();
         ++frame;
     }

@@ -53,9 +53,8 @@ inline Scene mixture_scene(std::size_t n = 40) {
 
 /// An elastic gas of smooth discs in a dish that stands still.
 inline Scene gas_scene(std::size_t n, double packing_fraction, double speed = 1.0) {
-    return scene_of({unit_disc()}, n,
-                    square_root(static_cast<double>(n) / packing_fraction), still_path(10.0), 0.0,
-                    0.0, speed, 3);
+    return scene_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),
+                    still_path(10.0), 0.0, 0.0, speed, 3);
 }
 
 }  // namespace swirl
