@@ -53,9 +53,9 @@ class Parts {
 };
 
 /// How far all tasks are together, from what each says of itself.
-class Progress {
+class StudyProgress {
   public:
-    Progress(const PaperControl& control, double total) : control_(control), total_(total) {}
+    StudyProgress(const PaperControl& control, double total) : control_(control), total_(total) {}
 
     void add(double cost) {
         const std::lock_guard lock(mutex_);
@@ -76,7 +76,7 @@ bool stopped(const PaperControl& control) {
     return control.stop && control.stop->load(std::memory_order_relaxed);
 }
 
-Json work_on(const PaperTask& task, const PaperControl& control, Progress& progress) {
+Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& progress) {
     double reported = 0.0;
     RunControl inner;
     inner.stop = control.stop;
@@ -144,7 +144,7 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
 
     const double total = std::accumulate(left.begin(), left.end(), 0.0,
                                          [](double sum, const PaperTask* t) { return sum + t->cost; });
-    Progress progress(control, total);
+    StudyProgress progress(control, total);
     std::mutex results_mutex;
     try {
         on_all_cores(
