@@ -1,0 +1,61 @@
+// Where the discs are, in the M-frame: the paper's Figs 2b, 2c and 5c.
+//
+//   density of a cell = ⟨number of disc centres in it⟩ / area of the cell
+//
+// in discs per unit area (unit of length: the disc radius), averaged over looks. Summed over all
+// cells, times the area of a cell, it is the number of discs. By event, as in the paper: look after
+// every event, or after every k-th, which changes the error but not the mean. By time: look at
+// equal time steps. Error from blocks of periods (cell_averages.hpp).
+//
+// Source: paper, SI "Simulation parameters" (100 × 100 cells over the container's bounding square).
+// Limits: no looks: NaN everywhere. A centre outside the square is counted in outside() alone.
+#pragma once
+
+#include "measure/cell_averages.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/square_grid.hpp"
+
+namespace swirl {
+
+class DensityMap {
+  public:
+    explicit DensityMap(double container_radius, std::size_t side = 100)
+        : grid_{side, container_radius}, counts_(grid_.cells()) {}
+
+    void look(const MFrameView& view) {
+        counts_.add_weight();
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
+            if (cell == SquareGrid::nowhere)
+                outside_ += 1.0;
+            else
+                counts_.add(cell);
+        }
+    }
+    void close_block() { counts_.close_block(); }
+
+    const SquareGrid& grid() const { return grid_; }
+    Estimate density(std::size_t cell) const {
+        return scaled(counts_.estimate(cell), 1.0 / grid_.cell_area());
+    }
+    double count(std::size_t cell) const { return counts_.sum(cell); }
+    double looks() const { return counts_.weight(); }
+    double outside() const { return outside_; }
+
+    void merge(const DensityMap& other) {
+        counts_.merge(other.counts_);
+        outside_ += other.outside_;
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        counts_.fields(visit);
+        visit(outside_);
+    }
+
+  private:
+    SquareGrid grid_;
+    CellRates counts_;
+    double outside_ = 0.0;
+};
+
+}  // namespace swirl

@@ -1,0 +1,52 @@
+// How the discs move, in the M-frame: the arrows of the paper's Figs 2b, 2c and 5d.
+//
+//   flow of a cell = ⟨u⟩ over the discs found in it,
+//
+// u the velocity relative to the container, turned into the M-frame (m_frame.hpp): the paper's
+// "average local disc velocity deviation from the container". A disc that moves with the container
+// has 0.
+//
+// Units: the snapshot's velocity, in which the container's speed is 1. Normalisation: every disc
+// found in the cell counts the same, at every look. Error from blocks of periods
+// (cell_averages.hpp). Source: paper, SI "Simulation parameters" (20 × 20 cells over the
+// container's bounding square). Limits: a cell never visited has no flow (NaN). A centre outside
+// the square belongs to no cell.
+#pragma once
+
+#include "measure/cell_averages.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/square_grid.hpp"
+
+namespace swirl {
+
+class FlowMap {
+  public:
+    explicit FlowMap(double container_radius, std::size_t side = 20)
+        : grid_{side, container_radius}, cells_(grid_.cells()) {}
+
+    void look(const MFrameView& view) {
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
+            if (cell != SquareGrid::nowhere) cells_.add(cell, {view.ux[i], view.uy[i]});
+        }
+    }
+    void close_block() { cells_.close_block(); }
+
+    const SquareGrid& grid() const { return grid_; }
+    /// How often a disc was found in the cell.
+    double visits(std::size_t cell) const { return cells_.visits(cell); }
+    Estimate flow_x(std::size_t cell) const { return cells_.estimate(cell, 0); }
+    Estimate flow_y(std::size_t cell) const { return cells_.estimate(cell, 1); }
+
+    void merge(const FlowMap& other) { cells_.merge(other.cells_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        cells_.fields(visit);
+    }
+
+  private:
+    SquareGrid grid_;
+    CellMeans<2> cells_;
+};
+
+}  // namespace swirl

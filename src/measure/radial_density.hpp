@@ -1,0 +1,58 @@
+// How the discs are spread between the centre of the container and its wall.
+//
+//   ρ(ring) = ⟨number of disc centres in the ring⟩ / area of the ring
+//
+// in discs per unit area, about C. Rings are equally wide, from 0 to R. Σ ρ × area is the number of
+// discs. Times the area of a disc it is the packing fraction that many discs would have everywhere.
+//
+// Units: 1/length². Normalisation: per look. Error from blocks of periods. Limits: no looks: NaN. A
+// centre outside the container (a camera's error) is counted in no ring.
+#pragma once
+
+#include "measure/cell_averages.hpp"
+#include "measure/m_frame.hpp"
+
+namespace swirl {
+
+class RadialDensity {
+  public:
+    explicit RadialDensity(double container_radius, std::size_t rings = 43)
+        : container_radius_(container_radius), counts_(rings) {}
+
+    void look(const MFrameView& view) {
+        counts_.add_weight();
+        const double rings_per_length = static_cast<double>(counts_.size()) / container_radius_;
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const Vec2 p = view.position(i);
+            const double ring = square_root(dot(p, p)) * rings_per_length;
+            if (ring < static_cast<double>(counts_.size()))
+                counts_.add(static_cast<std::size_t>(ring));
+        }
+    }
+    void close_block() { counts_.close_block(); }
+
+    std::size_t rings() const { return counts_.size(); }
+    double inner_radius(std::size_t ring) const {
+        return container_radius_ * static_cast<double>(ring) / static_cast<double>(counts_.size());
+    }
+    double outer_radius(std::size_t ring) const { return inner_radius(ring + 1); }
+    double area(std::size_t ring) const {
+        const double inner = inner_radius(ring), outer = outer_radius(ring);
+        return pi * (outer - inner) * (outer + inner);
+    }
+    Estimate density(std::size_t ring) const {
+        return scaled(counts_.estimate(ring), 1.0 / area(ring));
+    }
+
+    void merge(const RadialDensity& other) { counts_.merge(other.counts_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        counts_.fields(visit);
+    }
+
+  private:
+    double container_radius_;
+    CellRates counts_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,39 @@
+// The container's bounding square in the M-frame, −R ≤ x, y ≤ R, cut into n × n equal cells: the
+// ground of the density map (paper, SI: 100 × 100) and the flow map (20 × 20).
+//
+// Cells are numbered row by row from the lower left: cell = row·n + column, rows with y. The square
+// is that of the paper's Fig. 5c: its corners lie outside the container and stay empty. A centre
+// outside the square (a camera's error) belongs to no cell.
+#pragma once
+
+#include <cstddef>
+
+#include "physics/vec2.hpp"
+
+namespace swirl {
+
+struct SquareGrid {
+    std::size_t side = 0;   // n
+    double half_width = 0;  // R
+
+    static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+
+    std::size_t cells() const { return side * side; }
+    double cell_width() const { return 2.0 * half_width / static_cast<double>(side); }
+    double cell_area() const { return cell_width() * cell_width(); }
+
+    std::size_t cell_at(double x, double y) const {
+        const double scale = static_cast<double>(side) / (2.0 * half_width);
+        const double column = (x + half_width) * scale, row = (y + half_width) * scale;
+        const double n = static_cast<double>(side);
+        if (!(column >= 0.0 && column < n && row >= 0.0 && row < n)) return nowhere;
+        return static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
+    }
+    Vec2 centre_of(std::size_t cell) const {
+        const double column = static_cast<double>(cell % side) + 0.5;
+        const double row = static_cast<double>(cell / side) + 0.5;
+        return {column * cell_width() - half_width, row * cell_width() - half_width};
+    }
+};
+
+}  // namespace swirl

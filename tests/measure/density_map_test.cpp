@@ -1,0 +1,90 @@
+#include "measure/density_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double R = paper_container_radius;
+
+TEST(DensityMap, UniformPointsGiveAFlatMap) {
+    DensityMap map(R, 10);
+    // A lattice of points, 5 × 5 in every cell, seen at many phases of the swirl.
+    for (int k = 0; k < 8; ++k) {
+        Snapshot s = empty_dish(k / 8.0);
+        const MFrame f = m_frame(s);
+        for (int row = 0; row < 50; ++row)
+            for (int column = 0; column < 50; ++column)
+                add_disc(
+                    s, f.lab_position({(column + 0.5) * R / 25.0 - R, (row + 0.5) * R / 25.0 - R}),
+                    {0.0, 0.0});
+        map.look(s);
+        map.close_block();
+    }
+    const double expected = 2500.0 / (4.0 * R * R);
+    for (std::size_t c = 0; c < map.grid().cells(); ++c) {
+        EXPECT_NEAR(map.density(c).mean, expected, 1e-13);
+        EXPECT_NEAR(map.density(c).error, 0.0, 1e-7);  // √ of a rounding error
+    }
+}
+
+TEST(DensityMap, ADiscIsInItsCellAndTheSumIsTheNumberOfDiscs) {
+    DensityMap map(R);
+    for (int k = 0; k < 10; ++k) map.look(random_discs(17, k, 0.1 * k));
+    map.close_block();
+    double sum = 0.0;
+    for (std::size_t c = 0; c < map.grid().cells(); ++c)
+        sum += map.density(c).mean * map.grid().cell_area();
+    EXPECT_NEAR(sum, 17.0, 1e-12);
+    EXPECT_EQ(map.outside(), 0.0);
+
+    DensityMap one(R, 20);
+    Snapshot s = empty_dish(0.7);
+    add_disc(s, m_frame(s).lab_position({3.0, -5.0}), {0.0, 0.0});
+    one.look(s);
+    one.close_block();
+    const std::size_t cell = one.grid().cell_at(3.0, -5.0);
+    EXPECT_EQ(one.count(cell), 1.0);
+    EXPECT_NEAR(one.grid().centre_of(cell).x, 3.0, 0.5 * one.grid().cell_width());
+    EXPECT_NEAR(one.grid().centre_of(cell).y, -5.0, 0.5 * one.grid().cell_width());
+}
+
+TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
+    const SquareGrid grid{4, 2.0};
+    EXPECT_EQ(grid.cell_at(-2.0, -2.0), 0u);
+    EXPECT_EQ(grid.cell_at(1.999, 1.999), 15u);
+    EXPECT_EQ(grid.cell_at(2.0, 0.0), SquareGrid::nowhere);
+    EXPECT_EQ(grid.cell_at(not_known, 0.0), SquareGrid::nowhere);
+    EXPECT_EQ(grid.cell_at(1e300, 0.0), SquareGrid::nowhere);
+    DensityMap map(R);
+    EXPECT_TRUE(std::isnan(map.density(0).mean));
+    Snapshot s = empty_dish();
+    add_disc(s, {100.0, 0.0}, {0.0, 0.0});
+    map.look(s);
+    map.close_block();
+    EXPECT_EQ(map.outside(), 1.0);
+    EXPECT_EQ(map.density(0).mean, 0.0);
+}
+
+TEST(DensityMap, MergedRunsAreOneLongRun) {
+    DensityMap whole(R, 20), first(R, 20), second(R, 20);
+    for (int k = 0; k < 12; ++k) {
+        const Snapshot s = random_discs(30, k, k / 12.0);
+        whole.look(s);
+        whole.close_block();
+        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).close_block();
+    }
+    first.merge(second);
+    for (std::size_t c = 0; c < whole.grid().cells(); ++c) {
+        EXPECT_EQ(first.density(c).mean, whole.density(c).mean);
+        EXPECT_EQ(first.density(c).error, whole.density(c).error);
+    }
+}
+
+}  // namespace
+}  // namespace swirl

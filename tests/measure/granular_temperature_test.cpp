@@ -1,0 +1,65 @@
+#include "measure/granular_temperature.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double R = paper_container_radius;
+
+/// Discs on the cells' centres that move with the rigid flow plus ±(a, b).
+Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2.0) {
+    Snapshot s = empty_dish(u);
+    const MFrame f = m_frame(s);
+    for (std::size_t c = 0; c < grid.cells(); ++c) {
+        const Vec2 p = grid.centre_of(c);
+        const Vec2 flow = 0.4 * perpendicular(p);
+        add_disc(s, f.lab_position(p),
+                 s.container_velocity + f.turn_back(flow + sign * Vec2{0.3, 0.4}), 1.0 + 2.0 * sign,
+                 1.0, mass);
+    }
+    return s;
+}
+
+TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
+    GranularTemperature temperature(R, 5);
+    for (int k = 0; k < 10; ++k) {
+        temperature.look(jiggling(temperature.grid(), k / 10.0, 1.0));
+        temperature.look(jiggling(temperature.grid(), k / 10.0, -1.0));
+        temperature.close_block();
+    }
+    // ½ m (0.3² + 0.4²) with m = 2; spins 3 and −1 with I = 20: 20 · 2².
+    EXPECT_NEAR(temperature.granular().mean, 0.25, 1e-13);
+    EXPECT_NEAR(temperature.temperature(7), 0.25, 1e-13);
+    EXPECT_NEAR(temperature.of_the_spin().mean, 80.0, 1e-12);
+}
+
+TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
+    GranularTemperature temperature(R, 5);
+    EXPECT_TRUE(std::isnan(temperature.granular().mean));
+    EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));
+    const SquareGrid grid = temperature.grid();
+    for (int k = 0; k < 4; ++k) {
+        Snapshot s = jiggling(grid, 0.25 * k, 0.0);
+        temperature.look(s);
+        temperature.close_block();
+    }
+    EXPECT_NEAR(temperature.granular().mean, 0.0, 1e-13);
+}
+
+TEST(GranularTemperature, MissingSpinsAreStated) {
+    GranularTemperature temperature(R, 5);
+    Snapshot s = random_discs(5, 1);
+    s.spin[2] = not_known;
+    temperature.look(s);
+    temperature.close_block();
+    EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));
+    EXPECT_FALSE(std::isnan(temperature.granular().mean));
+}
+
+}  // namespace
+}  // namespace swirl

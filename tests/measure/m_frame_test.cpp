@@ -1,0 +1,141 @@
+#include "measure/m_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/cluster_rotation.hpp"
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+const double omega = 2.0 * pi / paper_period;
+
+TEST(TurnsOf, IsTheInverseOfTheUnitCircle) {
+    for (int k = 0; k < 4096; ++k) {
+        const double u = k / 4096.0;
+        EXPECT_NEAR(turns_of(unit_circle(u)), u, 4e-16) << k;  // two ulp of 1
+        EXPECT_NEAR(turns_of(1e-9 * unit_circle(u)), u, 4e-16) << k;
+    }
+    EXPECT_EQ(turns_of({1.0, 0.0}), 0.0);
+    EXPECT_EQ(turns_of({0.0, 2.0}), 0.25);
+    EXPECT_EQ(turns_of({-3.0, 0.0}), 0.5);
+    EXPECT_EQ(turns_of({0.0, -1.0}), 0.75);
+    EXPECT_EQ(turns_of({0.0, 0.0}), 0.0);
+    EXPECT_GE(turns_of({1.0, -1e-300}), 0.0);
+    EXPECT_LT(turns_of({1.0, -1e-300}), 1.0);
+    EXPECT_TRUE(std::isnan(turns_of({not_known, 1.0})));
+    EXPECT_TRUE(std::isnan(turns_of({1.0, not_known})));
+}
+
+TEST(MFrame, TheSwirlCentreIsAboveAndMIsAtTheBottom) {
+    for (int k = 0; k < 30; ++k) {
+        const Snapshot s = empty_dish(k / 30.0);
+        const MFrame f = m_frame(s);
+        const Vec2 S = f.position({0.0, 0.0});
+        EXPECT_NEAR(S.x, 0.0, 1e-15);
+        EXPECT_NEAR(S.y, paper_amplitude, 1e-15);
+        const Vec2 M = (1.0 + paper_container_radius / paper_amplitude) * s.container_centre;
+        EXPECT_NEAR(f.position(M).x, 0.0, 1e-14);
+        EXPECT_NEAR(f.position(M).y, -paper_container_radius, 1e-14);
+    }
+}
+
+TEST(MFrame, ThereAndBackIsTheIdentity) {
+    for (int k = 0; k < 12; ++k) {
+        const Snapshot s = held_earlier(random_discs(20, k, k / 12.0));
+        const MFrame f = m_frame(s);
+        const Snapshot back = seen_from_lab(f, seen_from(f, s));
+        EXPECT_EQ(back.container_centre.x, s.container_centre.x);
+        EXPECT_EQ(back.container_velocity.y, s.container_velocity.y);
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            // Positions of size 10: a few ulp.
+            EXPECT_NEAR(back.position(i).x, s.position(i).x, 1e-14);
+            EXPECT_NEAR(back.position(i).y, s.position(i).y, 1e-14);
+            EXPECT_NEAR(back.vx[i], s.vx[i], 1e-14);
+            EXPECT_NEAR(back.vy[i], s.vy[i], 1e-14);
+            EXPECT_NEAR(back.spin[i], s.spin[i], 1e-15);
+            EXPECT_NEAR(back.orientation(i), s.orientation(i), 1e-14);
+        }
+    }
+}
+
+TEST(MFrame, ADiscCarriedByTheContainerMovesLikeItsWall) {
+    Snapshot s = empty_dish(0.3);
+    add_disc(s, s.container_centre + Vec2{3.0, 4.0}, s.container_velocity);
+    const MFrame f = m_frame(s);
+    const Vec2 p = f.position(s.position(0)), v = f.velocity(s.position(0), s.velocity(0));
+    EXPECT_NEAR(v.x, f.wall_velocity(p).x, 1e-15);
+    EXPECT_NEAR(v.y, f.wall_velocity(p).y, 1e-15);
+    EXPECT_NEAR(cross(p, v), -omega * 25.0, 1e-13);  // clockwise
+}
+
+TEST(MFrame, ADiscAtRestThereStaysWhereItIs) {
+    // Two instants of a disc that is fixed in the turning frame.
+    for (const double u : {0.1, 0.6}) {
+        Snapshot s = empty_dish(u);
+        const MFrame f = m_frame(s);
+        add_disc(s, f.lab_position({2.0, -3.0}), f.lab_velocity({2.0, -3.0}, {0.0, 0.0}));
+        const Snapshot later = [&] {
+            Snapshot t = empty_dish(u + 1e-7);
+            add_disc(t, s.position(0) + (1e-7 * paper_period) * s.velocity(0), s.velocity(0));
+            return t;
+        }();
+        const Vec2 p = m_frame(later).position(later.position(0));
+        EXPECT_NEAR(p.x, 2.0, 1e-11);  // second order in the step: (Ω dt)² × distance
+        EXPECT_NEAR(p.y, -3.0, 1e-11);
+    }
+}
+
+TEST(MFrame, RotationThereIsRotationInTheLabLessOmega) {
+    for (int k = 0; k < 20; ++k) {
+        Snapshot s = random_discs(30, 7 + k, k / 20.0);
+        Noise noise(k);
+        for (std::size_t i = 0; i < s.size(); ++i) s.mass[i] = 2.0 + noise();
+        s.container_velocity = {noise(), noise()};  // whatever the path
+        const RotationSample lab = cluster_rotation(s);
+        const RotationSample there = cluster_rotation(seen_from(m_frame(s), s));
+        EXPECT_NEAR(there.individual, lab.individual - omega, 1e-12);
+        EXPECT_NEAR(there.rigid, lab.rigid - omega, 1e-14);
+    }
+}
+
+TEST(MFrame, AStillContainerTurnsWithTheClock) {
+    Snapshot s = empty_dish(0.0);
+    s.container_centre = s.container_velocity = {0.0, 0.0};
+    s.clock = 0.25 * s.period;
+    EXPECT_NEAR(m_frame(s).down.x, 0.0, 1e-15);
+    EXPECT_NEAR(m_frame(s).down.y, 1.0, 1e-15);
+}
+
+TEST(MFrameView, HoldsWhatTheFrameSays) {
+    const Snapshot s = held_earlier(random_discs(13, 3, 0.4));
+    const MFrame f = m_frame(s);
+    const MFrameView view(s);
+    ASSERT_EQ(view.size(), s.size());
+    const Snapshot there = seen_from(f, s);
+    double mean = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        EXPECT_NEAR(view.x[i], there.x[i], 1e-14);
+        EXPECT_NEAR(view.y[i], there.y[i], 1e-14);
+        EXPECT_NEAR(view.velocity(i).x, there.vx[i], 1e-14);
+        EXPECT_NEAR(view.velocity(i).y, there.vy[i], 1e-14);
+        EXPECT_NEAR(std::cos(view.theta[i]), there.x[i] / std::hypot(there.x[i], there.y[i]),
+                    1e-13);
+        EXPECT_NEAR(std::sin(view.theta[i]), there.y[i] / std::hypot(there.x[i], there.y[i]),
+                    1e-13);
+        mean += view.varpi[i] / static_cast<double>(s.size());
+    }
+    EXPECT_NEAR(mean, cluster_rotation(s).individual, 1e-12);
+}
+
+TEST(MFrameView, OfNothingAndOfOneDisc) {
+    Snapshot s = empty_dish();
+    EXPECT_EQ(MFrameView(s).size(), 0u);
+    add_disc(s, {1.0, 2.0}, {0.0, 0.0});
+    EXPECT_TRUE(std::isnan(MFrameView(s).varpi[0]));
+}
+
+}  // namespace
+}  // namespace swirl

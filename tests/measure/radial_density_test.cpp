@@ -1,0 +1,57 @@
+#include "measure/radial_density.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+TEST(RadialDensity, UniformPointsAreFlat) {
+    RadialDensity density(10.0, 10);
+    // In ring k, 2k + 1 points for every point in ring 0: as the areas.
+    Snapshot s = empty_dish(0.3);
+    s.container_radius = 10.0;
+    for (int ring = 0; ring < 10; ++ring)
+        for (int k = 0; k < 4 * (2 * ring + 1); ++k)
+            add_disc(s, s.container_centre + (ring + 0.5) * unit_circle(k / (4.0 * (2 * ring + 1))),
+                     {0.0, 0.0});
+    for (int k = 0; k < 3; ++k) {
+        density.look(s);
+        density.close_block();
+    }
+    double sum = 0.0;
+    for (std::size_t k = 0; k < density.rings(); ++k) {
+        EXPECT_NEAR(density.density(k).mean, 4.0 / pi, 1e-13);
+        EXPECT_NEAR(density.density(k).error, 0.0, 1e-7);
+        sum += density.density(k).mean * density.area(k);
+    }
+    EXPECT_NEAR(sum, 400.0, 1e-10);
+}
+
+TEST(RadialDensity, NothingSeenIsNotANumberAndNobodyThereIsZero) {
+    RadialDensity density(8.6);
+    EXPECT_TRUE(std::isnan(density.density(0).mean));
+    density.look(empty_dish());
+    density.close_block();
+    EXPECT_EQ(density.density(0).mean, 0.0);
+}
+
+TEST(RadialDensity, MergedRunsAreOneLongRun) {
+    RadialDensity whole(8.6), first(8.6), second(8.6);
+    for (int k = 0; k < 12; ++k) {
+        const Snapshot s = random_discs(30, k, k / 12.0);
+        whole.look(s);
+        whole.close_block();
+        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).close_block();
+    }
+    first.merge(second);
+    for (std::size_t k = 0; k < whole.rings(); ++k)
+        EXPECT_EQ(first.density(k).mean, whole.density(k).mean);
+}
+
+}  // namespace
+}  // namespace swirl
