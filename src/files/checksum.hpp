@@ -17,8 +17,7 @@ constexpr CrcTables make_crc_tables() {
     CrcTables t{};
     for (std::uint64_t byte = 0; byte < 256; ++byte) {
         std::uint64_t c = byte;
-        for (int bit = 0; bit < 8; ++bit)
-            c = (c >> 1) ^ ((c & 1) ? 0xC96C5795D7870F42ull : 0ull);
+        for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) ? 0xC96C5795D7870F42ull : 0ull);
         t[0][byte] = c;
     }
     // t[k] is the byte followed by k zero bytes: eight bytes in one step.

@@ -55,8 +55,7 @@ void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOpt
         Text text;
         add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
             s.size());
-        add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach,
-            series.reach);
+        add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
         add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass omegaz\n");
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 p = s.position(i);
@@ -167,10 +166,14 @@ std::string vtp_of(const Snapshot& s) {
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
-        if (c == '&') out += "&amp;";
-        else if (c == '<') out += "&lt;";
-        else if (c == '"') out += "&quot;";
-        else out += c;
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
     }
     return out;
 }
@@ -223,7 +226,14 @@ struct GsdEntry {
 };
 static_assert(sizeof(GsdEntry) == 32);
 
-enum GsdType : std::uint8_t { gsd_u8 = 1, gsd_u32 = 3, gsd_u64 = 4, gsd_i8 = 5, gsd_f32 = 9, gsd_f64 };
+enum GsdType : std::uint8_t {
+    gsd_u8 = 1,
+    gsd_u32 = 3,
+    gsd_u64 = 4,
+    gsd_i8 = 5,
+    gsd_f32 = 9,
+    gsd_f64
+};
 
 class GsdWriter {
   public:
@@ -242,8 +252,7 @@ class GsdWriter {
         const auto id = std::find(std::begin(names), std::end(names), name) - std::begin(names);
         entries_.push_back({frame_, values.size() / columns, std::int64_t(file_.size()), columns,
                             std::uint16_t(id), type, 0});
-        file_.append(
-            {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+        file_.append({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
     }
     void end_frame() { ++frame_; }
     void finish() {
@@ -254,18 +263,26 @@ class GsdWriter {
         entries_.push_back({});
         header_.index_location = file_.size();
         header_.index_allocated_entries = entries_.size();
-        file_.append({reinterpret_cast<const char*>(entries_.data()),
-                      entries_.size() * sizeof(GsdEntry)});
+        file_.append(
+            {reinterpret_cast<const char*>(entries_.data()), entries_.size() * sizeof(GsdEntry)});
         file_.replace(0, {reinterpret_cast<const char*>(&header_), sizeof header_});
     }
 
   private:
-    static constexpr std::array names{
-        "configuration/step",     "configuration/dimensions", "configuration/box",
-        "particles/N",            "particles/types",          "particles/typeid",
-        "particles/mass",         "particles/diameter",       "particles/moment_inertia",
-        "particles/position",     "particles/orientation",    "particles/velocity",
-        "log/particles/angular_velocity", "log/time"};
+    static constexpr std::array names{"configuration/step",
+                                      "configuration/dimensions",
+                                      "configuration/box",
+                                      "particles/N",
+                                      "particles/types",
+                                      "particles/typeid",
+                                      "particles/mass",
+                                      "particles/diameter",
+                                      "particles/moment_inertia",
+                                      "particles/position",
+                                      "particles/orientation",
+                                      "particles/velocity",
+                                      "log/particles/angular_velocity",
+                                      "log/time"};
     WholeFile& file_;
     GsdHeader header_;
     std::vector<GsdEntry> entries_;
@@ -288,7 +305,8 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
             const std::vector<int> species = species_of(s, kinds);
             std::vector<char> types;
             for (int kind = 0; kind < kinds; ++kind)
-                for (const char c : fmt::format("D{:<14}", kind + 1)) types.push_back(c == ' ' ? '\0' : c);
+                for (const char c : fmt::format("D{:<14}", kind + 1))
+                    types.push_back(c == ' ' ? '\0' : c);
             gsd.add("particles/types", gsd_i8, types, 15);
             gsd.add("particles/typeid", gsd_u32,
                     std::vector<std::uint32_t>(species.begin(), species.end()), 1);
@@ -336,10 +354,18 @@ void export_series(const SnapshotSeries& series, ExportFormat format,
     if (format == ExportFormat::vtp) return write_vtp(series, path, options);
     WholeFile file(path);
     switch (format) {
-        case ExportFormat::lammps: write_lammps(series, file, options); break;
-        case ExportFormat::xyz: write_xyz(series, file, options); break;
-        case ExportFormat::csv: write_csv(series, file, options); break;
-        default: write_gsd(series, file, options); break;
+        case ExportFormat::lammps:
+            write_lammps(series, file, options);
+            break;
+        case ExportFormat::xyz:
+            write_xyz(series, file, options);
+            break;
+        case ExportFormat::csv:
+            write_csv(series, file, options);
+            break;
+        default:
+            write_gsd(series, file, options);
+            break;
     }
     file.finish();
 }

@@ -81,7 +81,9 @@ const H5FD_class_t& driver_class() {
                      H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
             return 0;
         };
-        c.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return driver_of(file).end_of_allocation; };
+        c.get_eoa = [](const H5FD_t* file, H5FD_mem_t) {
+            return driver_of(file).end_of_allocation;
+        };
         c.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
             driver_of(file).end_of_allocation = end;
             return 0;
@@ -141,8 +143,7 @@ std::string library_reason() {
     H5Ewalk2(
         H5E_DEFAULT, H5E_WALK_UPWARD,
         [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
-            if (depth == 0 && error->desc != nullptr)
-                *static_cast<std::string*>(out) = error->desc;
+            if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
             return 0;
         },
         &reason);
@@ -187,7 +188,8 @@ struct Hdf5File::State {
     std::string failure;
     hid_t id = -1;
 
-    State(const std::filesystem::path& p, StagedFile::Mode mode) : path(p.string()), staged(p, mode) {}
+    State(const std::filesystem::path& p, StagedFile::Mode mode)
+        : path(p.string()), staged(p, mode) {}
 
     static void leak(const std::shared_ptr<State>& state) { new std::shared_ptr<State>(state); }
     [[noreturn]] void fail(std::string_view what) {
@@ -404,9 +406,8 @@ void Hdf5File::write(const std::string& name, const std::vector<T>& values,
                                 properties, H5P_DEFAULT),
                      H5Dclose);
     state_->check(set, "creating " + name);
-    state_->check(
-        H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-        "writing " + name);
+    state_->check(H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                  "writing " + name);
 }
 
 void Hdf5File::write(const std::string& name, const std::string& text) {
@@ -415,9 +416,9 @@ void Hdf5File::write(const std::string& name, const std::string& text) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(properties, false);
-    const Handle set(H5Dcreate2(state_->id, name.c_str(), type, space, H5P_DEFAULT, properties,
-                                H5P_DEFAULT),
-                     H5Dclose);
+    const Handle set(
+        H5Dcreate2(state_->id, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+        H5Dclose);
     state_->check(set, "creating " + name);
     const std::string padded = text.empty() ? std::string(1, '\0') : text;
     state_->check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()),
@@ -428,8 +429,7 @@ Column Hdf5File::column(const std::string& name) const {
     const Locked lock(library_lock());
     if (!has(name)) throw FileError(fmt::format("'{}' has no {}.", state_->path, name));
     const hid_t id = H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT);
-    if (id < 0)
-        throw FileError(fmt::format("{} in '{}' is not a dataset.", name, state_->path));
+    if (id < 0) throw FileError(fmt::format("{} in '{}' is not a dataset.", name, state_->path));
     return {std::make_shared<Column::Handle>(state_, id), name};
 }
 
@@ -440,8 +440,8 @@ std::string Hdf5File::read_text(const std::string& name) const {
     state_->check(set, "opening " + name);
     const Handle type(H5Dget_type(set), H5Tclose);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
-        throw FileError(fmt::format("{} in '{}' is not a text of fixed length.", name,
-                                    state_->path));
+        throw FileError(
+            fmt::format("{} in '{}' is not a text of fixed length.", name, state_->path));
     std::string text(H5Tget_size(type), '\0');
     state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
                   "reading " + name);
@@ -488,8 +488,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              const std::vector<std::int64_t>& values) {
     const Locked lock(library_lock());
     const hsize_t size = values.size();
-    const Handle space(
-        size == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle space(size == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr),
+                       H5Sclose);
     state_->write_attribute(object, name, H5T_NATIVE_INT64, space, values.data());
 }
 
@@ -529,8 +529,8 @@ double Hdf5File::number_attribute(const std::string& object, const std::string& 
     double value = 0.0;
     if (H5Sget_simple_extent_npoints(space) != 1 ||
         H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
-        throw FileError(fmt::format("Attribute {} at {} in '{}' is not a number.", name, object,
-                                    state_->path));
+        throw FileError(
+            fmt::format("Attribute {} at {} in '{}' is not a number.", name, object, state_->path));
     return value;
 }
 
@@ -566,11 +566,11 @@ void Hdf5File::attach_scales(const std::string& dataset, const std::vector<std::
     }
 }
 
-#define SWIRL_FOR_COLUMNS_OF(T)                                                                   \
-    template void Column::append<T>(const T*, std::uint64_t);                                     \
-    template std::vector<T> Column::read<T>(std::uint64_t, std::uint64_t) const;                  \
-    template Column Hdf5File::create_column<T>(const std::string&, const Dimensions&,             \
-                                               std::uint64_t, int);                               \
+#define SWIRL_FOR_COLUMNS_OF(T)                                                       \
+    template void Column::append<T>(const T*, std::uint64_t);                         \
+    template std::vector<T> Column::read<T>(std::uint64_t, std::uint64_t) const;      \
+    template Column Hdf5File::create_column<T>(const std::string&, const Dimensions&, \
+                                               std::uint64_t, int);                   \
     template void Hdf5File::write<T>(const std::string&, const std::vector<T>&, const Dimensions&)
 
 SWIRL_FOR_COLUMNS_OF(double);

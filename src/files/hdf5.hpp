@@ -23,7 +23,7 @@ using Dimensions = std::vector<std::uint64_t>;
 /// The types a column may have: double, std::int64_t, std::uint32_t, std::uint8_t.
 template <class T>
 concept ColumnValue = std::same_as<T, double> || std::same_as<T, std::int64_t> ||
-                      std::same_as<T, std::uint32_t> || std::same_as<T, std::uint8_t>;
+    std::same_as<T, std::uint32_t> || std::same_as<T, std::uint8_t>;
 
 class Hdf5File;
 
@@ -83,8 +83,7 @@ class Hdf5File {
     /// A second name for the same object.
     void link(const std::string& existing, const std::string& name);
 
-    void set_attribute(const std::string& object, const std::string& name,
-                       const std::string& text);
+    void set_attribute(const std::string& object, const std::string& name, const std::string& text);
     void set_attribute(const std::string& object, const std::string& name,
                        const std::vector<std::string>& texts);
     void set_attribute(const std::string& object, const std::string& name, double value);

@@ -44,8 +44,8 @@ StagedFile::StagedFile(const std::filesystem::path& path, Mode mode)
     const int how = mode == Mode::read ? O_RDONLY : O_RDWR | (mode == Mode::create ? O_CREAT : 0);
     file_ = ::open(path.c_str(), how | O_CLOEXEC, 0666);
     if (file_ < 0)
-        throw FileError(fmt::format("'{}' could not be opened: {}.", path.string(),
-                                    system_reason()));
+        throw FileError(
+            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
     if (mode != Mode::read && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         ::close(file_);
         throw FileError(fmt::format(
@@ -108,8 +108,8 @@ void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t s
         const ssize_t got = ::pread(file_, p, size, static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
-            throw FileError(fmt::format("'{}' could not be read: {}.", path_.string(),
-                                        system_reason()));
+            throw FileError(
+                fmt::format("'{}' could not be read: {}.", path_.string(), system_reason()));
         if (got == 0) {
             std::memset(p, 0, size);
             return;
@@ -135,8 +135,8 @@ void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) const
 
 void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
     if (!write_at(file_, offset, bytes, size))
-        throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(),
-                                    system_reason()));
+        throw FileError(
+            fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
 }
 
 void StagedFile::write(std::uint64_t offset, const void* bytes, std::size_t size) {
@@ -166,8 +166,7 @@ void StagedFile::resize(std::uint64_t size) {
 }
 
 void StagedFile::write_journal(bool durable) {
-    if (journal_ < 0)
-        journal_ = ::open(journal_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (journal_ < 0) journal_ = ::open(journal_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     std::vector<unsigned char> bytes(sizeof(JournalHead));
     Checksum sum;
     for (const auto& [number, page] : waiting_) {
@@ -191,16 +190,16 @@ void StagedFile::copy_pages() {
     for (const auto& [number, page] : waiting_)
         write_to_disk(number * page_size, page.data(), page_size);
     if (::ftruncate(file_, static_cast<off_t>(size_)) != 0)
-        throw FileError(fmt::format("'{}' could not be resized: {}.", path_.string(),
-                                    system_reason()));
+        throw FileError(
+            fmt::format("'{}' could not be resized: {}.", path_.string(), system_reason()));
 }
 
 void StagedFile::commit(bool durable) {
     if (abandoned_) return;
     // What the journal's pages will refer to must be there before them.
     if (durable && ::fdatasync(file_) != 0)
-        throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(),
-                                    system_reason()));
+        throw FileError(
+            fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
     write_journal(durable);
     committed_ = size_;  // from here on the commit has happened, if need be when the file is opened
     copy_pages();

@@ -94,8 +94,7 @@ std::uint64_t fill_gaps(std::map<std::int64_t, Track>& tracks) {
             const std::int64_t gap = b->first - a->first;
             if (gap - 1 > longest_gap) continue;
             for (std::int64_t k = 1; k < gap; ++k)
-                added[a->first + k] =
-                    a->second + double(k) / double(gap) * (b->second - a->second);
+                added[a->first + k] = a->second + double(k) / double(gap) * (b->second - a->second);
         }
         filled += added.size();
         track.merge(added);
@@ -127,16 +126,14 @@ class TrackSeries {
         s.container_radius = scale_.container_radius;
         const Vec2 direction = unit_circle(scale_.phase / (2.0 * pi) + s.clock / s.period);
         s.container_centre = scale_.amplitude * direction;
-        s.container_velocity =
-            (scale_.amplitude * 2.0 * pi / s.period) * perpendicular(direction);
+        s.container_velocity = (scale_.amplitude * 2.0 * pi / s.period) * perpendicular(direction);
         for (std::size_t i = 0; i < s.size(); ++i) {
             const double mass = f.mass.empty() ? 1.0 : f.mass[i];
-            s.set(i, {lab(f.position[i]), velocity(k, i),
-                      std::numeric_limits<double>::quiet_NaN(),
-                      f.spin.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                     : sense() * f.spin[i],
-                      s.clock, f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius,
-                      mass, std::numeric_limits<double>::quiet_NaN()});
+            s.set(i,
+                  {lab(f.position[i]), velocity(k, i), std::numeric_limits<double>::quiet_NaN(),
+                   f.spin.empty() ? std::numeric_limits<double>::quiet_NaN() : sense() * f.spin[i],
+                   s.clock, f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass,
+                   std::numeric_limits<double>::quiet_NaN()});
         }
         return s;
     }
@@ -184,7 +181,8 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     const auto frame = index_of(names, "frame"), particle = index_of(names, "particle");
     const auto x = index_of(names, "x"), y = index_of(names, "y");
     if (!frame || !particle || !x || !y)
-        lines.wrong("the header must name the columns frame, particle, x and y, separated by commas");
+        lines.wrong(
+            "the header must name the columns frame, particle, x and y, separated by commas");
 
     std::map<std::int64_t, Track> tracks;
     std::string_view line;
@@ -194,17 +192,15 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         if (parts.size() != names.size())
             lines.wrong(fmt::format("{} values, but the header names {} columns", parts.size(),
                                     names.size()));
-        const bool fresh =
-            tracks[lines.whole(parts[*particle])]
-                .try_emplace(lines.whole(parts[*frame]),
-                             Vec2{lines.number(parts[*x]), lines.number(parts[*y])})
-                .second;
+        const bool fresh = tracks[lines.whole(parts[*particle])]
+                               .try_emplace(lines.whole(parts[*frame]),
+                                            Vec2{lines.number(parts[*x]), lines.number(parts[*y])})
+                               .second;
         if (!fresh)
             lines.wrong(fmt::format("particle {} appears twice in frame {}", parts[*particle],
                                     parts[*frame]));
     }
-    if (tracks.empty())
-        throw FileError(fmt::format("'{}' holds no positions.", path.string()));
+    if (tracks.empty()) throw FileError(fmt::format("'{}' holds no positions.", path.string()));
 
     Tracks result;
     result.y_down = true;
@@ -260,8 +256,8 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
             for (std::int64_t k = 0; k < atoms; ++k) {
                 const auto parts = split(lines.expect("an atom"), ' ');
                 if (parts.size() != names.size())
-                    lines.wrong(fmt::format("{} values for {} columns", parts.size(),
-                                            names.size()));
+                    lines.wrong(
+                        fmt::format("{} values for {} columns", parts.size(), names.size()));
                 const auto value = [&](const std::optional<std::size_t>& at, double otherwise) {
                     return at ? lines.number(parts[*at]) : otherwise;
                 };
@@ -288,8 +284,7 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
             lines.wrong("this is not a LAMMPS text dump: 'ITEM: …' was expected");
         }
     }
-    if (result.frames.empty())
-        throw FileError(fmt::format("'{}' holds no frames.", path.string()));
+    if (result.frames.empty()) throw FileError(fmt::format("'{}' holds no frames.", path.string()));
     return result;
 }
 

@@ -9,8 +9,8 @@
 // (one-sided at the ends of a track): they miss a fraction (ΩΔt)²/6 of a circular motion.
 //
 // Units of the result: length in disc radii, time in the unit of `frames_per_time`. The container
-// is where a swirl of the given amplitude, period and phase puts it; the swirl centre is the origin.
-// Orientation and spin of a tracked disc are not known (NaN).
+// is where a swirl of the given amplitude, period and phase puts it; the swirl centre is the
+// origin. Orientation and spin of a tracked disc are not known (NaN).
 #pragma once
 
 #include <cstdint>
@@ -42,10 +42,10 @@ struct Tracks {
 struct TrackScale {
     double frames_per_time = 960.0;
     double pixels_per_radius = 1.0;
-    Vec2 swirl_centre{0.0, 0.0};  // in pixels
-    double period = 1.0;          // T, in time units
-    double amplitude = 0.0;       // of the swirl, in disc radii
-    double phase = 0.0;           // of the container at frame 0, rad, counter-clockwise from +x
+    Vec2 swirl_centre{0.0, 0.0};    // in pixels
+    double period = 1.0;            // T, in time units
+    double amplitude = 0.0;         // of the swirl, in disc radii
+    double phase = 0.0;             // of the container at frame 0, rad, counter-clockwise from +x
     double container_radius = 0.0;  // in disc radii
     bool clockwise = false;         // the camera saw the swirl run clockwise: mirror x
 };

@@ -113,8 +113,7 @@ void create_layout(Hdf5File& file, const Snapshot& first, int compression) {
     file.create_group(observables);
     create_observable<std::int64_t>(file, "swirls", compression);
     create_observable<std::int64_t>(file, "events", compression);
-    for (const char* name :
-         {"clock", "container_x", "container_y", "container_vx", "container_vy"})
+    for (const char* name : {"clock", "container_x", "container_y", "container_vx", "container_vy"})
         create_observable<double>(file, name, compression);
 }
 
@@ -250,9 +249,9 @@ void TrajectoryWriter::finish() {
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     : file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
     if (!file_->has_attribute("/h5md", "version") || !file_->has(particles + "/position/value"))
-        throw FileError(fmt::format(
-            "'{}' is an HDF5 file, but not a trajectory: it has no {}/position.", path.string(),
-            particles));
+        throw FileError(
+            fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}/position.",
+                        path.string(), particles));
     if (!file_->has(parameters) || !file_->has(observables + "/swirls/value"))
         throw FileError(fmt::format(
             "'{}' is an H5MD file of another program: it has no record of the container.",
@@ -272,10 +271,9 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     container_vx_ = numbers("container_vx");
     container_vy_ = numbers("container_vy");
     // A file cut off between two columns counts as far as all of them go.
-    frames_ = std::min({position_.rows(), velocity_.rows(), angle_.rows(),
-                        angular_velocity_.rows(), swirls_.size(), events_.size(), clock_.size(),
-                        container_x_.size(), container_y_.size(), container_vx_.size(),
-                        container_vy_.size()});
+    frames_ = std::min({position_.rows(), velocity_.rows(), angle_.rows(), angular_velocity_.rows(),
+                        swirls_.size(), events_.size(), clock_.size(), container_x_.size(),
+                        container_y_.size(), container_vx_.size(), container_vy_.size()});
     fixed_.resize(file_->column(particles + "/radius").rows());
     fixed_.radius = file_->column(particles + "/radius").read<double>();
     fixed_.mass = file_->column(particles + "/mass").read<double>();
@@ -285,9 +283,10 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
     block_ = frames_per_chunk(discs());
     if (position_.row_shape() != Dimensions{discs(), 3} ||
-        velocity_.row_shape() != Dimensions{discs(), 3} || angle_.row_shape() != Dimensions{discs()})
-        throw FileError(fmt::format("'{}' contradicts itself: its columns differ in shape.",
-                                    path.string()));
+        velocity_.row_shape() != Dimensions{discs(), 3} ||
+        angle_.row_shape() != Dimensions{discs()})
+        throw FileError(
+            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
 }
 
 void TrajectoryReader::load_block_of(std::uint64_t k) {

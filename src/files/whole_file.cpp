@@ -69,8 +69,7 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::fail() {
-    throw FileError(
-        fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
+    throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
 }
 
 void WholeFile::empty_buffer() {
@@ -110,8 +109,8 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 std::string read_whole_file(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
-        throw FileError(fmt::format("'{}' could not be opened: {}.", path.string(),
-                                    system_reason()));
+        throw FileError(
+            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
     std::string bytes;
     struct stat about;
     if (::fstat(file, &about) == 0 && about.st_size > 0)

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "files/file_error.hpp"
+#include "files/state_archive.hpp"
 #include "lab/failure.hpp"
 
 namespace swirl {
@@ -59,11 +62,46 @@ class SampleTimes {
     }
     void begin_swirl() { next_ = 0; }
 
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(next_);
+    }
+
   private:
     int per_period_;
     double period_;
     int next_ = 0;
 };
+
+/// A trajectory between two events.
+struct Moment {
+    Progress progress;
+    std::vector<Disc> discs;
+
+    static Moment of(const Simulation& simulation) {
+        Moment m{simulation.progress(), {}};
+        for (std::size_t i = 0; i < simulation.size(); ++i) m.discs.push_back(simulation.disc(i));
+        return m;
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(progress.swirls, progress.clock, progress.leg, progress.events);
+        visit(discs);
+    }
+};
+
+Simulation begin(const RunConfig& config, std::optional<StateReader>& kept) {
+    Scene scene = make_scene(config);
+    Moment moment;
+    if (kept) {
+        (*kept)(moment);
+        if (moment.discs.size() != scene.discs.size() ||
+            moment.progress.leg >= scene.path.legs.size())
+            throw FileError("The saved state is that of another run.");
+        scene.discs = moment.discs;
+    }
+    return Simulation(scene, moment.progress);
+}
 
 class Run {
   public:
@@ -71,15 +109,20 @@ class Run {
         : config_(config),
           control_(control),
           path_(make_path(config)),
-          simulation_(make_scene(config)),
+          kept_(control.resume ? std::optional<StateReader>(*control.resume) : std::nullopt),
+          simulation_(begin(config, kept_)),
           snapshot_(simulation_.snapshot()),
           rotation_times_(rotation_samples, config.period),
-          caller_times_(control.samples_per_period, config.period),
           warm_(config.warmup == 0) {
         const Budget start = budget_of(snapshot_);
         result_.config = config;
         result_.energy_at_start = start.energy;
         result_.invariant_at_start = start.invariant;
+        for (const RunControl::Sampler& sampler : control.samplers)
+            caller_times_.emplace_back(sampler.per_period, config.period);
+        if (!kept_) return;
+        fields(*kept_);
+        kept_->expect_end();
     }
 
     RunResult operator()() {
@@ -87,19 +130,45 @@ class Run {
         auto last_report = begin;
         while (!done()) {
             for (int k = 0; k < patience && !done(); ++k) step();
-            if (control_.stop && control_.stop->load(std::memory_order_relaxed)) break;
+            const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
+            if (!done()) offer_state(stopped, seconds_before_ + seconds_since(begin));
+            if (stopped) break;
             const auto now = Clock::now();
             if (!control_.progress || now - last_report < progress_interval) continue;
             last_report = now;
             control_.progress({fraction(), simulation_.events().total(), periods()});
         }
         result_.complete = done();
-        result_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+        result_.seconds = seconds_before_ + seconds_since(begin);
         finish();
         return result_;
     }
 
   private:
+    static double seconds_since(Clock::time_point begin) {
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+
+    /// What the run has gathered beside the moment it has reached.
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(seconds_before_, warm_, rotation_times_, in_warmup_, after_warmup_);
+        visit(result_.warmup, result_.warmup_events, result_.max_overlap);
+        visit(result_.energy_at_start, result_.invariant_at_start);
+        for (SampleTimes& times : caller_times_) visit(times);
+    }
+
+    void offer_state(bool stopped, double seconds) {
+        if (!control_.wants_state || !control_.wants_state(stopped)) return;
+        StateWriter state;
+        Moment moment = Moment::of(simulation_);
+        state(moment);
+        const double before = std::exchange(seconds_before_, seconds);
+        fields(state);
+        seconds_before_ = before;
+        control_.keep_state(state.bytes());
+    }
+
     bool done() const {
         if (config_.periods) return simulation_.swirls() >= *config_.periods;
         return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
@@ -117,7 +186,8 @@ class Run {
         const Event event = simulation_.step();
         rotation_times_.pass(snapshot_, path_, event.clock,
                              [&](const Snapshot& s) { average().look_in_time(s); });
-        if (control_.sample) caller_times_.pass(snapshot_, path_, event.clock, control_.sample);
+        for (std::size_t k = 0; k < caller_times_.size(); ++k)
+            caller_times_[k].pass(snapshot_, path_, event.clock, control_.samplers[k].look);
 
         simulation_.refresh(snapshot_, event);
         average().look(snapshot_);
@@ -129,7 +199,7 @@ class Run {
 
     void begin_swirl() {
         rotation_times_.begin_swirl();
-        caller_times_.begin_swirl();
+        for (SampleTimes& times : caller_times_) times.begin_swirl();
         average().close_block();
         if (warm_ || !warm_now()) return;
         warm_ = true;
@@ -168,9 +238,12 @@ class Run {
     const RunConfig config_;
     const RunControl& control_;
     const ContainerPath path_;
+    std::optional<StateReader> kept_;
     Simulation simulation_;
     Snapshot snapshot_;
-    SampleTimes rotation_times_, caller_times_;
+    SampleTimes rotation_times_;
+    std::vector<SampleTimes> caller_times_;
+    double seconds_before_ = 0.0;  // by the runs that this one resumes
     ClusterRotation in_warmup_, after_warmup_;
     bool warm_;
     RunResult result_;

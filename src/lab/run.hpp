@@ -5,6 +5,9 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "lab/run_config.hpp"
 #include "measure/cluster_rotation.hpp"
@@ -55,10 +58,23 @@ struct RunControl {
     /// Called after every event, warm-up included, with the state just after it.
     std::function<void(const Snapshot&, const Event&)> after_event;
 
-    /// Called at `samples_per_period` equal intervals, warm-up included: at the exact state at the
-    /// exact times k T / samples_per_period.
-    int samples_per_period = 0;
-    std::function<void(const Snapshot&)> sample;
+    /// Each looks at equal intervals, warm-up included: at the exact state at the exact times
+    /// k T / per_period.
+    struct Sampler {
+        int per_period;
+        std::function<void(const Snapshot&)> look;
+    };
+    std::vector<Sampler> samplers;
+
+    /// Asked every few hundred events, and once when the run is stopped: does the caller want to
+    /// keep the state of the run?
+    std::function<bool(bool stopped)> wants_state;
+    /// Gets it (state_archive.hpp): a run that resumes from it goes on bit for bit, and ends with
+    /// the same result.
+    std::function<void(const std::string& state)> keep_state;
+    /// What keep_state got, of a run with the same configuration and samplers. Throws FileError if
+    /// it is something else.
+    std::optional<std::string> resume;
 };
 
 /// The configuration must have no problem().

@@ -1,4 +1,5 @@
-// What the tests of the files need: a folder of their own, small scenes, and other people's readers.
+// What the tests of the files need: a folder of their own, small scenes, and other people's
+// readers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "physics/snapshot.hpp"
@@ -37,6 +39,11 @@ class Scratch {
     std::filesystem::path folder_;
 };
 
+/// Without waiting for the disk.
+inline void write_quickly(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
 /// The paper's dish.
 inline Scene paper_scene(int discs, std::uint64_t seed) {
     Scene scene;
@@ -64,8 +71,14 @@ inline Snapshot known_frame(std::size_t discs, std::uint64_t k) {
     s.container_velocity = {0.3, 0.4 + double(k)};
     for (std::size_t i = 0; i < discs; ++i) {
         const double u = double(i) + double(k) / 3.0;
-        s.set(i, {{u / 7.0, -u / 11.0}, {u / 13.0, u / 17.0}, u / 19.0, -u / 23.0, s.clock,
-                  i % 2 ? 1.0 : 1.25, i % 2 ? 1.0 : 1.5625, 10.0 + double(i)});
+        s.set(i, {{u / 7.0, -u / 11.0},
+                  {u / 13.0, u / 17.0},
+                  u / 19.0,
+                  -u / 23.0,
+                  s.clock,
+                  i % 2 ? 1.0 : 1.25,
+                  i % 2 ? 1.0 : 1.5625,
+                  10.0 + double(i)});
     }
     return s;
 }
@@ -87,14 +100,14 @@ inline Ran run_command(const std::string& command) {
 
 /// Reads a file with somebody else's program (independent_readers.py) and compares with
 /// known_frame(discs, 0 … frames − 1). Skips, and says so, where that program is not installed.
-#define EXPECT_READER_AGREES(reader, file, discs, frames)                                         \
-    do {                                                                                          \
-        const auto ran = run_command(                                                             \
-            "/usr/bin/python3 " SWIRL_SOURCE_DIR "/tests/files/independent_readers.py " +         \
-            std::string(reader) + " '" + (file).string() + "' " + std::to_string(discs) + " " +  \
-            std::to_string(frames));                                                              \
-        if (ran.code == 77) GTEST_SKIP() << ran.output;                                           \
-        EXPECT_EQ(ran.code, 0) << ran.output;                                                     \
+#define EXPECT_READER_AGREES(reader, file, discs, frames)                                   \
+    do {                                                                                    \
+        const auto ran = run_command("/usr/bin/python3 " SWIRL_SOURCE_DIR                   \
+                                     "/tests/files/independent_readers.py " +               \
+                                     std::string(reader) + " '" + (file).string() + "' " +  \
+                                     std::to_string(discs) + " " + std::to_string(frames)); \
+        if (ran.code == 77) GTEST_SKIP() << ran.output;                                     \
+        EXPECT_EQ(ran.code, 0) << ran.output;                                               \
     } while (false)
 
 }  // namespace swirl

@@ -93,8 +93,8 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
     std::memcpy(journal.data() + 8, numbers, sizeof numbers);
 
     const auto opened = [&](std::size_t journal_size, std::size_t copied) {
-        write_whole_file(scratch / "f", std::string(copied, 'b') + old_bytes.substr(copied));
-        write_whole_file(scratch / "f.journal", journal.substr(0, journal_size));
+        write_quickly(scratch / "f", std::string(copied, 'b') + old_bytes.substr(copied));
+        write_quickly(scratch / "f.journal", journal.substr(0, journal_size));
         const std::string seen = content(scratch / "f");
         StagedFile file(scratch / "f", Mode::change);  // repairs
         EXPECT_EQ(content(scratch / "f"), seen);

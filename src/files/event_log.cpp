@@ -1,0 +1,243 @@
+#include "files/event_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "files/file_error.hpp"
+#include "files/whole_file.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr std::uint64_t chunk = 16384;
+constexpr std::chrono::milliseconds flush_interval(500);
+const std::string parameters = "/parameters";
+
+std::filesystem::path partial_name(const std::filesystem::path& path) {
+    return path.string() + std::string(partial_suffix);
+}
+
+std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y) {
+    std::vector<double> both;
+    for (std::size_t i = 0; i < x.size(); ++i) both.insert(both.end(), {x[i], y[i]});
+    return both;
+}
+
+template <class T, class Field>
+void append(Column& column, const std::vector<Event>& events, Field&& field) {
+    std::vector<T> values;
+    values.reserve(events.size());
+    for (const Event& e : events) values.push_back(static_cast<T>(field(e)));
+    column.append(values.data(), values.size());
+}
+
+}  // namespace
+
+EventLogWriter::EventLogWriter(const std::filesystem::path& path, Hdf5File file)
+    : path_(path),
+      file_(std::make_unique<Hdf5File>(std::move(file))),
+      last_flush_(std::chrono::steady_clock::now()) {}
+
+EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot& initial,
+                               double swirl_end, const Provenance& provenance, int compression)
+    : EventLogWriter(path, Hdf5File(partial_name(path), StagedFile::Mode::create)) {
+    Hdf5File& file = *file_;
+    const std::uint64_t n = initial.size();
+    file.create_group("/initial");
+    file.write("/initial/position", pairs(initial.x, initial.y), {n, 2});
+    file.write("/initial/velocity", pairs(initial.vx, initial.vy), {n, 2});
+    file.write("/initial/angle", initial.angle, {n});
+    file.write("/initial/spin", initial.spin, {n});
+    file.write("/initial/radius", initial.radius, {n});
+    file.write("/initial/mass", initial.mass, {n});
+    file.write("/initial/moment_of_inertia", initial.inertia, {n});
+    file.create_group("/events");
+    file.create_column<std::int64_t>("/events/swirls", {}, chunk, compression);
+    for (const char* name :
+         {"clock", "normal_x", "normal_y", "normal_impulse", "tangential_impulse"})
+        file.create_column<double>(std::string("/events/") + name, {}, chunk, compression);
+    for (const char* name : {"i", "j"})
+        file.create_column<std::uint32_t>(std::string("/events/") + name, {}, chunk, compression);
+    for (const char* name : {"kind", "sticks"})
+        file.create_column<std::uint8_t>(std::string("/events/") + name, {}, chunk, compression);
+    file.create_group(parameters);
+    for (const auto& [name, text] : provenance) file.write(parameters + "/" + name, text);
+    file.set_attribute(parameters, "period", initial.period);
+    file.set_attribute(parameters, "swirl_end", swirl_end);
+    file.set_attribute(parameters, "container_radius", initial.container_radius);
+    file.set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
+    open_columns();
+    flush();
+}
+
+EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::uint64_t events) {
+    EventLogWriter writer(path, Hdf5File(partial_name(path), StagedFile::Mode::change));
+    writer.open_columns();
+    Columns& c = writer.columns_;
+    for (Column* column : {&c.swirls, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y,
+                           &c.normal_impulse, &c.tangential_impulse, &c.sticks}) {
+        if (column->rows() < events)
+            throw FileError(fmt::format(
+                "'{}' holds {} events, but the checkpoint was made when it held {}; it does not "
+                "belong to the checkpoint, or has been changed since.",
+                partial_name(path).string(), column->rows(), events));
+        column->resize(events);
+    }
+    writer.events_ = events;
+    return writer;
+}
+
+void EventLogWriter::open_columns() {
+    const auto column = [&](const char* name) {
+        return file_->column(std::string("/events/") + name);
+    };
+    columns_ = {column("swirls"),
+                column("clock"),
+                column("kind"),
+                column("i"),
+                column("j"),
+                column("normal_x"),
+                column("normal_y"),
+                column("normal_impulse"),
+                column("tangential_impulse"),
+                column("sticks")};
+}
+
+void EventLogWriter::empty_buffer() {
+    Columns& c = columns_;
+    append<std::int64_t>(c.swirls, buffer_, [](const Event& e) { return e.swirls; });
+    append<double>(c.clock, buffer_, [](const Event& e) { return e.clock; });
+    append<std::uint8_t>(c.kind, buffer_, [](const Event& e) { return e.kind; });
+    append<std::uint32_t>(c.i, buffer_, [](const Event& e) { return e.i; });
+    append<std::uint32_t>(c.j, buffer_, [](const Event& e) { return e.j; });
+    append<double>(c.normal_x, buffer_, [](const Event& e) { return e.normal.x; });
+    append<double>(c.normal_y, buffer_, [](const Event& e) { return e.normal.y; });
+    append<double>(c.normal_impulse, buffer_, [](const Event& e) { return e.impulse.normal; });
+    append<double>(c.tangential_impulse, buffer_,
+                   [](const Event& e) { return e.impulse.tangential; });
+    append<std::uint8_t>(c.sticks, buffer_, [](const Event& e) { return e.impulse.sticks; });
+    buffer_.clear();
+    if (std::chrono::steady_clock::now() - last_flush_ < flush_interval) return;
+    file_->flush();
+    last_flush_ = std::chrono::steady_clock::now();
+}
+
+void EventLogWriter::flush(bool durable) {
+    empty_buffer();
+    file_->flush(durable);
+    last_flush_ = std::chrono::steady_clock::now();
+}
+
+void EventLogWriter::finish() {
+    empty_buffer();
+    file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{1});
+    columns_ = {};
+    file_->close();
+    file_.reset();
+    give_final_name(partial_name(path_), path_);
+}
+
+EventLogReader::EventLogReader(const std::filesystem::path& path)
+    : file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
+    if (!file_->has("/events/clock") || !file_->has("/initial/position"))
+        throw FileError(fmt::format(
+            "'{}' is an HDF5 file, but not an event log: it has no /events.", path.string()));
+    const auto column = [&](const char* name) {
+        return file_->column(std::string("/events/") + name);
+    };
+    swirls_ = column("swirls");
+    clock_ = column("clock");
+    kind_ = column("kind");
+    i_ = column("i");
+    j_ = column("j");
+    normal_x_ = column("normal_x");
+    normal_y_ = column("normal_y");
+    normal_impulse_ = column("normal_impulse");
+    tangential_impulse_ = column("tangential_impulse");
+    sticks_ = column("sticks");
+    events_ = std::min({swirls_.rows(), clock_.rows(), kind_.rows(), i_.rows(), j_.rows(),
+                        normal_x_.rows(), normal_y_.rows(), normal_impulse_.rows(),
+                        tangential_impulse_.rows(), sticks_.rows()});
+    const auto numbers = [&](const char* name) {
+        return file_->column(std::string("/initial/") + name).read<double>();
+    };
+    const auto position = numbers("position"), velocity = numbers("velocity");
+    const auto angle = numbers("angle"), spin = numbers("spin");
+    const auto radius = numbers("radius"), mass = numbers("mass");
+    const auto inertia = numbers("moment_of_inertia");
+    const std::size_t n = angle.size();
+    if (position.size() != 2 * n || velocity.size() != 2 * n || spin.size() != n ||
+        radius.size() != n || mass.size() != n || inertia.size() != n)
+        throw FileError(
+            fmt::format("'{}' contradicts itself: its columns differ in length.", path.string()));
+    for (std::size_t i = 0; i < n; ++i)
+        initial_.push_back({{position[2 * i], position[2 * i + 1]},
+                            {velocity[2 * i], velocity[2 * i + 1]},
+                            angle[i],
+                            spin[i],
+                            0.0,
+                            radius[i],
+                            mass[i],
+                            inertia[i]});
+    period_ = file_->number_attribute(parameters, "period");
+    swirl_end_ = file_->number_attribute(parameters, "swirl_end");
+    container_radius_ = file_->number_attribute(parameters, "container_radius");
+    complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
+}
+
+std::string EventLogReader::provenance(const std::string& name) const {
+    const std::string at = parameters + "/" + name;
+    return file_->has(at) ? file_->read_text(at) : "";
+}
+
+std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count) const {
+    const auto swirls = swirls_.read<std::int64_t>(first, count);
+    const auto clock = clock_.read<double>(first, count);
+    const auto kind = kind_.read<std::uint8_t>(first, count);
+    const auto i = i_.read<std::uint32_t>(first, count), j = j_.read<std::uint32_t>(first, count);
+    const auto normal_x = normal_x_.read<double>(first, count);
+    const auto normal_y = normal_y_.read<double>(first, count);
+    const auto normal_impulse = normal_impulse_.read<double>(first, count);
+    const auto tangential_impulse = tangential_impulse_.read<double>(first, count);
+    const auto sticks = sticks_.read<std::uint8_t>(first, count);
+    std::vector<Event> events;
+    events.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        if (kind[k] > 2 || i[k] >= initial_.size() || j[k] >= initial_.size())
+            throw FileError(fmt::format("Event {} of the log is damaged.", first + k));
+        events.push_back({swirls[k],
+                          clock[k],
+                          EventKind(kind[k]),
+                          i[k],
+                          j[k],
+                          {normal_x[k], normal_y[k]},
+                          {normal_impulse[k], tangential_impulse[k], sticks[k] != 0},
+                          0.0});
+    }
+    return events;
+}
+
+void Replay::apply(const Event& event) {
+    if (event.kind == EventKind::path_vertex) {
+        if (event.clock != swirl_end_) return;
+        for (Disc& d : discs_) {
+            d = d.at(event.clock);
+            d.time = 0.0;
+        }
+        ++swirls_;
+        return;
+    }
+    const Vec2 tangent{event.normal.y, -event.normal.x};
+    const Vec2 kick = event.impulse.normal * event.normal + event.impulse.tangential * tangent;
+    const auto push = [&](Disc& d, double direction) {
+        d = d.at(event.clock);
+        const Vec2 change = (1.0 / d.mass) * kick;
+        d.velocity = direction < 0.0 ? d.velocity - change : d.velocity + change;
+        d.spin = d.spin + d.radius * event.impulse.tangential * (1.0 / d.inertia);
+    };
+    push(discs_.at(event.i), -1.0);
+    if (event.kind == EventKind::disc_disc) push(discs_.at(event.j), 1.0);
+}
+
+}  // namespace swirl

@@ -1,0 +1,183 @@
+#include "files/event_log.hpp"
+
+#include "files/checkpoint.hpp"
+#include "files/file_error.hpp"
+#include "files/scratch.hpp"
+#include "files/state_archive.hpp"
+#include "files/whole_file.hpp"
+#include "measure/cluster_rotation.hpp"
+
+namespace swirl {
+namespace {
+
+void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simulation) {
+    for (std::size_t i = 0; i < replayed.size(); ++i) {
+        const Disc &a = replayed[i], b = simulation.disc(i);
+        ASSERT_EQ(a.position.x, b.position.x) << i;
+        ASSERT_EQ(a.position.y, b.position.y) << i;
+        ASSERT_EQ(a.velocity.x, b.velocity.x) << i;
+        ASSERT_EQ(a.velocity.y, b.velocity.y) << i;
+        ASSERT_EQ(a.angle, b.angle) << i;
+        ASSERT_EQ(a.spin, b.spin) << i;
+        ASSERT_EQ(a.time, b.time) << i;
+    }
+}
+
+/// A mixture, so that no factor of 1 hides anything.
+Scene mixed_scene() {
+    Scene scene = paper_scene(20, 7);
+    scene.disc_surface.mu = 0.3;
+    scene.path = polygon_path(1.892, 10.7, 7);  // 7 · (10.7/7) is not 10.7
+    for (std::size_t i = 0; i < scene.discs.size(); i += 3) {
+        scene.discs[i].radius = 0.83;
+        scene.discs[i].mass = 0.71;
+        scene.discs[i].inertia = 1.9;
+    }
+    return scene;
+}
+
+TEST(EventLog, ReplaysTheRunBitForBit) {
+    const Scratch scratch;
+    const Scene scene = mixed_scene();
+    Simulation simulation(scene);
+    {
+        EventLogWriter log(scratch / "events.h5", simulation.snapshot(), scene.path.legs.back().end,
+                           {{"version", "1"}});
+        for (int k = 0; k < 20'000; ++k) log.write(simulation.step());
+        log.finish();
+    }
+    ASSERT_GT(simulation.swirls(), 3);
+    EventLogReader log(scratch / "events.h5");
+    ASSERT_EQ(log.events(), 20'000u);
+    EXPECT_TRUE(log.complete());
+    Simulation again(scene);
+    Replay replay(log.initial(), log.swirl_end());
+    for (std::uint64_t first = 0; first < log.events(); first += 5'000)
+        for (const Event& event : log.read(first, 5'000)) {
+            const Event happened = again.step();
+            ASSERT_EQ(event.clock, happened.clock);
+            ASSERT_EQ(event.kind, happened.kind);
+            ASSERT_EQ(event.impulse.sticks, happened.impulse.sticks);
+            replay.apply(event);
+            if (first % 10'000 == 0 && event.i % 7 == 0) expect_same_discs(replay.discs(), again);
+        }
+    EXPECT_EQ(replay.swirls(), simulation.swirls());
+    expect_same_discs(replay.discs(), simulation);
+}
+
+TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
+    const Scratch scratch;
+    const Scene scene = mixed_scene();
+    const double end = scene.path.legs.back().end;
+    Simulation simulation(scene);
+    std::vector<Event> happened;
+    {
+        EventLogWriter log(scratch / "e.h5", simulation.snapshot(), end, {});
+        for (int k = 0; k < 9'000; ++k) {
+            happened.push_back(simulation.step());
+            log.write(happened.back());
+        }
+        log.flush();
+    }
+    auto log = EventLogWriter::resume(scratch / "e.h5", 5'000);
+    for (int k = 5'000; k < 9'000; ++k) log.write(happened[std::size_t(k)]);
+    log.finish();
+    const auto events = EventLogReader(scratch / "e.h5").read(0, 9'000);
+    for (std::size_t k = 0; k < events.size(); ++k) ASSERT_EQ(events[k].clock, happened[k].clock);
+    EXPECT_THROW(EventLogWriter::resume(scratch / "e.h5", 1), FileError);
+}
+
+TEST(StateArchive, GivesBackWhatItGot) {
+    ClusterRotation rotation;
+    Simulation simulation(paper_scene(9, 3));
+    for (int k = 0; k < 3'000; ++k) {
+        const Event event = simulation.step();
+        rotation.look(simulation.snapshot());
+        rotation.look_in_time(simulation.snapshot());
+        if (event.kind == EventKind::path_vertex) rotation.close_block();
+    }
+    std::map<std::string, std::vector<bool>> flags{{"a", {true, false}}, {"", {}}};
+    std::optional<double> nothing, something = 2.5;
+    StateWriter writer;
+    writer(rotation, flags, nothing, something);
+
+    ClusterRotation rotation2;
+    std::map<std::string, std::vector<bool>> flags2;
+    std::optional<double> nothing2 = 1.0, something2;
+    StateReader reader(writer.bytes());
+    reader(rotation2, flags2, nothing2, something2);
+    reader.expect_end();
+    EXPECT_EQ(flags2, flags);
+    EXPECT_EQ(nothing2, nothing);
+    EXPECT_EQ(something2, something);
+    const Estimate a = rotation.estimates().by_event, b = rotation2.estimates().by_event;
+    EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.error, b.error);
+    EXPECT_GT(a.blocks, 10u);
+
+    for (std::size_t cut = 0; cut < writer.bytes().size(); cut += 13) {
+        StateReader shorter(std::string_view(writer.bytes()).substr(0, cut));
+        EXPECT_THROW(shorter(rotation2, flags2, nothing2, something2), FileError) << cut;
+    }
+}
+
+std::string refusal(const std::filesystem::path& path) {
+    try {
+        read_checkpoint(path);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Checkpoint, GivesBackWhatItGot) {
+    const Scratch scratch;
+    const std::string state("a\0b", 3);
+    write_checkpoint(scratch / "c", {"{\"discs\": 3}", state});
+    const Checkpoint back = read_checkpoint(scratch / "c");
+    EXPECT_EQ(back.about, "{\"discs\": 3}");
+    EXPECT_EQ(back.state, state);
+}
+
+TEST(Checkpoint, EveryDamageIsRecognised) {
+    const Scratch scratch;
+    write_checkpoint(scratch / "c", {"about", std::string(300, 'x')});
+    const std::string whole = read_whole_file(scratch / "c");
+    for (std::size_t cut = 0; cut < whole.size(); ++cut) {
+        write_quickly(scratch / "d", whole.substr(0, cut));
+        EXPECT_NE(refusal(scratch / "d"), "") << "cut at " << cut;
+    }
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        std::string flipped = whole;
+        flipped[at] = char(flipped[at] ^ 4);
+        write_quickly(scratch / "d", flipped);
+        EXPECT_NE(refusal(scratch / "d"), "") << "bit flipped at " << at;
+    }
+    write_quickly(scratch / "d", whole + "x");
+    EXPECT_NE(refusal(scratch / "d").find("is damaged"), std::string::npos);
+}
+
+TEST(Checkpoint, ForeignAndOlderFilesAreNamedAsSuch) {
+    const Scratch scratch;
+    write_whole_file(scratch / "d", "{\"config\": 1}");
+    EXPECT_NE(refusal(scratch / "d").find("is not a checkpoint of swirl"), std::string::npos);
+    write_whole_file(scratch / "d", "swirl checkpoint 0\n0123456789012345678901234567890");
+    EXPECT_NE(refusal(scratch / "d").find("is a checkpoint in format 0"), std::string::npos);
+    EXPECT_NE(refusal(scratch / "absent").find("could not be opened"), std::string::npos);
+}
+
+TEST(Checkpoint, OfAMillionDiscsTakesLessThanTwoSeconds) {
+    const Scratch scratch;
+    std::vector<Disc> discs(1'000'000, Disc{{1, 2}, {3, 4}, 5, 6, 7, 8, 9, 10});
+    const auto begin = std::chrono::steady_clock::now();
+    StateWriter state;
+    state(discs);
+    write_checkpoint(scratch / "c", {"", state.bytes()});
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 80'000'000u + 8 + 19 + 24);
+    EXPECT_LT(taken.count(), 2.0);
+    RecordProperty("seconds", std::to_string(taken.count()));
+}
+
+}  // namespace
+}  // namespace swirl
