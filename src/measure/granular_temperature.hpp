@@ -36,15 +36,13 @@ class GranularTemperature {
             if (cell == SquareGrid::nowhere) continue;
             const double ux = view.ux[i], uy = view.uy[i], energy = m * (ux * ux + uy * uy);
             cells_.add(cell, {m, m * ux, m * uy, energy});
-            energy_ += energy;
-            discs_ += 1.0;
+            energies_.add(energy);
         }
     }
     void close_block() {
         cells_.close_block();
         spins_.close_block();
-        energies_.add(energy_, discs_);
-        energy_ = discs_ = 0.0;
+        energies_.close_block();
     }
 
     const SquareGrid& grid() const { return grid_; }
@@ -78,17 +76,14 @@ class GranularTemperature {
     void fields(Visitor&& visit) {
         cells_.fields(visit);
         spins_.fields(visit);
-        visit(energies_);
-        visit(energy_);
-        visit(discs_);
+        energies_.fields(visit);
     }
 
   private:
     SquareGrid grid_;
     CellMeans<4> cells_;
     CellMeans<3> spins_;
-    BlockSeries energies_;
-    double energy_ = 0.0, discs_ = 0.0;
+    BlockMean energies_;
 };
 
 }  // namespace swirl

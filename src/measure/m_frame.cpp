@@ -45,6 +45,7 @@ Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame) {
 void MFrameView::look(const Snapshot& s) {
     const std::size_t n = s.size();
     frame = m_frame(s);
+    time = s.time();
     container_radius = s.container_radius;
     for (auto* column : {&x, &y, &ux, &uy, &theta, &varpi}) column->resize(n);
     spin = s.spin;

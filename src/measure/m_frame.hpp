@@ -70,6 +70,7 @@ class MFrameView {
     std::size_t size() const { return x.size(); }
 
     MFrame frame{};
+    double time = 0.0;  // since the beginning
     double container_radius = 0.0;
     Vec2 centre_of_mass{};           // M-frame
     Vec2 centre_of_mass_velocity{};  // relative to the container, turned

@@ -198,6 +198,31 @@ class BlockSeries {
     std::vector<Run> runs_;
 };
 
+/// A series whose block is filled value by value.
+class BlockMean {
+  public:
+    void add(double value, double weight = 1.0) {
+        open_.sum += value * weight;
+        open_.weight += weight;
+    }
+    void close_block() {
+        series_.add(open_.sum, open_.weight);
+        open_ = {};
+    }
+    Estimate estimate() const { return series_.estimate(); }
+    const BlockSeries& series() const { return series_; }
+    void merge(const BlockMean& other) { series_.merge(other.series_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(open_);
+        series_.fields(visit);
+    }
+
+  private:
+    Block open_;
+    BlockSeries series_;
+};
+
 /// Mean and error of equally weighted values in order of time.
 inline Estimate estimate_of(std::span<const double> values) {
     BlockSeries series;

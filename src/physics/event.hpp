@@ -1,4 +1,5 @@
-// What happened: the return value of Simulation::step(), and what the measurements of collisions take.
+// What happened. The return value of Simulation::step(), and what the measurements of collisions
+// take.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,140 @@
+#include "measure/crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace swirl {
+namespace {
+
+constexpr double z = 1.959963984540054;  // 95 %, two-sided
+
+std::vector<RotationPoint> usable(std::span<const RotationPoint> points) {
+    std::vector<RotationPoint> kept;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const RotationPoint& p : points) {
+        if (!std::isfinite(p.discs) || !std::isfinite(p.mean) || !std::isfinite(p.error)) continue;
+        if (p.error < 0.0) continue;
+        kept.push_back(p);
+        if (p.error > 0.0) smallest = std::min(smallest, p.error);
+    }
+    for (RotationPoint& p : kept)
+        if (p.error == 0.0) p.error = std::isfinite(smallest) ? smallest : 1.0;
+    std::stable_sort(kept.begin(), kept.end(),
+                     [](const auto& a, const auto& b) { return a.discs < b.discs; });
+    return kept;
+}
+
+/// How many points lie left of the change of sign.
+std::size_t best_cut(const std::vector<RotationPoint>& points) {
+    double score = 0.0;
+    for (const RotationPoint& p : points) score -= p.mean / (p.error * p.error);
+    double best = -std::numeric_limits<double>::infinity();
+    std::size_t cut = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        score += 2.0 * points[k - 1].mean / (points[k - 1].error * points[k - 1].error);
+        if (score > best) {
+            best = score;
+            cut = k;
+        }
+    }
+    return cut;
+}
+
+struct Line {
+    double centre, height, slope;  // height + slope (N − centre)
+    double height_variance, slope_variance;
+};
+
+Line fit(std::span<const RotationPoint> points) {
+    double w = 0.0, wx = 0.0, wy = 0.0;
+    for (const RotationPoint& p : points) {
+        const double weight = 1.0 / (p.error * p.error);
+        w += weight;
+        wx += weight * p.discs;
+        wy += weight * p.mean;
+    }
+    Line line{wx / w, wy / w, 0.0, 1.0 / w, 0.0};
+    double xx = 0.0, xy = 0.0;
+    for (const RotationPoint& p : points) {
+        const double weight = 1.0 / (p.error * p.error), x = p.discs - line.centre;
+        xx += weight * x * x;
+        xy += weight * x * p.mean;
+    }
+    line.slope = xy / xx;
+    line.slope_variance = 1.0 / xx;
+    double chi_square = 0.0;
+    for (const RotationPoint& p : points) {
+        const double off = (p.mean - line.height - line.slope * (p.discs - line.centre)) / p.error;
+        chi_square += off * off;
+    }
+    if (points.size() > 2) {
+        const double scale = std::max(1.0, chi_square / static_cast<double>(points.size() - 2));
+        line.height_variance *= scale;
+        line.slope_variance *= scale;
+    }
+    return line;
+}
+
+void locate(Crossing& crossing, const Line& line) {
+    crossing.slope = line.slope;
+    const double x = -line.height / line.slope;
+    crossing.discs = line.centre + x;
+    crossing.error =
+        std::sqrt(line.height_variance + line.slope_variance * x * x) / std::abs(line.slope);
+    // Fieller: A x² + 2 B x + C ≤ 0.
+    const double A = line.slope * line.slope - z * z * line.slope_variance;
+    const double B = line.height * line.slope;
+    const double C = line.height * line.height - z * z * line.height_variance;
+    const double infinite = std::numeric_limits<double>::infinity();
+    if (!(A > 0.0)) {
+        crossing.lower = -infinite;
+        crossing.upper = infinite;
+        return;
+    }
+    const double root = std::sqrt(std::max(B * B - A * C, 0.0));
+    crossing.lower = line.centre + (-B - root) / A;
+    crossing.upper = line.centre + (-B + root) / A;
+}
+
+}  // namespace
+
+Crossing find_crossing(std::span<const RotationPoint> given, int window) {
+    Crossing crossing;
+    const std::vector<RotationPoint> points = usable(given);
+    if (points.empty()) return crossing;
+
+    double highest = -std::numeric_limits<double>::infinity(), lowest = -highest;
+    for (const RotationPoint& p : points) {
+        highest = std::max(highest, p.mean / p.error);
+        lowest = std::min(lowest, p.mean / p.error);
+    }
+    crossing.most_positive = highest;
+    crossing.most_negative = lowest;
+    if (points.size() < 2) return crossing;
+
+    const std::size_t cut = best_cut(points);
+    bool left = false, right = false;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const double significance = points[k].mean / points[k].error;
+        if (k < cut && significance > z) left = true;
+        if (k >= cut && significance < -z) right = true;
+    }
+    if (!left || !right) {
+        if (highest > z && !(lowest < -z)) crossing.verdict = Crossing::Verdict::always_rotates;
+        if (lowest < -z && !(highest > z))
+            crossing.verdict = Crossing::Verdict::always_counterrotates;
+        return crossing;
+    }
+    const std::size_t reach = static_cast<std::size_t>(std::max(window, 1));
+    const std::size_t first = cut > reach ? cut - reach : 0;
+    const std::size_t last = std::min(points.size(), cut + reach);
+    const Line line = fit(std::span(points).subspan(first, last - first));
+    crossing.points_used = static_cast<int>(last - first);
+    if (!(line.slope < 0.0)) return crossing;
+    crossing.verdict = Crossing::Verdict::crosses;
+    locate(crossing, line);
+    return crossing;
+}
+
+}  // namespace swirl

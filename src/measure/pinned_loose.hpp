@@ -1,0 +1,145 @@
+// Which discs are pinned to the wall and which are loose, and where in the M-frame they change
+// (paper, main text, Fig. 3 and SI "Calculation of location that particles become pinned and
+// free").
+//
+// From trajectories, sampled at equal time steps (the paper: 511 frames per period). What the SI
+// says, with the average it means instead of the sum it writes, and angle compared with angle:
+//
+//   path direction   straight-line fit of x and of y against the frame number over the frame, the 7
+//                    before and the 7 after: s = Σ_k k r_{t+k}, in the M-frame
+//   parallel         s deviates from the azimuthal direction about C by at most 10°, in the sense
+//   of
+//                    the wall (clockwise): |s·p| ≤ sin 10° |s||p| and p × s < 0
+//   pinned           parallel for 8 frames in a row, until it no longer is
+//   becoming free    the position where a pinned disc is parallel no more
+//   sharp turn       second difference |r_{t+1} − 2 r_t + r_{t−1}| ≥ ½ ΩR Δt: the velocity jumps by
+//   at
+//                    least half the wall's speed in the M-frame (the SI gives no threshold)
+//   becoming pinned  the positions where loose discs turn sharply: "the average angle at which
+//   these
+//                    collisions occur"
+//
+// The state of a disc is known 7 frames late. From collisions, which a simulation knows exactly: a
+// disc that flies for longer than T/20 without any collision was free when the flight began and is
+// on its way to be pinned when it ends:
+//
+//   becoming free    the positions where such flights begin
+//   becoming pinned  the positions where they end
+//
+// The angles θ about C in the M-frame are averaged as directions (circular_mean.hpp).
+// Units: radians. Limits: frames whose times do not ascend, or not in equal steps (to 1 %), begin
+// new tracks, and are counted; so does a change of the number of discs. Fewer than 15 frames:
+// nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "measure/circular_mean.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/statistics.hpp"
+#include "physics/event.hpp"
+
+namespace swirl {
+
+struct PinningCriteria {
+    double deviation = pi / 18.0;  // 10°
+    double sharp_turn = 0.5;       // in units of ΩR
+};
+
+class PinnedLoose {
+  public:
+    static constexpr int half_width = 7;
+    static constexpr int width = 2 * half_width + 1;
+
+    explicit PinnedLoose(const PinningCriteria& criteria = {});
+
+    /// One frame; frames at equal time steps.
+    void look(const MFrameView& view);
+    void close_block();
+
+    /// For each disc whether it is pinned, seven frames ago; all 0 before there are enough frames.
+    const std::vector<std::uint8_t>& pinned() const { return pinned_; }
+
+    /// θ where discs become pinned, and where they become free.
+    const CircularMean& becoming_pinned() const { return becoming_pinned_; }
+    const CircularMean& becoming_free() const { return becoming_free_; }
+    /// The share of the discs that is pinned.
+    Estimate share() const { return share_.estimate(); }
+    /// How often the frames' times broke the track.
+    double breaks() const { return breaks_; }
+
+    void merge(const PinnedLoose& other);
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(frames_);
+        visit(last_time_);
+        visit(step_);
+        visit(breaks_);
+        for (auto* column : {&past_x_, &past_y_, &sum_x_, &sum_y_, &slope_x_, &slope_y_})
+            visit(*column);
+        visit(parallel_for_);
+        visit(pinned_);
+        becoming_pinned_.fields(visit);
+        becoming_free_.fields(visit);
+        share_.fields(visit);
+    }
+
+  private:
+    void begin_tracks(std::size_t discs);
+    void sum_window();
+    double* slot(std::vector<double>& past, std::int64_t frame);
+    void judge(const MFrameView& view);
+
+    double sine_square_, sharp_turn_;
+    std::int64_t frames_ = 0;  // in the present tracks
+    double last_time_ = 0.0, step_ = 0.0, breaks_ = 0.0;
+    // The last 15 positions of every disc, frame by frame in a ring.
+    std::vector<double> past_x_, past_y_;
+    // Over those: Σ r and Σ k r.
+    std::vector<double> sum_x_, sum_y_, slope_x_, slope_y_;
+    std::vector<std::int32_t> parallel_for_;
+    std::vector<std::uint8_t> pinned_;
+    CircularMean becoming_pinned_, becoming_free_;
+    BlockMean share_;
+};
+
+class PinnedByCollisions {
+  public:
+    /// `flight`: how long a flight must be, in periods.
+    explicit PinnedByCollisions(double flight = 0.05) : flight_(flight) {}
+
+    /// After every event, with the state after it.
+    void look(const Event& event, const Snapshot& after);
+    void close_block() {
+        becoming_pinned_.close_block();
+        becoming_free_.close_block();
+    }
+    const CircularMean& becoming_pinned() const { return becoming_pinned_; }
+    const CircularMean& becoming_free() const { return becoming_free_; }
+
+    void merge(const PinnedByCollisions& other) {
+        becoming_pinned_.merge(other.becoming_pinned_);
+        becoming_free_.merge(other.becoming_free_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(last_);
+        becoming_pinned_.fields(visit);
+        becoming_free_.fields(visit);
+    }
+
+    struct Collision {
+        double time = never;  // none yet
+        Vec2 position{};      // M-frame
+    };
+
+  private:
+    void collide(std::size_t disc, double time, double period, const Vec2& position);
+
+    double flight_;
+    std::vector<Collision> last_;  // of every disc
+    CircularMean becoming_pinned_, becoming_free_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,74 @@
+// How well the cluster rolls on the wall: the slip parameter of the paper's main text (Fig. 4a),
+// and the line of a pancake that rolls without slipping (Fig. 1b).
+//
+//   s = (|ϖ_M|/Ω) (P_cluster / P_container)     0: slips freely, 1: rolls without slipping
+//
+//   P_cluster    perimeter of the convex hull of the discs' centres, plus 2π r: the tightest band
+//                round the cluster. With discs of several sizes r is their mean radius
+//   P_container  2π R
+//   ϖ_M          for the whole cluster the mean of ϖ_i − Ω over all discs; for the pinned region
+//   the
+//                mean over the pinned discs (pinned_loose.hpp), about the centre of mass and with
+//                the perimeter of the whole cluster, which is what rolls
+//
+// The average is that of the product, over looks; −ϖ_M stands for |ϖ_M|, so that noise about zero
+// does not add up (ϖ_M is negative wherever the wall drives).
+//
+//   pancake line: a single body with the cluster's perimeter, s = 1: ϖ/Ω = 1 −
+//   P_container/P_cluster
+//
+// Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
+// not averaged: the mean stays NaN if there was nothing else); nobody pinned: that look does not
+// count.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "measure/convex_hull.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/statistics.hpp"
+
+namespace swirl {
+
+/// ϖ/Ω of a rigid body with this perimeter that rolls on the container's wall without slipping.
+inline double pancake_rotation(double cluster_perimeter, double container_perimeter) {
+    return 1.0 - container_perimeter / cluster_perimeter;
+}
+
+class Slip {
+  public:
+    /// `pinned`: for each disc whether it is pinned; empty where that is not known.
+    void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
+    void close_block() {
+        for (BlockMean* mean : {&cluster_, &pinned_, &perimeter_, &pancake_}) mean->close_block();
+    }
+
+    Estimate cluster() const { return cluster_.estimate(); }
+    Estimate pinned_region() const { return pinned_.estimate(); }
+    /// P_cluster, in units of the snapshot's length.
+    Estimate cluster_perimeter() const { return perimeter_.estimate(); }
+    /// ϖ/Ω of the pancake with the cluster's momentary perimeter, averaged.
+    Estimate pancake() const { return pancake_.estimate(); }
+
+    void merge(const Slip& other) {
+        cluster_.merge(other.cluster_);
+        pinned_.merge(other.pinned_);
+        perimeter_.merge(other.perimeter_);
+        pancake_.merge(other.pancake_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        for (BlockMean* mean : {&cluster_, &pinned_, &perimeter_, &pancake_}) mean->fields(visit);
+    }
+
+  private:
+    BlockMean cluster_, pinned_, perimeter_, pancake_;
+    std::vector<Vec2> centres_;
+};
+
+/// P_cluster of one snapshot; NaN without discs.
+double cluster_perimeter(const MFrameView& view);
+
+}  // namespace swirl

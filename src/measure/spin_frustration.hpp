@@ -1,0 +1,86 @@
+// How far the discs keep each other from spinning (paper, main text and Fig. 4b). Two discs that
+// roll on each other like gears spin in opposite senses; three that touch mutually cannot all do
+// so.
+//
+//   wall spin         ⟨|ω_i|⟩/Ω over the discs at the wall, and over those of them that are pinned,
+//   in
+//                     the lab: 0 for a disc stuck to the wall, for the container does not turn
+//   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
+//   independent
+//                     spins, 1 for a body that turns as a whole
+//   triangles         share of the touching pairs that have a common neighbour touching both: the
+//                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
+//                     packing
+//   sticking          share of the collisions in which friction stopped the slip, for disc–disc and
+//   for
+//                     disc–wall separately (needs the collisions themselves)
+//
+// At the wall: gap below 0.1 r. Touching: gap below 0.1 of the mean radius. Units: none. The ratios
+// are of sums over looks; errors from blocks of periods. Limits: missing spins (NaN) make wall spin
+// and correlation NaN; nobody touching: NaN.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "measure/m_frame.hpp"
+#include "measure/statistics.hpp"
+#include "measure/touching.hpp"
+#include "physics/event.hpp"
+
+namespace swirl {
+
+class SpinFrustration {
+  public:
+    explicit SpinFrustration(double gap = 0.1) : gap_(gap) {}
+
+    /// `pinned`: for each disc whether it is pinned; empty where that is not known.
+    void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
+    /// A collision, for the share that sticks.
+    void look(const Event& event) {
+        if (event.kind == EventKind::path_vertex) return;
+        BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
+        share.add(event.impulse.sticks ? 1.0 : 0.0);
+    }
+    void close_block() {
+        for (BlockMean* mean : means()) mean->close_block();
+    }
+
+    Estimate wall_spin() const { return wall_spin_.estimate(); }
+    Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
+    Estimate correlation() const { return correlation_.estimate(); }
+    Estimate triangles() const { return triangles_.estimate(); }
+    Estimate disc_sticking() const { return disc_sticking_.estimate(); }
+    Estimate wall_sticking() const { return wall_sticking_.estimate(); }
+    /// Touching neighbours of a disc, on average.
+    Estimate coordination() const { return coordination_.estimate(); }
+
+    void merge(const SpinFrustration& other) {
+        wall_spin_.merge(other.wall_spin_);
+        pinned_wall_spin_.merge(other.pinned_wall_spin_);
+        correlation_.merge(other.correlation_);
+        triangles_.merge(other.triangles_);
+        coordination_.merge(other.coordination_);
+        disc_sticking_.merge(other.disc_sticking_);
+        wall_sticking_.merge(other.wall_sticking_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        for (BlockMean* mean : means()) mean->fields(visit);
+    }
+
+  private:
+    std::vector<BlockMean*> means() {
+        return {&wall_spin_,    &pinned_wall_spin_, &correlation_,  &triangles_,
+                &coordination_, &disc_sticking_,    &wall_sticking_};
+    }
+
+    double gap_;
+    BlockMean wall_spin_, pinned_wall_spin_, correlation_, triangles_, coordination_;
+    BlockMean disc_sticking_, wall_sticking_;
+    TouchingPairs touching_;
+    std::vector<std::vector<std::uint32_t>> neighbours_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,64 @@
+// The minimal model: one rigid ball in a swirled container (paper, main text after Fig. 4; SI
+// videos "minimal model").
+//
+// The centrifugal force presses the ball against the wall; in the M-frame it settles at a fixed
+// point of the wall and turns there about its own centre at the constant rate ϖ_M. Between no slip
+// (it rolls like a gear inside a ring) and perfect slip (nothing turns it) there is one number, s:
+//
+//     γ = |ϖ_M|/Ω = s γ_c,     γ_c = R_container/R_ball,     ϖ_M = −γ Ω,     ϖ = ϖ_M + Ω = (1 − γ)
+//     Ω
+//
+// The wall passes the contact with −ΩR, the ball's surface with ϖ_M R_ball = −s ΩR: for s = 1 they
+// move together. γ < 1 is rotation in the lab, γ > 1 counterrotation; they meet at s =
+// R_ball/R_container.
+//
+// Where it settles: without any resistance to rolling and with nothing that slips, at M itself. The
+// `lag` turns that point clockwise, as friction that has to balance the centrifugal force would.
+//
+// Units: those of the container. Limits: 0 < R_ball < R_container, 0 ≤ s ≤ 1.
+#pragma once
+
+#include "physics/container_path.hpp"
+#include "physics/snapshot.hpp"
+#include "physics/unit_circle.hpp"
+
+namespace swirl {
+
+struct RollingBall {
+    double container_radius = paper_container_radius;
+    double ball_radius = 0.5 * paper_container_radius;
+    double slip = 1.0;  // s: 1 rolls without slipping, 0 slips freely
+    double lag = 0.0;   // clockwise from M, rad
+
+    double gamma_no_slip() const { return container_radius / ball_radius; }  // γ_c
+    double gamma() const { return slip * gamma_no_slip(); }
+    /// In units of Ω.
+    double rotation_in_m_frame() const { return -gamma(); }
+    double rotation() const { return 1.0 - gamma(); }
+};
+
+/// Ball and container at the time t ≥ 0 on the exact circle of amplitude A, as one disc.
+inline Snapshot snapshot_at(const RollingBall& ball, double amplitude, double period, double t) {
+    const double turns = t / period;
+    const double omega = 2.0 * pi / period;
+    Snapshot s;
+    s.swirls = static_cast<std::int64_t>(turns);
+    const double phase = turns - static_cast<double>(s.swirls);
+    s.clock = phase * period;
+    s.period = period;
+    s.container_radius = ball.container_radius;
+    s.container_centre = amplitude * unit_circle(phase);
+    s.container_velocity = omega * perpendicular(s.container_centre);
+    // Fixed in the M-frame means turning with Ω about S.
+    const Vec2 from_centre =
+        (ball.container_radius - ball.ball_radius) * unit_circle(phase - ball.lag / (2.0 * pi));
+    const Vec2 position = s.container_centre + from_centre;
+    const double mass = ball.ball_radius * ball.ball_radius;
+    s.resize(1);
+    s.set(0, {position, omega * perpendicular(position), 2.0 * pi * turns * ball.rotation(),
+              omega * ball.rotation(), s.clock, ball.ball_radius, mass,
+              solid_inertia(mass, ball.ball_radius)});
+    return s;
+}
+
+}  // namespace swirl

@@ -1,0 +1,96 @@
+#include "measure/crossing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+std::vector<RotationPoint> line(double zero, double slope, double error, int from = 24,
+                                int to = 48) {
+    std::vector<RotationPoint> points;
+    for (int n = from; n <= to; ++n) points.push_back({double(n), slope * (n - zero), error});
+    return points;
+}
+
+TEST(Crossing, OfAStraightLineIsItsZero) {
+    const Crossing c = find_crossing(line(36.4, -0.01, 0.001));
+    EXPECT_EQ(c.verdict, Crossing::Verdict::crosses);
+    EXPECT_NEAR(c.discs, 36.4, 1e-12);
+    EXPECT_NEAR(c.slope, -0.01, 1e-15);
+    EXPECT_EQ(c.points_used, 6);
+    // Six equal points 34…39, N̄ = 36.5: σ_a² = e²/6, σ_b² = e²/17.5.
+    const double sigma = 0.1 * std::sqrt(1.0 / 6.0 + 0.01 / 17.5);
+    EXPECT_NEAR(c.error, sigma, 1e-12);
+    // Fieller's interval is a little wider than ±1.96 σ.
+    EXPECT_NEAR(c.upper - c.lower, 2.0 * 1.96 * sigma, 0.01 * sigma);
+    EXPECT_LT(c.lower, 36.4);
+    EXPECT_GT(c.upper, 36.4);
+}
+
+TEST(Crossing, CoversTheTruthAsOftenAsItSays) {
+    int covered = 0, found = 0;
+    for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+        Noise noise(seed);
+        std::vector<RotationPoint> points = line(35.7, -0.01, 0.01);
+        for (RotationPoint& p : points) {
+            double gauss = 0.0;  // twelve uniform numbers: variance 12/3/4 = 1
+            for (int k = 0; k < 12; ++k) gauss += 0.5 * noise();
+            p.mean += p.error * gauss;
+        }
+        const Crossing c = find_crossing(points);
+        if (c.verdict != Crossing::Verdict::crosses) continue;
+        ++found;
+        covered += c.lower < 35.7 && 35.7 < c.upper ? 1 : 0;
+    }
+    EXPECT_GT(found, 450);
+    // 95 % less a little, because the cut itself was found in the noise.
+    EXPECT_GT(covered, 0.85 * found);
+}
+
+TEST(Crossing, IsNotClaimedWithoutEvidenceOnBothSides) {
+    EXPECT_EQ(find_crossing(line(60.0, -0.01, 0.001)).verdict, Crossing::Verdict::always_rotates);
+    EXPECT_EQ(find_crossing(line(10.0, -0.01, 0.001)).verdict,
+              Crossing::Verdict::always_counterrotates);
+    EXPECT_EQ(find_crossing(line(36.0, -0.01, 10.0)).verdict, Crossing::Verdict::undecided);
+    // The wrong way round: counterrotation first.
+    EXPECT_NE(find_crossing(line(36.0, 0.01, 0.001)).verdict, Crossing::Verdict::crosses);
+    const Crossing c = find_crossing(line(60.0, -0.01, 0.001));
+    EXPECT_TRUE(std::isnan(c.discs));
+    EXPECT_NEAR(c.most_positive, 360.0, 1e-9);
+}
+
+TEST(Crossing, AFluctuationFarAwayDoesNotMoveIt) {
+    std::vector<RotationPoint> points = line(36.0, -0.01, 0.002);
+    points[1].mean = -0.001;  // N = 25, half an error below zero
+    const Crossing c = find_crossing(points);
+    EXPECT_EQ(c.verdict, Crossing::Verdict::crosses);
+    EXPECT_NEAR(c.discs, 36.0, 1e-9);
+}
+
+TEST(Crossing, ScatterBeyondTheErrorsWidensTheInterval) {
+    std::vector<RotationPoint> points = line(36.2, -0.01, 0.0005);
+    for (std::size_t k = 0; k < points.size(); ++k) points[k].mean += k % 2 == 0 ? 0.004 : -0.004;
+    EXPECT_GT(find_crossing(points).error, 4.0 * find_crossing(line(36.2, -0.01, 0.0005)).error);
+}
+
+TEST(Crossing, NonsenseIsLeftOut) {
+    EXPECT_EQ(find_crossing({}).verdict, Crossing::Verdict::undecided);
+    std::vector<RotationPoint> points = line(36.0, -0.01, 0.001);
+    points.push_back({30.0, not_known, 0.1});
+    points.push_back({30.0, 5.0, not_known});
+    points.push_back({30.0, 5.0, -1.0});
+    std::swap(points[3], points[20]);
+    EXPECT_NEAR(find_crossing(points).discs, 36.0, 1e-9);
+    const std::vector<RotationPoint> one{{30.0, 0.1, 0.01}};
+    EXPECT_EQ(find_crossing(one).verdict, Crossing::Verdict::undecided);
+    const std::vector<RotationPoint> two{{30.0, 0.1, 0.01}, {40.0, -0.1, 0.01}};
+    EXPECT_NEAR(find_crossing(two).discs, 35.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,186 @@
+#include "measure/pinned_loose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr int frames = 511;
+constexpr double degree = pi / 180.0;
+const double omega = 2.0 * pi / paper_period;
+
+/// The dish at frame `k`, with discs where path(k) has them in the M-frame.
+template <class Path>
+Snapshot frame_of(int k, std::size_t discs, Path&& path) {
+    Snapshot s = empty_dish(static_cast<double>(k % frames) / frames);
+    s.swirls = k / frames;
+    const MFrame f = m_frame(s);
+    for (std::size_t i = 0; i < discs; ++i) add_disc(s, f.lab_position(path(i, k)), {0.0, 0.0});
+    return s;
+}
+
+/// Clockwise along the wall with it, from θ = 180° to 60°, where it leaves the wall smoothly and
+/// falls to 240°; there it turns sharply back up along the wall to 180°. A caricature of the
+/// paper's cycle.
+Vec2 cycle(int k) {
+    const double r = 7.0;
+    const int along = static_cast<int>(120.0 / 360.0 * frames);  // with the wall's own speed
+    const int across = 100, back = 43;
+    const int phase = k % (along + across + back);
+    const Vec2 leave = r * unit_circle(60.0 / 360.0), arrive = r * unit_circle(240.0 / 360.0);
+    if (phase < along) return r * unit_circle(0.5 - static_cast<double>(phase) / frames);
+    if (phase < along + across) {
+        const double t = phase - along, end = across;
+        const Vec2 v = (-2.0 * pi / frames) * perpendicular(leave);
+        const Vec2 a = (2.0 / (end * end)) * (arrive - leave - end * v);
+        return leave + t * v + (0.5 * t * t) * a;
+    }
+    return r * unit_circle((240.0 - 60.0 * (phase - along - across) / back) / 360.0);
+}
+
+TEST(PinnedLoose, ADiscThatMovesWithTheWallIsPinned) {
+    PinnedLoose pinning;
+    for (int k = 0; k < 60; ++k) {
+        pinning.look(frame_of(k, 2, [](std::size_t i, int t) {
+            return (5.0 + static_cast<double>(i)) * unit_circle(1.0 - static_cast<double>(t) / 511);
+        }));
+        // 15 frames to fit, and parallel for 8 of them.
+        EXPECT_EQ(pinning.pinned().at(0), k >= 21 ? 1 : 0) << k;
+    }
+    pinning.close_block();
+    EXPECT_EQ(pinning.becoming_free().count(), 0.0);
+    EXPECT_EQ(pinning.becoming_pinned().count(), 0.0);
+    EXPECT_NEAR(pinning.share().mean, 39.0 / 46.0, 1e-15);
+}
+
+TEST(PinnedLoose, ADiscThatMovesAgainstTheWallOrAcrossIsLoose) {
+    PinnedLoose pinning;
+    for (int k = 0; k < 60; ++k)
+        pinning.look(frame_of(k, 2, [](std::size_t i, int t) {
+            return i == 0 ? 5.0 * unit_circle(static_cast<double>(t) / 511)
+                          : Vec2{0.1 * t - 3.0, 0.2};
+        }));
+    EXPECT_EQ(pinning.pinned().at(0), 0);
+    EXPECT_EQ(pinning.pinned().at(1), 0);
+}
+
+TEST(PinnedLoose, TheCycleGivesItsAngles) {
+    PinnedLoose pinning;
+    for (int k = 0; k < 20 * frames; ++k) {
+        pinning.look(frame_of(k, 1, [](std::size_t, int t) { return cycle(t); }));
+        if (k % frames == frames - 1) pinning.close_block();
+    }
+    // It has to fall for a while before its direction is 10° off.
+    EXPECT_NEAR(pinning.becoming_free().angle().mean, 52.0 * degree, 10.0 * degree);
+    EXPECT_GT(pinning.becoming_free().concentration(), 0.99);
+    // The only sharp turn of the cycle.
+    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 240.0 * degree, 2.0 * degree);
+    EXPECT_EQ(pinning.breaks(), 0.0);
+}
+
+TEST(PinnedLoose, TheRunningFitIsTheFitAddedUpAfresh) {
+    // A long track: pinned or not must not depend on how long ago the track began.
+    const auto path = [](std::size_t i, int t) {
+        return (3.0 + 0.5 * static_cast<double>(i)) *
+               unit_circle(1.0 - 0.3 * std::sin(0.01 * t * (1.0 + 0.1 * static_cast<double>(i))));
+    };
+    PinnedLoose all, late;
+    for (int k = 0; k < 5000; ++k) {
+        const Snapshot s = frame_of(k, 8, path);
+        all.look(s);
+        if (k >= 4100) late.look(s);
+        if (k > 4200) {
+            EXPECT_EQ(all.pinned(), late.pinned()) << k;
+        }
+    }
+}
+
+TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
+    PinnedLoose pinning;
+    const auto circle = [](std::size_t, int t) {
+        return 6.0 * unit_circle(1.0 - static_cast<double>(t) / 511);
+    };
+    for (int k = 0; k < 40; ++k) pinning.look(frame_of(k, 1, circle));
+    EXPECT_EQ(pinning.pinned().at(0), 1);
+    pinning.look(frame_of(20, 1, circle));  // back in time
+    EXPECT_EQ(pinning.breaks(), 1.0);
+    EXPECT_EQ(pinning.pinned().at(0), 0);
+    pinning.look(frame_of(21, 1, circle));
+    pinning.look(frame_of(25, 1, circle));  // frames missing
+    EXPECT_EQ(pinning.breaks(), 2.0);
+    pinning.look(frame_of(26, 3, circle));  // other discs
+    EXPECT_EQ(pinning.pinned().size(), 3u);
+    pinning.look(empty_dish());
+    EXPECT_TRUE(pinning.pinned().empty());
+}
+
+TEST(PinnedLoose, MergedRunsHaveTheAnglesOfBoth) {
+    PinnedLoose whole, first, second;
+    for (int k = 0; k < 10 * frames; ++k) {
+        const Snapshot s = frame_of(k, 1, [](std::size_t, int t) { return cycle(t); });
+        first.look(s);
+        second.look(s);
+        whole.look(s);
+        if (k % frames == frames - 1) {
+            first.close_block();
+            second.close_block();
+            whole.close_block();
+        }
+    }
+    first.merge(second);
+    EXPECT_EQ(first.becoming_free().count(), 2.0 * whole.becoming_free().count());
+    EXPECT_NEAR(first.becoming_free().angle().mean, whole.becoming_free().angle().mean, 1e-14);
+    EXPECT_NEAR(first.share().mean, whole.share().mean, 1e-15);
+}
+
+Event collision_at(EventKind kind, std::uint32_t i, std::uint32_t j) {
+    return {0, 0.0, kind, i, j, {1.0, 0.0}, {1.0, 0.0, false}, 0.0};
+}
+
+TEST(PinnedByCollisions, OnlyLongFlightsCount) {
+    PinnedByCollisions pinning;  // flights of more than T/20
+    const auto at = [&](double u, double theta) {
+        Snapshot s = empty_dish(u);
+        const MFrame f = m_frame(s);
+        add_disc(s, f.lab_position(7.0 * unit_circle(theta)), {0.0, 0.0});
+        return s;
+    };
+    const auto hit = [&](double u, double theta) {
+        pinning.look(collision_at(EventKind::disc_wall, 0, 0), at(u, theta));
+    };
+    hit(0.10, 0.30);  // the first has no flight before it
+    hit(0.12, 0.28);
+    hit(0.16, 0.25);
+    hit(0.30, 0.70);  // 0.14 T in the air, from 0.25 to 0.70 turns
+    pinning.look(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
+    hit(0.34, 0.65);
+    pinning.close_block();
+    EXPECT_EQ(pinning.becoming_free().count(), 1.0);
+    EXPECT_NEAR(pinning.becoming_free().angle().mean, 0.25 * 2.0 * pi, 1e-14);
+    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.70 * 2.0 * pi, 1e-14);
+}
+
+TEST(PinnedByCollisions, BothPartnersCollideAndFlightsCrossTheEndOfTheSwirl) {
+    PinnedByCollisions pinning;
+    Snapshot s = empty_dish(0.95);
+    const MFrame f = m_frame(s);
+    add_disc(s, f.lab_position({1.0, 0.0}), {0.0, 0.0});
+    add_disc(s, f.lab_position({3.0, 0.0}), {0.0, 0.0});
+    pinning.look(collision_at(EventKind::disc_disc, 0, 1), s);
+    Snapshot t = empty_dish(0.05);
+    t.swirls = 1;
+    const MFrame g = m_frame(t);
+    add_disc(t, g.lab_position({0.0, 1.0}), {0.0, 0.0});
+    add_disc(t, g.lab_position({0.0, 3.0}), {0.0, 0.0});
+    pinning.look(collision_at(EventKind::disc_disc, 0, 1), t);
+    pinning.close_block();
+    EXPECT_EQ(pinning.becoming_pinned().count(), 2.0);
+    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.5 * pi, 1e-14);
+}
+
+}  // namespace
+}  // namespace swirl

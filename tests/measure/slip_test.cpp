@@ -1,0 +1,112 @@
+#include "measure/slip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+#include "physics/rolling_ball.hpp"
+
+namespace swirl {
+namespace {
+
+const double omega = 2.0 * pi / paper_period;
+constexpr double R = paper_container_radius;
+
+/// A full rim of discs along the wall that follows the wall with the fraction `grip` of its speed.
+Snapshot rim(double u, double grip, int discs = 23) {
+    Snapshot s = empty_dish(u);
+    const MFrame f = m_frame(s);
+    for (int k = 0; k < discs; ++k) {
+        const Vec2 p = (R - 1.0) * unit_circle(static_cast<double>(k) / discs);
+        add_disc(s, f.lab_position(p), f.lab_velocity(p, grip * f.wall_velocity(p)));
+    }
+    return s;
+}
+
+TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
+    Slip slip;
+    const std::vector<std::uint8_t> everybody(23, 1);
+    for (int k = 0; k < 10; ++k) {
+        slip.look(rim(k / 10.0, 1.0), everybody);
+        slip.close_block();
+    }
+    // The band round 23 discs is a polygon with rounded corners, a little shorter than the wall.
+    const double P = 23.0 * 2.0 * (R - 1.0) * std::sin(pi / 23.0) + 2.0 * pi;
+    const double s = P / (2.0 * pi * R);
+    EXPECT_NEAR(s, 1.0, 0.003);
+    EXPECT_NEAR(slip.cluster().mean, s, 1e-13);
+    EXPECT_NEAR(slip.pinned_region().mean, s, 1e-13);
+    EXPECT_NEAR(slip.cluster_perimeter().mean, P, 1e-12);
+    EXPECT_NEAR(slip.pancake().mean, 1.0 - 1.0 / s, 1e-13);
+}
+
+TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
+    for (const double grip : {0.0, 0.5}) {
+        Slip half, whole;
+        half.look(rim(0.1, grip));
+        half.close_block();
+        whole.look(rim(0.1, 1.0));
+        whole.close_block();
+        EXPECT_NEAR(half.cluster().mean, grip * whole.cluster().mean, 1e-13);
+        EXPECT_TRUE(std::isnan(half.pinned_region().mean));
+    }
+}
+
+TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
+    Snapshot s = rim(0.3, 1.0);
+    const MFrame f = m_frame(s);
+    const Snapshot still = rim(0.3, 0.0);
+    // Every other pair of opposite discs at rest in the M-frame would move the centre of mass;
+    // flags alone decide here.
+    std::vector<std::uint8_t> pinned(23, 0);
+    pinned[4] = 1;
+    Slip slip;
+    slip.look(s, pinned);
+    slip.close_block();
+    EXPECT_NEAR(slip.pinned_region().mean, slip.cluster().mean, 1e-13);
+    Slip none;
+    none.look(still, pinned);
+    none.close_block();
+    EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
+    (void)f;
+}
+
+TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
+    const RollingBall ball{R, 6.0, 1.0};
+    EXPECT_NEAR(pancake_rotation(2.0 * pi * 6.0, 2.0 * pi * R), ball.rotation(), 1e-15);
+    EXPECT_EQ(pancake_rotation(10.0, 10.0), 0.0);
+}
+
+TEST(Slip, NobodyAndOneDiscAndNonsense) {
+    Slip slip;
+    slip.look(empty_dish());
+    slip.close_block();
+    EXPECT_TRUE(std::isnan(slip.cluster().mean));
+    EXPECT_TRUE(std::isnan(cluster_perimeter(empty_dish())));
+    Snapshot s = empty_dish();
+    add_disc(s, {1.0, 1.0}, {0.0, 0.0});
+    EXPECT_NEAR(cluster_perimeter(s), 2.0 * pi, 1e-15);
+    slip.look(s);
+    s.x[0] = not_known;
+    slip.look(s);
+    slip.close_block();
+    EXPECT_TRUE(std::isnan(slip.cluster().mean));
+    EXPECT_NEAR(slip.cluster_perimeter().mean, 2.0 * pi, 1e-15);
+}
+
+TEST(Slip, MergedRunsAreOneLongRun) {
+    Slip whole, first, second;
+    for (int k = 0; k < 12; ++k) {
+        const Snapshot s = random_discs(30, k, k / 12.0);
+        whole.look(s);
+        whole.close_block();
+        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).close_block();
+    }
+    first.merge(second);
+    EXPECT_NEAR(first.cluster().mean, whole.cluster().mean, 1e-14);
+}
+
+}  // namespace
+}  // namespace swirl

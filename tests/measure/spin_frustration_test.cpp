@@ -1,0 +1,148 @@
+#include "measure/spin_frustration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+const double omega = 2.0 * pi / paper_period;
+
+/// A square lattice whose discs spin like gears.
+Snapshot gears(double sign = -1.0) {
+    Snapshot s = empty_dish(0.2);
+    for (int row = -1; row <= 1; ++row)
+        for (int column = -1; column <= 1; ++column) {
+            const bool odd = ((row + column) & 1) != 0;
+            add_disc(s, s.container_centre + Vec2{2.0 * column, 2.0 * row}, {0.0, 0.0},
+                     odd ? 0.7 * sign : 0.7);
+        }
+    return s;
+}
+
+/// A disc and its six neighbours, all touching, all with the same spin.
+Snapshot hexagon(double spin) {
+    Snapshot s = empty_dish(0.4);
+    add_disc(s, s.container_centre, {0.0, 0.0}, spin);
+    for (int k = 0; k < 6; ++k)
+        add_disc(s, s.container_centre + 2.0 * unit_circle(k / 6.0), {0.0, 0.0}, spin);
+    return s;
+}
+
+TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
+    SpinFrustration frustration;
+    frustration.look(gears());
+    frustration.close_block();
+    EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
+    EXPECT_EQ(frustration.triangles().mean, 0.0);
+    EXPECT_NEAR(frustration.coordination().mean, 24.0 / 9.0, 1e-15);
+}
+
+TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
+    SpinFrustration frustration;
+    frustration.look(hexagon(0.3));
+    frustration.close_block();
+    EXPECT_NEAR(frustration.correlation().mean, 1.0, 1e-15);
+    EXPECT_EQ(frustration.triangles().mean, 1.0);
+    EXPECT_NEAR(frustration.coordination().mean, 24.0 / 7.0, 1e-15);
+}
+
+TEST(SpinFrustration, IndependentSpinsHaveNone) {
+    SpinFrustration frustration;
+    Noise noise(4);
+    for (int k = 0; k < 400; ++k) {
+        Snapshot s = hexagon(0.0);
+        for (double& spin : s.spin) spin = noise();
+        frustration.look(s);
+        frustration.close_block();
+    }
+    EXPECT_NEAR(frustration.correlation().mean, 0.0, 4.0 * frustration.correlation().error);
+    EXPECT_LT(frustration.correlation().error, 0.02);
+}
+
+TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
+    Snapshot s = empty_dish(0.7);
+    add_disc(s, s.container_centre + 7.6 * unit_circle(0.1), {0.0, 0.0}, -2.0 * omega);
+    add_disc(s, s.container_centre + 7.55 * unit_circle(0.4), {0.0, 0.0}, 0.0);
+    add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * omega);
+    const std::vector<std::uint8_t> pinned{0, 1, 1};
+    SpinFrustration frustration;
+    frustration.look(s, pinned);
+    frustration.close_block();
+    EXPECT_NEAR(frustration.wall_spin().mean, 1.0, 1e-15);
+    EXPECT_EQ(frustration.pinned_wall_spin().mean, 0.0);
+    EXPECT_TRUE(std::isnan(frustration.correlation().mean));
+}
+
+TEST(SpinFrustration, CountsTheCollisionsThatStick) {
+    SpinFrustration frustration;
+    const auto collide = [&](EventKind kind, bool sticks) {
+        frustration.look(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0});
+    };
+    collide(EventKind::disc_disc, true);
+    collide(EventKind::disc_disc, true);
+    collide(EventKind::disc_disc, false);
+    collide(EventKind::disc_disc, false);
+    collide(EventKind::disc_wall, true);
+    collide(EventKind::path_vertex, false);
+    frustration.close_block();
+    EXPECT_EQ(frustration.disc_sticking().mean, 0.5);
+    EXPECT_EQ(frustration.wall_sticking().mean, 1.0);
+}
+
+TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
+    SpinFrustration frustration;
+    frustration.look(empty_dish());
+    frustration.close_block();
+    EXPECT_TRUE(std::isnan(frustration.wall_spin().mean));
+    EXPECT_TRUE(std::isnan(frustration.triangles().mean));
+    Snapshot s = hexagon(0.3);
+    s.spin[2] = not_known;
+    frustration.look(s);
+    frustration.close_block();
+    EXPECT_TRUE(std::isnan(frustration.correlation().mean));
+    EXPECT_EQ(frustration.triangles().mean, 1.0);
+}
+
+TEST(SpinFrustration, MergedRunsAreOneLongRun) {
+    SpinFrustration whole, first, second;
+    for (int k = 0; k < 12; ++k) {
+        const Snapshot s = random_discs(60, k, k / 12.0);
+        whole.look(s);
+        whole.close_block();
+        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).close_block();
+    }
+    first.merge(second);
+    EXPECT_NEAR(first.correlation().mean, whole.correlation().mean, 1e-14);
+    EXPECT_NEAR(first.triangles().mean, whole.triangles().mean, 1e-14);
+}
+
+TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
+    TouchingPairs touching;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        Snapshot s = random_discs(50, seed, 0.05 * static_cast<double>(seed));
+        Noise noise(seed);
+        for (double& r : s.radius) r = 0.6 + 0.4 * noise();
+        const MFrameView view(s);
+        std::vector<std::pair<unsigned, unsigned>> found, expected;
+        for (const Pair& p : touching.find(view, 0.2))
+            found.emplace_back(std::min(p.i, p.j), std::max(p.i, p.j));
+        for (unsigned i = 0; i < s.size(); ++i)
+            for (unsigned j = i + 1; j < s.size(); ++j) {
+                const Vec2 d = view.position(j) - view.position(i);
+                if (std::hypot(d.x, d.y) < s.radius[i] + s.radius[j] + 0.2)
+                    expected.emplace_back(i, j);
+            }
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected);
+        EXPECT_FALSE(found.empty());
+    }
+}
+
+}  // namespace
+}  // namespace swirl
