@@ -29,8 +29,8 @@ def main():
     axes.set_xlim(3.5, 49.5)
     axes.set_ylim(-0.15, 1.09)
     axes.text(5, -0.1, "counterrotation", color=style.GREY, fontsize=7)
-    axes.text(5, 0.04, "rotation", color=style.GREY, fontsize=7)
-    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.67))
+    axes.text(5, 0.025, "rotation", color=style.GREY, fontsize=7)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.13, 0.9))
     style.save(drawing, table)
 
 

@@ -6,6 +6,7 @@
 #include "app/progress_line.hpp"
 #include "app/stop_signal.hpp"
 #include "lab/paper.hpp"
+#include "lab/run_parameters.hpp"
 #include "lab/run_report.hpp"
 
 namespace swirl {
@@ -13,13 +14,15 @@ namespace {
 
 struct PaperCall {
     PaperSettings settings;
-    std::string out = "out";
+    std::string out = "out", events, seed;
     std::vector<std::string> figures;
     bool quiet = false;
 };
 
 void make_paper(PaperCall& call) {
     call.settings.out = call.out;
+    if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
+    if (!call.seed.empty()) call.settings.seed = resolve({{"seed", call.seed}}).seed;
     std::vector<PaperFigure> figures;
     for (const std::string& name : call.figures) figures.push_back(paper_figure(name));
     if (figures.empty()) figures = paper_figures();
@@ -63,10 +66,13 @@ void add_paper_command(CLI::App& subcommand) {
         ->expected(1, 100);
     subcommand.add_flag("--quick", call->settings.quick,
                         "fewer points and shorter runs: the shape in a minute");
+    subcommand.add_option("--events", call->events, "length of every run [1e6 as in the paper]")
+        ->type_name("NUMBER");
+    subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");
     subcommand.add_flag("--quiet", call->quiet, "no progress");
-    set_examples(subcommand, {"swirl paper --figure 5b --quick", "swirl paper --figure 5b --out fig5b",
-                              "swirl paper --quick"});
+    set_examples(subcommand, {"swirl paper --figure 5b --quick",
+                              "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
     subcommand.footer(figure_list() + "\n\n" + subcommand.get_footer());
     subcommand.callback([call] { make_paper(*call); });
 }

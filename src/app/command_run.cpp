@@ -6,7 +6,6 @@
 #include "app/progress_line.hpp"
 #include "app/run_options.hpp"
 #include "app/stop_signal.hpp"
-#include "files/whole_file.hpp"
 #include "lab/failure.hpp"
 #include "lab/run.hpp"
 #include "lab/run_json.hpp"
@@ -46,7 +45,7 @@ void run_and_report(const RunCall& call) {
         print_all(result_json(result).dump(2) + "\n");
         if (!call.quiet) fmt::print(stderr, "{}", text);
     } else {
-        if (!call.json.empty()) write_whole_file(call.json, result_json(result).dump(2) + "\n");
+        if (!call.json.empty()) write_output(call.json, result_json(result).dump(2) + "\n");
         if (!call.quiet || call.json.empty()) print_all(text);
     }
     if (!result.complete) throw Interrupted("Stopped before the end of the run.");
@@ -65,8 +64,7 @@ void add_run_command(CLI::App& subcommand) {
     subcommand.callback([call] { run_and_report(*call); });
 }
 
-const Command command(10, "run", "One simulation, from its seed to its averages.",
-                      add_run_command);
+const Command command(10, "run", "One simulation, from its seed to its averages.", add_run_command);
 
 }  // namespace
 }  // namespace swirl

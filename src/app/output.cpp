@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "files/whole_file.hpp"
 #include "lab/failure.hpp"
 
 namespace swirl {
@@ -29,26 +30,44 @@ void refuse_unwritable(const std::filesystem::path& file) {
                                   file.string()));
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     if (!std::filesystem::is_directory(folder, ignored))
-        throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.",
-                                  file.string(), folder.string()));
+        throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
+                                  folder.string()));
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
+}
+
+void write_output(const std::filesystem::path& file, const std::string& text) {
+    std::error_code ignored;
+    // Through a link to what it stands for: /dev/stdout must stay what it is.
+    const auto target = std::filesystem::is_symlink(file, ignored)
+                            ? std::filesystem::weakly_canonical(file, ignored)
+                            : file;
+    const auto kind = std::filesystem::status(file, ignored).type();
+    if (kind == std::filesystem::file_type::regular ||
+        kind == std::filesystem::file_type::not_found) {
+        write_whole_file(target.empty() ? file : target, text);
+        return;
+    }
+    std::FILE* const stream = std::fopen(file.c_str(), "w");
+    const bool written = stream && std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+    const bool closed = stream && std::fclose(stream) == 0;
+    if (!written || !closed)
+        throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
 }
 
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw Failure(fmt::format("The folder '{}' cannot be made: {}.", folder.string(),
-                                  error.message()));
+        throw Failure(
+            fmt::format("The folder '{}' cannot be made: {}.", folder.string(), error.message()));
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         throw Failure(fmt::format("The folder '{}' cannot be written to: {}.", folder.string(),
                                   last_error()));
 }
 
 void print_all(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
-        std::fflush(stdout) == 0)
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
         return;
     throw Failure(fmt::format("Writing to standard output failed: {}.", last_error()));
 }

@@ -9,6 +9,10 @@ namespace swirl {
 /// Throws Failure or WrongCall, before any work is done, if no file could be written there.
 void refuse_unwritable(const std::filesystem::path& file);
 
+/// Writes a file whole or not at all (files/whole_file.hpp); a pipe or a device gets the text as it
+/// is. Throws FileError or Failure.
+void write_output(const std::filesystem::path& file, const std::string& text);
+
 /// Makes the folder if it is not there; throws Failure if it cannot be written to.
 void make_folder(const std::filesystem::path& folder);
 

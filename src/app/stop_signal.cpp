@@ -1,7 +1,7 @@
 #include "app/stop_signal.hpp"
 
-#include <csignal>
 #include <unistd.h>
+#include <csignal>
 
 namespace swirl {
 namespace {

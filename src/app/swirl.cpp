@@ -2,6 +2,7 @@
 // sentence and an exit code: 0 done, 1 could not be done, 2 wrong call, 130 stopped by a signal.
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -61,15 +62,16 @@ std::string in_words(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int main_or_throw(int argc, char** argv) {
-    CLI::App app("A laboratory for swirled granular matter: exact event-driven simulation of discs\n"
-                 "in a swirled dish, after Lee et al., Phys. Rev. E 100, 012903 (2019).",
-                 "swirl");
+    CLI::App app(
+        "A laboratory for swirled granular matter: exact event-driven simulation of discs\n"
+        "in a swirled dish, after Lee et al., Phys. Rev. E 100, 012903 (2019).",
+        "swirl");
     app.set_version_flag("--version", swirl::version());
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(34);
     for (const swirl::Command* command : swirl::Command::all()) command->add_to(app);
-    swirl::set_examples(app, {"swirl run --discs 48", "swirl paper --figure 5b --quick",
-                              "swirl run --help"});
+    swirl::set_examples(
+        app, {"swirl run --discs 48", "swirl paper --figure 5b --quick", "swirl run --help"});
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version
@@ -87,6 +89,8 @@ int main_or_throw(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A file that grows beyond what is allowed is an error of write(), like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return main_or_throw(argc, argv);
     } catch (const swirl::WrongCall& wrong) {

@@ -37,8 +37,11 @@ class Parts {
     std::optional<Json> recall(const std::string& key) const {
         if (!fs::exists(file(key))) return {};
         const Json part = Json::parse(read_whole_file(file(key)), nullptr, false);
-        if (part.is_discarded() || part.value("key", "") != key ||
-            part.value("version", "") != version() || !part.contains("result"))
+        const auto says = [&](const char* name, const std::string& text) {
+            return part.contains(name) && part[name] == text;
+        };
+        if (!part.is_object() || !says("key", key) || !says("version", version()) ||
+            !part.contains("result"))
             return {};
         return part["result"];
     }
@@ -107,8 +110,8 @@ const PaperFigure& paper_figure(const std::string& name) {
 }
 
 PaperTask run_task(const std::string& key, const RunConfig& config) {
-    const double events =
-        config.periods ? 1000.0 * static_cast<double>(*config.periods) : static_cast<double>(config.events);
+    const double events = config.periods ? 1000.0 * static_cast<double>(*config.periods)
+                                         : static_cast<double>(config.events);
     return {key, events, [config](const RunControl& control) {
                 const RunResult result = run(config, control);
                 if (!result.complete) throw Interrupted("Stopped.");
@@ -138,12 +141,12 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     }
     all.tasks = tasks.size();
     all.remembered = results.size();
-    std::stable_sort(left.begin(), left.end(), [](const PaperTask* a, const PaperTask* b) {
-        return a->cost > b->cost;
-    });
+    std::stable_sort(left.begin(), left.end(),
+                     [](const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; });
 
-    const double total = std::accumulate(left.begin(), left.end(), 0.0,
-                                         [](double sum, const PaperTask* t) { return sum + t->cost; });
+    const double total =
+        std::accumulate(left.begin(), left.end(), 0.0,
+                        [](double sum, const PaperTask* t) { return sum + t->cost; });
     StudyProgress progress(control, total);
     std::mutex results_mutex;
     try {
@@ -172,15 +175,15 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
         all.findings.insert(all.findings.end(), outcome.findings.begin(), outcome.findings.end());
         all.files.insert(all.files.end(), outcome.files.begin(), outcome.files.end());
     }
-    all.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return all;
 }
 
 std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table) {
     run_python_script(script, {table.string()});
     std::vector<fs::path> drawn;
-    for (const char* kind : {".png", ".pdf"}) drawn.push_back(fs::path(table).replace_extension(kind));
+    for (const char* kind : {".png", ".pdf"})
+        drawn.push_back(fs::path(table).replace_extension(kind));
     return drawn;
 }
 

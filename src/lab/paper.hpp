@@ -7,6 +7,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace swirl {
 
 struct PaperSettings {
     bool quick = false;  // fewer points, shorter runs: the shape of the figure in a minute
+    std::optional<std::int64_t> events;  // of every run, where a figure gives no reason of its own
     std::filesystem::path out = "out";
     std::uint64_t seed = 1;
 };

@@ -27,10 +27,8 @@ struct Setting {
 
 // Caption of Figure 5: "When one friction is completely turned off, the other is set to 1.0."
 constexpr Setting settings_of_5b[] = {
-    {"high", "high friction", 1.0, 1.0},
-    {"medium", "medium friction", 0.5, 0.5},
-    {"low", "low friction", 0.1, 0.1},
-    {"no-wall", "no wall friction", 1.0, 0.0},
+    {"high", "high friction", 1.0, 1.0},       {"medium", "medium friction", 0.5, 0.5},
+    {"low", "low friction", 0.1, 0.1},         {"no-wall", "no wall friction", 1.0, 0.0},
     {"no-disc", "no disc friction", 0.0, 1.0},
 };
 
@@ -66,8 +64,8 @@ void add_row(Table& table, const Point& point, const Json& r) {
 Table empty_table() {
     return Table({"setting", "mu_disc", "mu_wall", "discs", "by_event", "by_event_error", "by_time",
                   "by_time_error", "rigid_by_event", "rigid_by_event_error", "rigid_by_time",
-                  "rigid_by_time_error", "effective_samples", "events", "periods",
-                  "warmup_periods", "steady_state", "seed", "state_hash"});
+                  "rigid_by_time_error", "effective_samples", "events", "periods", "warmup_periods",
+                  "steady_state", "seed", "state_hash"});
 }
 
 /// "high friction (μ_d = 1, μ_w = 1): crosses zero at N = 36.4 ± 0.3"
@@ -116,13 +114,12 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
             config.discs = n;
             config.mu_disc = setting.mu_disc;
             config.mu_wall = setting.mu_wall;
-            config.events = settings.quick ? 200'000 : 1'000'000;
+            config.events = settings.events.value_or(settings.quick ? 200'000 : 1'000'000);
             config.seed = settings.seed;
             points.push_back({setting, n});
-            plan.tasks.push_back(run_task(
-                fmt::format("run_{}_N{}_{}events_seed{}", setting.name, n, config.events,
-                            config.seed),
-                config));
+            plan.tasks.push_back(run_task(fmt::format("run_{}_N{}_{}events_seed{}", setting.name, n,
+                                                      config.events, config.seed),
+                                          config));
         }
     }
     plan.finish = [points](const std::vector<Json>& results, const std::filesystem::path& out) {

@@ -31,8 +31,8 @@ struct Ended {
 Ended run_program(const std::vector<std::string>& words) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-        throw Failure(fmt::format("No pipe could be made: {}.",
-                                  std::generic_category().message(errno)));
+        throw Failure(
+            fmt::format("No pipe could be made: {}.", std::generic_category().message(errno)));
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -48,10 +48,10 @@ Ended run_program(const std::vector<std::string>& words) {
     close(ends[1]);
     if (error != 0) {
         close(ends[0]);
-        throw Failure(fmt::format(
-            "'{}' could not be started: {}. The figures need the Debian package "
-            "python3-matplotlib; the tables are written.",
-            words.front(), std::generic_category().message(error)));
+        throw Failure(
+            fmt::format("'{}' could not be started: {}. The figures need the Debian package "
+                        "python3-matplotlib; the tables are written.",
+                        words.front(), std::generic_category().message(error)));
     }
     Ended ended{0, ""};
     std::array<char, 4096> block;

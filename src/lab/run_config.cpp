@@ -56,7 +56,8 @@ std::optional<std::string> number_out_of_range(const RunConfig& c) {
     for (const auto& answer : answers)
         if (answer) return answer;
     if (!c.mixture) return {};
-    if (auto answer = outside("the count in --mixture", c.mixture->count, 1, c.discs)) return answer;
+    if (auto answer = outside("the count in --mixture", c.mixture->count, 1, c.discs))
+        return answer;
     if (auto answer = outside("the radius in --mixture", c.mixture->radius, smallest, largest))
         return answer;
     return outside("the mass in --mixture", c.mixture->mass, smallest, largest);

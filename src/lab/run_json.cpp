@@ -20,9 +20,12 @@ Json counts_json(const EventCounts& counts) {
 
 const char* word(SteadyState::Verdict verdict) {
     switch (verdict) {
-        case SteadyState::Verdict::steady: return "steady";
-        case SteadyState::Verdict::drifting: return "drifting";
-        case SteadyState::Verdict::too_short: break;
+        case SteadyState::Verdict::steady:
+            return "steady";
+        case SteadyState::Verdict::drifting:
+            return "drifting";
+        case SteadyState::Verdict::too_short:
+            break;
     }
     return "too short to tell";
 }
@@ -51,9 +54,8 @@ Json config_json(const RunConfig& c) {
               {"warmup", nullptr},
               {"seed", c.seed}};
     if (c.mixture)
-        json["mixture"] = Json{{"count", c.mixture->count},
-                               {"radius", c.mixture->radius},
-                               {"mass", c.mixture->mass}};
+        json["mixture"] = Json{
+            {"count", c.mixture->count}, {"radius", c.mixture->radius}, {"mass", c.mixture->mass}};
     if (c.path == PathShape::polygon) json["sides"] = c.sides;
     if (c.periods)
         json["periods"] = *c.periods;

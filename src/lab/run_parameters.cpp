@@ -38,8 +38,7 @@ std::optional<std::int64_t> whole(const ParameterTexts& given, std::string_view 
     const auto text = text_of(given, name);
     if (!text) return {};
     const auto value = read_whole_number(*text);
-    if (!value)
-        unreadable(name, *text, "a whole number below 10^18, for example 48 or 1e6");
+    if (!value) unreadable(name, *text, "a whole number below 10^18, for example 48 or 1e6");
     return value;
 }
 
@@ -63,8 +62,8 @@ Mixture mixture_from(std::string_view text, const RunConfig& config) {
     if (first == text.npos) unreadable("mixture", text, right);
     const auto second = text.find(':', first + 1);
     const auto count = read_whole_number(text.substr(0, first));
-    const auto radius = read_number(text.substr(
-        first + 1, second == text.npos ? second : second - first - 1));
+    const auto radius =
+        read_number(text.substr(first + 1, second == text.npos ? second : second - first - 1));
     if (!count || !radius) unreadable("mixture", text, right);
     const double ratio = *radius / config.radius;
     double mass = config.mass * ratio * ratio;
@@ -83,8 +82,7 @@ void resolve_speed(const ParameterTexts& given, RunConfig& config) {
     const double speed = number_from("speed", *text);
     const bool period_given = text_of(given, "period").has_value();
     const bool amplitude_given = text_of(given, "amplitude").has_value();
-    if (!(speed >= 0.0))
-        unreadable("speed", *text, "0 (a container that stands still) or more");
+    if (!(speed >= 0.0)) unreadable("speed", *text, "0 (a container that stands still) or more");
     if (period_given && amplitude_given) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;

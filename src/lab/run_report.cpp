@@ -21,7 +21,8 @@ std::string energy_sentence(const RunResult& r) {
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
     if (r.config.path == PathShape::circle)
         return fmt::format(
-            "Without friction on the true circle K − ΩL is conserved: it was {:.6g} at the start and "
+            "Without friction on the true circle K − ΩL is conserved: it was {:.6g} at the start "
+            "and "
             "changed by {:.1e}.",
             r.invariant_at_start, growth);
     return fmt::format(
@@ -102,8 +103,8 @@ std::string report(const RunResult& r) {
     line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
     line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
-    line("time", fmt::format("{:.2f} s, {:.2f} million events/s", r.seconds,
-                             r.events_per_second() / 1e6));
+    line("time",
+         fmt::format("{:.2f} s, {:.2f} million events/s", r.seconds, r.events_per_second() / 1e6));
     for (const std::string& warning : warnings(r)) text += warning + "\n";
     return text;
 }
@@ -111,9 +112,9 @@ std::string report(const RunResult& r) {
 std::vector<std::string> warnings(const RunResult& r) {
     std::vector<std::string> all;
     if (!r.complete)
-        all.push_back(fmt::format(
-            "Incomplete: stopped after {:.1f} periods and {} events, before its end.", r.periods,
-            with_commas(r.events.total())));
+        all.push_back(
+            fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
+                        r.periods, with_commas(r.events.total())));
     if (frictionless(r.config) && r.config.amplitude > 0.0 && r.config.restitution == 1.0)
         all.push_back(energy_sentence(r));
     else if (r.steady.verdict == SteadyState::Verdict::drifting)

@@ -7,8 +7,8 @@
 //
 //     x_c = −a/b,      error² = (var a + 2 x_c cov(a, b) + x_c² var b) / b²,
 //
-// enlarged by √(χ²/ν) where the points scatter about the line by more than their errors say. Limits:
-// the curve must be near enough to straight over those points.
+// enlarged by √(χ²/ν) where the points scatter about the line by more than their errors say.
+// Limits: the curve must be near enough to straight over those points.
 #pragma once
 
 #include <optional>

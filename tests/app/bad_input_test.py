@@ -1,0 +1,162 @@
+"""Bad input: one clear sentence on stderr that names the value, exit code 2 (wrong call) or 1
+(failure), nothing left under its final name, never a crash or a hang."""
+
+import os
+import resource
+import subprocess
+import unittest
+
+from program import SWIRL, InFolder, swirl
+
+# Call, exit code, words that the sentence must contain.
+CALLS = [
+    ("--discs 0", 2, ["--discs is 0", "from 1"]),
+    ("--discs -3", 2, ["--discs is -3", "from 1"]),
+    ("--discs 2.5", 2, ["--discs is '2.5'", "whole number"]),
+    ("--discs many", 2, ["--discs is 'many'", "whole number"]),
+    ("--discs 1e30", 2, ["--discs is '1e30'"]),
+    ("--discs 60", 2, ["60 discs", "8.6", "overlap"]),
+    ("--discs 5000", 2, ["5000 discs do not fit", "8.6"]),
+    ("--mu -1", 2, ["--mu is '-1'", "0 or more"]),
+    ("--mu nan", 2, ["--mu is 'nan'", "finite number"]),
+    ("--mu inf", 2, ["--mu is 'inf'", "finite number"]),
+    ("--mu 0,5", 2, ["--mu is '0,5'", "number"]),
+    ("--mu-disc -0.1", 2, ["--mu-disc is -0.1", "from 0"]),
+    ("--mu-wall -0.1", 2, ["--mu-wall is -0.1", "from 0"]),
+    ("--restitution 1.5", 2, ["--restitution is 1.5", "from 0 to 1"]),
+    ("--restitution -0.5", 2, ["--restitution is -0.5", "from 0 to 1"]),
+    ("--tangential-restitution 2", 2, ["--tangential-restitution is 2", "from 0 to 1"]),
+    ("--inertia 0", 2, ["--inertia is 0"]),
+    ("--inertia -1", 2, ["--inertia is -1"]),
+    ("--inertia hollow", 2, ["--inertia is 'hollow'", "ring", "solid", "paper"]),
+    ("--mass 0", 2, ["--mass is 0"]),
+    ("--mass -1", 2, ["--mass is -1"]),
+    ("--radius 0", 2, ["--radius is 0"]),
+    ("--radius 8.6 --discs 1", 2, ["8.6", "--container-radius must be larger"]),
+    ("--radius 1e-300", 2, ["--radius is 1e-300"]),
+    ("--container-radius 0", 2, ["--container-radius is 0"]),
+    ("--container-radius -8", 2, ["--container-radius is -8"]),
+    ("--amplitude -1", 2, ["--amplitude is -1"]),
+    ("--amplitude 1 --speed 1 --period 3", 2, ["--speed is 1", "--amplitude 1", "--period 3"]),
+    ("--amplitude 0 --speed 1", 2, ["--speed is 1", "--amplitude 0", "stands still"]),
+    ("--speed -1", 2, ["--speed is '-1'"]),
+    ("--speed 1e-300", 2, ["--period is"]),
+    ("--sides 2", 2, ["--sides is 2", "from 3"]),
+    ("--sides 0", 2, ["--sides is 0", "from 3"]),
+    ("--sides 1e17", 2, ["--sides is", "from 3"]),
+    ("--sides 30 --path circle", 2, ["--sides is 30", "circle"]),
+    ("--path square", 2, ["--path is 'square'", "polygon or circle"]),
+    ("--period 0", 2, ["--period is 0"]),
+    ("--period -5", 2, ["--period is -5"]),
+    ("--events 0", 2, ["--events is 0", "from 1"]),
+    ("--events 1e30", 2, ["--events is '1e30'"]),
+    ("--events 1e17", 2, ["--events is 100000000000000000", "to 1000000000000000"]),
+    ("--periods 0", 2, ["--periods is 0", "from 1"]),
+    ("--events 10 --periods 10", 2, ["--events 10", "--periods 10", "leave one away"]),
+    ("--warmup -1", 2, ["--warmup is -1", "from 0"]),
+    ("--warmup 20 --periods 20", 2, ["--warmup is 20", "--periods 20", "shorter"]),
+    ("--warmup 500 --events 1000", 2, ["--warmup is 500", "--events 1000", "shorter"]),
+    ("--warmup 20 --events 5000", 1, ["--warmup 20", "shorter"]),
+    ("--seed -1", 2, ["--seed is '-1'"]),
+    ("--seed 1.5", 2, ["--seed is '1.5'"]),
+    ("--seed 99999999999999999999", 2, ["--seed is '99999999999999999999'"]),
+    ("--mixture 12", 2, ["--mixture is '12'", "COUNT:RADIUS"]),
+    ("--mixture 0:1.2", 2, ["--mixture is 0"]),
+    ("--mixture 60:1.2", 2, ["--mixture is 60", "to 48"]),
+    ("--mixture 5:-1", 2, ["--mixture is -1"]),
+    ("--mixture 5:1.2:0", 2, ["--mixture is 0"]),
+    ("--mixture 5:1.2:x", 2, ["--mixture is '5:1.2:x'"]),
+    ("--mixture 5:9", 2, ["9", "--container-radius must be larger"]),
+    ("--discs 5 --discs 6", 2, ["--discs is given more than once"]),
+    ("--discs", 2, ["--discs needs a value"]),
+    ("--frobnicate", 2, ["no option --frobnicate"]),
+    ("--disc 5", 2, ["no option --disc", "did you mean --discs"]),
+    ("48", 2, ["no use for '48'"]),
+    ("--json", 2, ["--json needs a value"]),
+    ("--json --quiet", 2, ["'--quiet' looks like an option"]),
+    ("--json /no/such/folder/x.json", 1, ["/no/such/folder"]),
+    ("--json /", 1, ["is a folder"]),
+]
+
+
+class BadCalls(unittest.TestCase):
+    def test_each_is_answered_with_one_sentence_that_names_the_value(self):
+        for call, code, words in CALLS:
+            with self.subTest(call):
+                done = swirl("run", *call.split(), timeout=20)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(done.stdout, "")
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertTrue(done.stderr.startswith("swirl: "), done.stderr)
+                for word in words:
+                    self.assertIn(word, done.stderr)
+
+    def test_the_empty_call_and_unknown_commands(self):
+        done = swirl()
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("Usage", done.stderr)
+        done = swirl("rnu")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean run", done.stderr)
+        done = swirl("paper", "--figure", "9z")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--figure is '9z'", done.stderr)
+        self.assertIn("5b", done.stderr)
+
+    def test_bytes_that_are_no_text(self):
+        done = subprocess.run([SWIRL.encode(), b"run", b"--discs", b"\xff\xfe"],
+                              capture_output=True, timeout=20)
+        self.assertEqual(done.returncode, 2)
+
+    def test_a_very_long_value(self):
+        self.assertEqual(swirl("run", "--discs", "9" * 100000).returncode, 2)
+        self.assertEqual(swirl("run", "--mu", "0." + "3" * 100000, "--events", 10).returncode, 0)
+
+
+class UnwritableOutput(InFolder):
+    def test_a_folder_without_permission(self):
+        if os.geteuid() == 0:
+            folder = "/proc"
+        else:
+            os.chmod(self.folder, 0o500)
+            folder = self.folder
+        done = swirl("run", "--events", 10, "--json", folder + "/x.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("x.json", done.stderr)
+
+    def test_full_disk_for_stdout(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([SWIRL, "run", "--events", "100"], stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("No space left", done.stderr)
+
+    def test_a_file_that_may_not_grow(self):
+        def tiny_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
+
+        with open(self.path("x.json"), "w") as old:
+            old.write("what was there before")
+        done = swirl("run", "--events", 10, "--json", self.path("x.json"), preexec_fn=tiny_files)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("x.json", done.stderr)
+        self.assertEqual(self.left_behind(), ["x.json"])
+        with open(self.path("x.json")) as old:
+            self.assertEqual(old.read(), "what was there before")
+
+    def test_a_full_disk(self):
+        script = ('mount -t tmpfs -o size=4k swirl "$1" && cd "$1" && '
+                  'head -c 4096 /dev/zero >filled; "$2" run --events 10 --quiet --json x.json; '
+                  'echo "code $?"; ls')
+        done = subprocess.run(["unshare", "--map-root-user", "--mount", "sh", "-c", script, "sh",
+                               self.folder, os.path.abspath(SWIRL)],
+                              capture_output=True, text=True, timeout=20)
+        if "code" not in done.stdout:
+            self.skipTest("this machine allows no small disk of one's own: " + done.stderr)
+        self.assertIn("code 1", done.stdout)
+        self.assertIn("No space left", done.stderr)
+        self.assertNotIn("x.json", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

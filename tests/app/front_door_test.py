@@ -1,0 +1,147 @@
+"""The front door ./swirl, on a small house of one file: it builds when something changed, never
+runs a stale program, adds next to nothing when all is ready, and becomes the program."""
+
+import os
+import shutil
+import signal
+import stat
+import subprocess
+import time
+import unittest
+
+from program import SOURCE, InFolder
+
+CMAKE = """cmake_minimum_required(VERSION 3.25)
+project(small LANGUAGES CXX)
+file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
+add_executable(swirl ${sources})
+"""
+PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
+ "binaryDir": "${sourceDir}/build/release"}]}"""
+PROGRAM = """#include <cstdio>
+#include <cstdlib>
+#include <unistd.h>
+int main(int argc, char** argv) {
+    std::printf("%s %d\\n", "WORD", int(getpid()));
+    std::fflush(stdout);
+    if (argc > 2) pause();
+    return argc > 1 ? std::atoi(argv[1]) : 0;
+}
+"""
+
+
+class FrontDoor(InFolder):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("src"))
+        os.makedirs(self.path("cmake"))
+        shutil.copy(os.path.join(SOURCE, "swirl"), self.path("swirl"))
+        shutil.copy(os.path.join(SOURCE, "cmake", "front_door.sh"), self.path("cmake"))
+        self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\n")
+        self.write("CMakeLists.txt", CMAKE)
+        self.write("CMakePresets.json", PRESETS)
+        self.write_program("first")
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def write_program(self, word):
+        self.write("src/main.cpp", PROGRAM.replace("WORD", word))
+
+    def call(self, *arguments):
+        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
+                              timeout=100, cwd="/")
+
+    def word(self):
+        done = self.call()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()[0]
+
+    def test_builds_once_and_then_adds_next_to_nothing(self):
+        done = self.call()
+        self.assertEqual(done.stdout.split()[0], "first")
+        self.assertIn("building", done.stderr)
+        fastest = 10.0
+        for _ in range(5):
+            begin = time.perf_counter()
+            done = self.call()
+            fastest = min(fastest, time.perf_counter() - begin)
+            self.assertEqual(done.stderr, "")
+        self.assertLess(fastest, 0.25)
+
+    def test_never_runs_a_stale_program(self):
+        self.assertEqual(self.word(), "first")
+        self.write_program("second")
+        self.assertEqual(self.word(), "second")
+        # A file with an old date, put in place of the new one, as by `mv` or `tar`.
+        self.write_program("third")
+        os.utime(self.path("src/main.cpp"), (1e9, 1e9))
+        self.assertEqual(self.word(), "third")
+        # A new file, and then one less.
+        self.write("src/more.cpp", "int more() { return 1; }\n")
+        self.assertEqual(self.word(), "third")
+        os.remove(self.path("src/more.cpp"))
+        self.assertEqual(self.word(), "third")
+
+    def test_what_cannot_be_built_is_said_and_not_run(self):
+        self.assertEqual(self.word(), "first")
+        self.write("src/main.cpp", "int main() { return missing_name; }\n")
+        done = self.call()
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout, "")
+        self.assertIn("missing_name", done.stderr)
+        self.assertIn("the build failed", done.stderr)
+        self.write_program("mended")
+        self.assertEqual(self.word(), "mended")
+
+    def test_a_tree_that_moved_is_built_anew(self):
+        self.assertEqual(self.word(), "first")
+        new = self.path("moved")
+        os.makedirs(new)
+        for name in ("src", "cmake", "build", "swirl", "packages", "CMakeLists.txt",
+                     "CMakePresets.json"):
+            shutil.move(self.path(name), new)
+        with open(os.path.join(new, "src", "main.cpp"), "w") as file:
+            file.write(PROGRAM.replace("WORD", "elsewhere"))
+        done = subprocess.run([os.path.join(new, "swirl")], capture_output=True, text=True,
+                              timeout=100)
+        self.assertEqual(done.stdout.split()[:1], ["elsewhere"], done.stderr)
+
+    def test_becomes_the_program_with_its_exit_code_and_signals(self):
+        self.assertEqual(self.word(), "first")
+        self.assertEqual(self.call("7").returncode, 7)
+        process = subprocess.Popen([self.path("swirl"), "0", "wait"], stdout=subprocess.PIPE,
+                                   text=True)
+        self.assertEqual(process.stdout.readline().split(), ["first", str(process.pid)])
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+
+    def test_through_a_link(self):
+        os.symlink(self.path("swirl"), self.path("link"))
+        done = subprocess.run([self.path("link")], capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.stdout.split()[0], "first")
+
+    def test_two_at_once_build_once(self):
+        both = [subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        said = [process.communicate(timeout=100) for process in both]
+        self.assertEqual([out.split()[0] for out, _ in said], ["first", "first"])
+        self.assertEqual(sum("building" in complaint for _, complaint in said), 1)
+
+    def test_without_root_a_missing_package_is_named_with_the_command(self):
+        self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
+        # A stand-in for `id` says that we are not root.
+        os.makedirs(self.path("bin"))
+        self.write("bin/id", "#!/bin/sh\necho 1000\n")
+        os.chmod(self.path("bin/id"), os.stat(self.path("bin/id")).st_mode | stat.S_IXUSR)
+        done = subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
+                              env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
+                      done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

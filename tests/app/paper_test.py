@@ -1,0 +1,103 @@
+"""swirl paper: its tables do not depend on threads or interruptions, and the figure is drawn from
+the table alone."""
+
+import csv
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from program import SOURCE, SWIRL, InFolder, swirl
+
+SETTINGS = {"high", "medium", "low", "no-wall", "no-disc"}
+
+
+class Figure5b(InFolder):
+    def make(self, out, *more, **how):
+        done = swirl("paper", "--figure", "5b", "--quick", "--events", 3000, "--out",
+                     self.path(out), *more, **how)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def bytes_of(self, *name):
+        with open(os.path.join(self.folder, *name), "rb") as file:
+            return file.read()
+
+    def test_table_and_pictures(self):
+        said = self.make("a").stdout
+        with open(self.path("a/figure_5b.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["setting"] for row in rows}, SETTINGS)
+        for row in rows:
+            self.assertEqual(row["events"], "3000")
+            for name in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
+                float(row[name])
+        self.assertTrue(self.bytes_of("a", "figure_5b.png").startswith(b"\x89PNG"))
+        self.assertTrue(self.bytes_of("a", "figure_5b.pdf").startswith(b"%PDF"))
+        for words in ("high friction", "medium friction", "low friction", "no wall friction",
+                      "no disc friction"):
+            self.assertRegex(said, words + r" .*cross")
+
+    def test_the_same_on_one_core_and_on_all(self):
+        self.make("all")
+        one = {min(os.sched_getaffinity(0))}
+        self.make("one", preexec_fn=lambda: os.sched_setaffinity(0, one))
+        self.assertEqual(self.bytes_of("all", "figure_5b.csv"),
+                         self.bytes_of("one", "figure_5b.csv"))
+
+    def test_interrupted_and_called_again_it_continues_to_the_same_table(self):
+        self.make("whole")
+        call = [SWIRL, "paper", "--figure", "5b", "--quick", "--events", "3000", "--out",
+                self.path("cut")]
+        for _ in range(3):
+            process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       text=True)
+            parts = self.path("cut/parts")
+            before = len(os.listdir(parts)) if os.path.isdir(parts) else 0
+            deadline = time.time() + 20
+            while time.time() < deadline and process.poll() is None:
+                if os.path.isdir(parts) and len(os.listdir(parts)) > before + 5:
+                    process.send_signal(signal.SIGINT)
+                    break
+                time.sleep(0.001)
+            _, complaint = process.communicate(timeout=60)
+            if process.returncode == 0:
+                break
+            self.assertEqual(process.returncode, 130, complaint)
+            self.assertIn("continues", complaint)
+            self.assertNotIn("figure_5b.csv", os.listdir(self.path("cut")))
+        said = self.make("cut").stdout
+        self.assertIn("from an earlier call", said)
+        self.assertEqual(self.bytes_of("whole", "figure_5b.csv"),
+                         self.bytes_of("cut", "figure_5b.csv"))
+
+    def test_damaged_parts_are_made_again(self):
+        self.make("a")
+        table = self.bytes_of("a", "figure_5b.csv")
+        parts = self.path("a/parts")
+        for number, name in enumerate(sorted(os.listdir(parts))):
+            with open(os.path.join(parts, name), "w") as file:
+                file.write(("", "{", "[]", '{"key": 3}', '{"result": {}}')[number % 5])
+        self.make("a")
+        self.assertEqual(self.bytes_of("a", "figure_5b.csv"), table)
+
+    def test_the_script_runs_alone_and_draws_the_same_bytes(self):
+        self.make("a")
+        shutil.copy(self.path("a/figure_5b.csv"), self.path("figure_5b.csv"))
+        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "figure_5b.py"),
+                        self.path("figure_5b.csv")], check=True, timeout=60)
+        for kind in ("png", "pdf"):
+            self.assertEqual(self.bytes_of("a", f"figure_5b.{kind}"),
+                             self.bytes_of(f"figure_5b.{kind}"))
+
+    def test_a_folder_that_cannot_be_made(self):
+        open(self.path("file"), "w").close()
+        done = swirl("paper", "--figure", "5b", "--quick", "--out", self.path("file/out"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("file/out", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

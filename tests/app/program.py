@@ -1,0 +1,40 @@
+"""Calling the program under test, for the tests in this folder."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
+SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__)))))
+
+
+def swirl(*arguments, timeout=100, **more):
+    """Runs the program to its end; .returncode, .stdout and .stderr (text)."""
+    environment = dict(os.environ, NO_COLOR="1", **more.pop("environment", {}))
+    return subprocess.run([SWIRL, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=timeout, env=environment, stdin=subprocess.DEVNULL, **more)
+
+
+def result_of(*arguments):
+    """The JSON of a run that must succeed."""
+    done = swirl("run", *arguments, "--json", "-", "--quiet")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+class InFolder(unittest.TestCase):
+    """A test with an empty folder of its own, self.folder."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="swirl-test-")
+        self.folder = self._folder.name
+        self.addCleanup(self._folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def left_behind(self):
+        return sorted(os.listdir(self.folder))

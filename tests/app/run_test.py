@@ -1,0 +1,182 @@
+"""swirl run: what it prints, what its JSON holds, how it stops."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import SWIRL, InFolder, result_of, swirl
+
+
+class Json(InFolder):
+    def test_has_every_key_that_is_promised(self):
+        result = result_of("--discs", 12, "--events", 20000)
+        for key in ("config", "events", "periods", "rotation", "max_overlap", "energy",
+                    "state_hash", "seconds", "events_per_second", "version", "complete", "warmup"):
+            self.assertIn(key, result)
+        self.assertEqual(set(result["events"]), {"total", "disc_disc", "disc_wall", "path_vertex"})
+        for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
+            self.assertTrue(math.isfinite(result["rotation"][average]["mean"]))
+            self.assertGreater(result["rotation"][average]["error"], 0)
+
+    def test_counts_add_up_and_the_run_is_as_long_as_asked(self):
+        events = result_of("--discs", 20, "--events", 12345)["events"]
+        self.assertEqual(events["total"], 12345)
+        self.assertEqual(events["disc_disc"] + events["disc_wall"] + events["path_vertex"], 12345)
+        result = result_of("--discs", 20, "--periods", 30)
+        self.assertEqual(result["periods"], 30)
+        self.assertEqual(result["events"]["path_vertex"], 900)
+
+    def test_defaults_are_the_papers(self):
+        config = result_of("--events", 10)["config"]
+        expected = dict(mu_disc=1, mu_wall=1, inertia=10, mass=1, radius=1, container_radius=8.6,
+                        amplitude=1.892, sides=30, path="polygon", period=11.866071,
+                        restitution=1, tangential_restitution=0)
+        for name, value in expected.items():
+            self.assertEqual(config[name], value, name)
+        self.assertAlmostEqual(config["speed"], 1, places=7)
+
+    def test_every_option_arrives(self):
+        config = result_of("--discs", 9, "--mu", 0.3, "--mu-wall", 0.2, "--inertia", "solid",
+                           "--mass", 2, "--radius", 0.5, "--container-radius", 7, "--amplitude", 1,
+                           "--sides", 12, "--period", 9, "--seed", 77, "--periods", 3,
+                           "--warmup", 1, "--restitution", 0.9, "--mixture", "3:0.7:1.5",
+                           "--tangential-restitution", 0.5)["config"]
+        expected = dict(discs=9, mu_disc=0.3, mu_wall=0.2, inertia=0.25, mass=2, radius=0.5,
+                        container_radius=7, amplitude=1, sides=12, period=9, seed=77, periods=3,
+                        warmup=1, restitution=0.9, tangential_restitution=0.5,
+                        mixture=dict(count=3, radius=0.7, mass=1.5))
+        for name, value in expected.items():
+            self.assertEqual(config[name], value, name)
+
+    def test_inertia_has_names(self):
+        for name, value in (("paper", 10), ("ring", 1), ("solid", 0.5), ("3.5", 3.5)):
+            self.assertEqual(result_of("--events", 10, "--inertia", name)["config"]["inertia"],
+                             value)
+        # A name means a multiple of m r^2.
+        config = result_of("--events", 10, "--inertia", "ring", "--mass", 2, "--radius", 0.5)
+        self.assertEqual(config["config"]["inertia"], 0.5)
+
+    def test_speed_gives_the_period_or_the_amplitude(self):
+        self.assertAlmostEqual(result_of("--events", 10, "--speed", 2)["config"]["period"],
+                               11.866071 / 2, places=6)
+        config = result_of("--events", 10, "--speed", 2, "--period", 11.866071)["config"]
+        self.assertAlmostEqual(config["amplitude"], 2 * 1.892, places=6)
+
+    def test_to_a_file_and_to_stdout_are_the_same(self):
+        file = self.path("result.json")
+        done = swirl("run", "--discs", 8, "--events", 5000, "--json", file)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("8 discs", done.stdout)
+        with open(file) as opened:
+            from_file = json.load(opened)
+        from_stdout = result_of("--discs", 8, "--events", 5000)
+        for timing in ("seconds", "events_per_second"):
+            del from_file[timing], from_stdout[timing]
+        self.assertEqual(from_file, from_stdout)
+        self.assertEqual(self.left_behind(), ["result.json"])
+
+    def test_through_a_link_and_into_a_pipe(self):
+        os.symlink(self.path("real.json"), self.path("link.json"))
+        open(self.path("real.json"), "w").close()
+        swirl("run", "--events", 10, "--json", self.path("link.json"))
+        self.assertTrue(os.path.islink(self.path("link.json")))
+        with open(self.path("real.json")) as opened:
+            json.load(opened)
+        done = swirl("run", "--events", 10, "--quiet", "--json", "/dev/stdout")
+        self.assertEqual(json.loads(done.stdout)["events"]["total"], 10)
+
+    def test_stdout_holds_nothing_but_the_json(self):
+        done = swirl("run", "--events", 1000, "--json", "-")
+        json.loads(done.stdout)
+        self.assertIn("48 discs", done.stderr)
+
+
+class Trajectory(unittest.TestCase):
+    def test_same_seed_same_bits_and_another_seed_another_run(self):
+        first, again = (result_of("--events", 5000, "--seed", 5)["state_hash"] for _ in range(2))
+        other = result_of("--events", 5000, "--seed", 6)["state_hash"]
+        self.assertEqual(first, again)
+        self.assertNotEqual(first, other)
+
+    def test_what_is_left_out_of_the_averages_does_not_change_the_trajectory(self):
+        hashes = {result_of("--periods", 8, "--warmup", warmup)["state_hash"]
+                  for warmup in (0, 1, 7)}
+        self.assertEqual(len(hashes), 1)
+
+    def test_warmup_zero_counts_from_the_first_event(self):
+        result = result_of("--periods", 6, "--warmup", 0)
+        self.assertEqual(result["warmup"], {"periods": 0, "events": 0})
+        self.assertEqual(result["rotation"]["by_event"]["blocks"], 6)
+
+    def test_default_warmup_is_twenty_periods_or_a_fifth(self):
+        self.assertEqual(result_of("--discs", 5, "--periods", 200)["warmup"]["periods"], 20)
+        self.assertEqual(result_of("--discs", 5, "--periods", 50)["warmup"]["periods"], 10)
+
+    def test_rotates_at_28_and_counterrotates_at_48(self):
+        for discs, low, high in ((28, 0.02, 0.05), (48, -0.055, -0.015)):
+            mean = result_of("--discs", discs, "--events", 100000)["rotation"]["by_event"]["mean"]
+            self.assertTrue(low < mean < high, f"{discs} discs: {mean}")
+
+
+class Words(unittest.TestCase):
+    def test_headline_says_which_way(self):
+        self.assertIn("28 discs rotate: ϖ/Ω = 0.0", swirl("run", "--discs", 28, "--events", 1e5)
+                      .stdout)
+        self.assertIn("48 discs counterrotate: ϖ/Ω = −0.0",
+                      swirl("run", "--discs", 48, "--events", 1e5).stdout)
+
+    def test_one_disc_has_no_rotation(self):
+        done = swirl("run", "--discs", 1, "--events", 1000)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("no rotation about its own centre", done.stdout)
+
+    def test_no_friction_says_how_fast_the_energy_grows_on_the_polygon(self):
+        arguments = ("--mu", 0, "--discs", 12, "--periods", 40)
+        said = swirl("run", *arguments).stdout
+        self.assertIn("grows without bound on the polygon", said)
+        result = result_of(*arguments)
+        self.assertGreater(result["energy"], 5 * result["energy_at_start"])
+        self.assertIn(f"{result['energy']:.4g}", said)
+
+    def test_no_friction_on_the_circle_conserves_the_invariant(self):
+        result = result_of("--mu", 0, "--discs", 12, "--periods", 20, "--path", "circle")
+        self.assertAlmostEqual(result["invariant"], result["invariant_at_start"], delta=1e-8)
+
+    def test_quiet_is_one_line(self):
+        done = swirl("run", "--events", 1000, "--quiet")
+        self.assertEqual(done.stdout.count("\n"), 1)
+        self.assertEqual(done.stderr, "")
+
+    def test_a_log_file_gets_no_bar(self):
+        self.assertEqual(swirl("run", "--events", 50000, "--json", "-", "--quiet").stderr, "")
+        self.assertNotIn("\r", swirl("run", "--events", 50000).stderr)
+
+
+class Stopping(InFolder):
+    def start(self, *arguments):
+        process = subprocess.Popen([SWIRL, "run", "--events", "1e14", *arguments],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        return process
+
+    def test_ctrl_c_ends_cleanly_with_what_there_is(self):
+        for how in (signal.SIGINT, signal.SIGTERM):
+            process = self.start("--json", self.path("result.json"))
+            process.send_signal(how)
+            said, complaint = process.communicate(timeout=20)
+            self.assertEqual(process.returncode, 130)
+            self.assertIn("Incomplete", said)
+            self.assertIn("Stopped before the end", complaint)
+            with open(self.path("result.json")) as opened:
+                result = json.load(opened)
+            self.assertFalse(result["complete"])
+            self.assertGreater(result["events"]["total"], 0)
+            self.assertEqual(self.left_behind(), ["result.json"])
+
+
+if __name__ == "__main__":
+    unittest.main()

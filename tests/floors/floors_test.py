@@ -1,0 +1,123 @@
+"""The house has floors, and the stairs go down only (docs/design.md). Reads every #include of src/
+and fails on a climb; and holds the engine's floors to what they promise: standard library only, no
+input or output, no clock, no threads, no exceptions."""
+
+import os
+import re
+import unittest
+
+SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__)))))
+
+# Which floors each may look at, its own aside.
+BELOW = {
+    "physics": set(),
+    "simulation": {"physics"},
+    "measure": {"physics"},
+    "files": {"physics", "simulation", "measure"},
+    "draw": {"physics", "measure"},
+    "lab": {"physics", "simulation", "measure", "files", "draw"},
+    "app": {"physics", "simulation", "measure", "files", "draw", "lab"},
+}
+ENGINE = ("physics", "simulation", "measure")
+
+FORBIDDEN_HEADERS = {
+    "iostream", "fstream", "sstream", "cstdio", "stdio.h", "filesystem", "chrono", "ctime", "time.h",
+    "thread", "mutex", "atomic", "future", "condition_variable", "random", "unistd.h", "print",
+    "unordered_map", "unordered_set", "iomanip", "ostream", "istream", "format",
+}
+FORBIDDEN_WORDS = {"virtual", "throw", "try", "catch", "thread_local", "getenv", "rand"}
+
+STANDARD = {
+    "algorithm", "array", "bit", "bitset", "cfloat", "charconv", "climits", "cmath", "compare",
+    "complex", "concepts", "cstddef", "cstdint", "cstdlib", "cstring", "deque", "functional",
+    "initializer_list", "iterator", "limits", "list", "map", "memory", "new", "numbers", "numeric",
+    "optional", "queue", "ranges", "set", "span", "stack", "string", "string_view", "tuple",
+    "type_traits", "utility", "variant", "vector", "version", "immintrin.h", "cpuid.h",
+}
+
+
+def sources(floor):
+    for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "src", floor))):
+        for name in sorted(names):
+            if name.endswith((".hpp", ".cpp", ".h", ".c", ".inc")):
+                yield os.path.join(folder, name)
+
+
+def text_of(file):
+    with open(file, encoding="utf-8") as opened:
+        return opened.read()
+
+
+def includes(file):
+    """(what, quoted?) of every #include."""
+    return [(m.group(2), m.group(1) == '"')
+            for m in re.finditer(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', text_of(file), re.M)]
+
+
+def code_of(file):
+    """The text without comments and string literals."""
+    text = re.sub(r'"(\\.|[^"\\\n])*"', '""', text_of(file))
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
+    return re.sub(r"//[^\n]*", " ", text)
+
+
+class Floors(unittest.TestCase):
+    def test_every_folder_of_src_is_a_floor(self):
+        found = {name for name in os.listdir(os.path.join(SOURCE, "src"))
+                 if os.path.isdir(os.path.join(SOURCE, "src", name))}
+        self.assertEqual(found - set(BELOW), set())
+        for floor in ENGINE:
+            self.assertTrue(list(sources(floor)), floor)
+
+    def test_no_floor_looks_up_or_sideways(self):
+        for floor, below in BELOW.items():
+            for file in sources(floor):
+                for what, _ in includes(file):
+                    other = what.split("/")[0]
+                    if "/" in what and other in BELOW and other != floor:
+                        self.assertIn(other, below, f"{file} includes {what}")
+
+    def test_own_headers_are_named_from_src(self):
+        for floor in BELOW:
+            for file in sources(floor):
+                for what, quoted in includes(file):
+                    if quoted and what != "version.inc":
+                        self.assertIn(what.split("/")[0], BELOW, f"{file} includes {what}")
+                        self.assertTrue(os.path.exists(os.path.join(SOURCE, "src", what)),
+                                        f"{file} includes {what}, which is not there")
+
+    def test_the_engine_uses_nothing_but_the_standard_library(self):
+        for floor in ENGINE:
+            for file in sources(floor):
+                for what, quoted in includes(file):
+                    if not quoted:
+                        self.assertIn(what, STANDARD, f"{file} includes <{what}>")
+                        self.assertNotIn(what, FORBIDDEN_HEADERS, f"{file} includes <{what}>")
+
+    def test_the_engine_keeps_its_promises(self):
+        for floor in ENGINE:
+            for file in sources(floor):
+                words = set(re.findall(r"[A-Za-z_]+", code_of(file)))
+                self.assertEqual(words & FORBIDDEN_WORDS, set(), file)
+                self.assertNotRegex(code_of(file), r"std::\w*_distribution", file)
+                self.assertNotRegex(code_of(file), r"std::\w*(random_device|mt19937)", file)
+
+    def test_headers_are_included_once_and_open_with_what_they_are(self):
+        for floor in BELOW:
+            for file in sources(floor):
+                if not file.endswith(".hpp"):
+                    continue
+                text = text_of(file)
+                self.assertIn("#pragma once", text, file)
+                self.assertTrue(text.startswith("// "), f"{file} does not say what it is")
+
+    def test_no_drawers_for_odds_and_ends(self):
+        for floor in BELOW:
+            for file in sources(floor):
+                name = os.path.basename(file)
+                self.assertNotRegex(name, r"util|manager|helper|handler|\bbase\b|misc", file)
+
+
+if __name__ == "__main__":
+    unittest.main()
