@@ -1,0 +1,63 @@
+// How often the discs collide.
+//
+//   disc–disc rate   2 n_dd / (N t): collisions with other discs that a disc has per unit time
+//   (every
+//                    collision is one for both partners)
+//   wall rate        n_dw / (N t)
+//   mean free time   N t / (2 n_dd + n_dw): from one collision of a disc to its next, on average
+//
+// with n the events of a kind in the time t. Units: 1/time, time. Normalisation: per disc. The
+// literature on hard-disc gases counts as the first line does (Kolafa and Rottner 2006,
+// doi:10.1080/00268970600967963). Error from blocks of periods. Limits: no time or no discs: NaN;
+// no collision: the mean free time is infinite.
+#pragma once
+
+#include "measure/cell_averages.hpp"
+#include "measure/statistics.hpp"
+#include "physics/event.hpp"
+
+namespace swirl {
+
+class CollisionRates {
+  public:
+    void look(const Event& event) {
+        if (event.kind == EventKind::disc_disc) disc_ += 2.0;
+        if (event.kind == EventKind::disc_wall) wall_ += 1.0;
+    }
+    /// `duration`: the time the events since the last call took.
+    void close_block(double duration, std::size_t discs) {
+        const double weight = duration * static_cast<double>(discs);
+        disc_rate_.add(disc_, weight);
+        wall_rate_.add(wall_, weight);
+        rate_.add(disc_ + wall_, weight);
+        disc_ = wall_ = 0.0;
+    }
+    Estimate disc_disc() const { return disc_rate_.estimate(); }
+    Estimate disc_wall() const { return wall_rate_.estimate(); }
+    Estimate mean_free_time() const {
+        Estimate e = rate_.estimate();
+        e.error /= e.mean * e.mean;
+        e.mean = 1.0 / e.mean;
+        return e;
+    }
+
+    void merge(const CollisionRates& other) {
+        disc_rate_.merge(other.disc_rate_);
+        wall_rate_.merge(other.wall_rate_);
+        rate_.merge(other.rate_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(disc_);
+        visit(wall_);
+        disc_rate_.fields(visit);
+        wall_rate_.fields(visit);
+        rate_.fields(visit);
+    }
+
+  private:
+    double disc_ = 0.0, wall_ = 0.0;
+    BlockSeries disc_rate_, wall_rate_, rate_;
+};
+
+}  // namespace swirl

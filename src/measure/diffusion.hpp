@@ -1,0 +1,121 @@
+// How far the discs wander, and how far they turn, in a given time.
+//
+//   displacement          ⟨|Δ(r − C)|²⟩      relative to the container, in the lab's directions
+//   angular displacement  ⟨Δα⟩ and ⟨Δα²⟩ − ⟨Δα⟩²   of the discs' orientation α
+//
+// for lags of 1, 2, 4, … looks, over all discs and all beginnings. In free diffusion they grow as 4
+// D t and 2 D_rot t; in a dish the first saturates near the square of its size, and within a period
+// it shows the sloshing. Take lags of whole periods to see the diffusion through it.
+//
+// Units: length², rad (the angle is counted through full turns). Normalisation: every disc and
+// every beginning counts the same. Error from blocks of periods: a displacement belongs to the
+// block in which it ends; those of lags longer than a block overlap, so their errors are too small
+// (take the scatter over runs). Limits: orientation unknown (NaN): no angular displacement (NaN).
+// Looks that do not follow in equal steps of time (to 1 %), or another number of discs, begin anew,
+// and are counted.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "measure/cell_averages.hpp"
+#include "measure/statistics.hpp"
+#include "physics/snapshot.hpp"
+
+namespace swirl {
+
+class Diffusion {
+  public:
+    /// Lags up to 2^(lags − 1) looks.
+    explicit Diffusion(std::size_t lags = 10)
+        : window_((std::size_t{1} << (lags - 1)) + 1), moves_(lags), turns_(lags) {}
+
+    void look(const Snapshot& s) {
+        const double step = s.time() - last_time_;
+        const bool first = looks_ == 0;
+        const bool even = step > 0.0 && (looks_ < 2 || std::abs(step - step_) <= 0.01 * step_);
+        if (s.size() != discs_ || (!first && !even)) {
+            if (!first) breaks_ += 1.0;
+            looks_ = 0;
+            discs_ = s.size();
+            past_.assign(window_ * discs_, {});
+        }
+        if (looks_ == 1) step_ = step;
+        last_time_ = s.time();
+        if (discs_ == 0) return;
+
+        State* const now = at(looks_);
+        for (std::size_t i = 0; i < discs_; ++i)
+            now[i] = {s.position(i) - s.container_centre, s.orientation(i)};
+        for (std::size_t k = 0; k < lags(); ++k) {
+            const std::int64_t lag = std::int64_t{1} << k;
+            if (lag > looks_) break;
+            const State* const then = at(looks_ - lag);
+            for (std::size_t i = 0; i < discs_; ++i) {
+                const Vec2 d = now[i].position - then[i].position;
+                const double turn = now[i].angle - then[i].angle;
+                moves_.add(k, {dot(d, d)});
+                turns_.add(k, {turn, turn * turn});
+            }
+        }
+        ++looks_;
+    }
+    void close_block() {
+        moves_.close_block();
+        turns_.close_block();
+    }
+
+    std::size_t lags() const { return moves_.size(); }
+    /// In units of the snapshots' time.
+    double lag(std::size_t k) const { return step_ * static_cast<double>(std::int64_t{1} << k); }
+    Estimate square_displacement(std::size_t k) const { return moves_.estimate(k); }
+    /// ⟨Δα⟩.
+    Estimate mean_turn(std::size_t k) const { return turns_.estimate(k, 0); }
+    /// ⟨Δα²⟩ − ⟨Δα⟩²; the error is that of ⟨Δα²⟩.
+    Estimate turn_variance(std::size_t k) const {
+        Estimate e = turns_.estimate(k, 1);
+        e.mean -= turns_.mean(k, 0) * turns_.mean(k, 0);
+        return e;
+    }
+    double breaks() const { return breaks_; }
+
+    /// The other must have as many lags and the same time step.
+    void merge(const Diffusion& other) {
+        if (step_ == 0.0) step_ = other.step_;
+        moves_.merge(other.moves_);
+        turns_.merge(other.turns_);
+        breaks_ += other.breaks_;
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(past_);
+        visit(discs_);
+        visit(looks_);
+        visit(last_time_);
+        visit(step_);
+        visit(breaks_);
+        moves_.fields(visit);
+        turns_.fields(visit);
+    }
+
+    struct State {
+        Vec2 position{};
+        double angle = 0.0;
+    };
+
+  private:
+    State* at(std::int64_t look) {
+        return past_.data() + static_cast<std::size_t>(look) % window_ * discs_;
+    }
+
+    std::size_t window_;  // looks that are kept
+    std::vector<State> past_;
+    std::size_t discs_ = 0;
+    std::int64_t looks_ = 0;
+    double last_time_ = 0.0, step_ = 0.0, breaks_ = 0.0;
+    CellMeans<1> moves_;
+    CellMeans<2> turns_;
+};
+
+}  // namespace swirl

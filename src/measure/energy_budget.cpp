@@ -1,0 +1,69 @@
+#include "measure/energy_budget.hpp"
+
+namespace swirl {
+namespace {
+
+Body body_of(const Snapshot& s, std::size_t i) {
+    return {s.velocity(i), s.spin[i], s.radius[i], 1.0 / s.mass[i], 1.0 / s.inertia[i]};
+}
+
+void add(EnergyChange& sum, const EnergyChange& change) {
+    sum.work += change.work;
+    sum.friction_loss += change.friction_loss;
+    sum.inelastic_loss += change.inelastic_loss;
+}
+
+}  // namespace
+
+EnergyChange energy_change(const Event& event, const Snapshot& after) {
+    if (event.kind == EventKind::path_vertex) return {};
+    const bool wall = event.kind == EventKind::disc_wall;
+    const Vec2 n = event.normal, r{n.y, -n.x};
+    const Impulse& J = event.impulse;
+    const Body i = body_of(after, event.i);
+    const Body j = wall ? wall_body(after.container_velocity) : body_of(after, event.j);
+
+    const double inverse_masses = i.inverse_mass + j.inverse_mass;
+    const double inverse_tangential = inverse_masses + i.radius * i.radius * i.inverse_inertia +
+                                      j.radius * j.radius * j.inverse_inertia;
+    const Vec2 g = j.velocity - i.velocity;
+    const double normal_after = dot(g, n);
+    const double slip_after = dot(g, r) + i.radius * i.spin + j.radius * j.spin;
+
+    EnergyChange change;
+    if (wall) change.work = -dot(J.normal * n + J.tangential * r, after.container_velocity);
+    change.inelastic_loss = -J.normal * (normal_after - 0.5 * J.normal * inverse_masses);
+    change.friction_loss = -J.tangential * (slip_after - 0.5 * J.tangential * inverse_tangential);
+    return change;
+}
+
+double kinetic_energy(const Snapshot& s) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) sum += kinetic_energy(s.disc(i));
+    return sum;
+}
+
+void EnergyBudget::look(const Event& event, const Snapshot& after) {
+    if (event.kind == EventKind::path_vertex) return;
+    const EnergyChange change = energy_change(event, after);
+    add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);
+    add(total_, change);
+}
+
+void EnergyBudget::close_block(double duration) {
+    work_.add(wall_.work, duration);
+    disc_friction_.add(disc_.friction_loss, duration);
+    wall_friction_.add(wall_.friction_loss, duration);
+    inelastic_.add(disc_.inelastic_loss + wall_.inelastic_loss, duration);
+    disc_ = wall_ = {};
+}
+
+void EnergyBudget::merge(const EnergyBudget& other) {
+    add(total_, other.total_);
+    work_.merge(other.work_);
+    disc_friction_.merge(other.disc_friction_);
+    wall_friction_.merge(other.wall_friction_);
+    inelastic_.merge(other.inelastic_);
+}
+
+}  // namespace swirl

@@ -1,0 +1,72 @@
+// How nearly the neighbours of a disc stand like those in a honeycomb.
+//
+//   ψ_6(i) = |Σ_j l_ij exp(6 i θ_ij)| / Σ_j l_ij
+//
+// over the neighbours j of disc i in the Voronoi diagram (voronoi.hpp), θ_ij the direction from i
+// to j, l_ij the length of the common border inside the container. The weight makes ψ_6 continuous
+// where a neighbour appears or vanishes (Mickel, Kapfer, Schröder-Turk, Mecke 2013,
+// doi:10.1063/1.4774084). It is 1 for a perfect hexagon and 0 for a square. A disc at the wall has
+// neighbours on one side only; they count as they are.
+//
+// Average: over discs and looks, and over the pinned ones among them. Error from blocks of periods.
+// Units: none. Limits: a disc without neighbours has none and is left out.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "measure/m_frame.hpp"
+#include "measure/statistics.hpp"
+#include "measure/voronoi.hpp"
+
+namespace swirl {
+
+/// ψ_6 of one disc; NaN without neighbours.
+inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::size_t disc) {
+    double re = 0.0, im = 0.0, total = 0.0;
+    for (const Voronoi::Border* b = cells.begin(disc); b != cells.end(disc); ++b) {
+        const Vec2 d = view.position(b->neighbour) - view.position(disc);
+        const double square = dot(d, d);
+        // (d/|d|)^6 as a complex number: d², d²·d² · d², over |d|⁶.
+        const Vec2 two{(d.x * d.x - d.y * d.y) / square, 2.0 * d.x * d.y / square};
+        const Vec2 four{two.x * two.x - two.y * two.y, 2.0 * two.x * two.y};
+        re += b->length * (four.x * two.x - four.y * two.y);
+        im += b->length * (four.x * two.y + four.y * two.x);
+        total += b->length;
+    }
+    return total > 0.0 ? square_root(re * re + im * im) / total : not_known;
+}
+
+class HexaticOrder {
+  public:
+    void look(const MFrameView& view, const Voronoi& cells,
+              std::span<const std::uint8_t> pinned = {}) {
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const double psi = hexatic_order(view, cells, i);
+            if (!(psi == psi)) continue;
+            all_.add(psi);
+            if (i < pinned.size() && pinned[i] != 0) pinned_.add(psi);
+        }
+    }
+    void close_block() {
+        all_.close_block();
+        pinned_.close_block();
+    }
+    Estimate all() const { return all_.estimate(); }
+    Estimate pinned() const { return pinned_.estimate(); }
+
+    void merge(const HexaticOrder& other) {
+        all_.merge(other.all_);
+        pinned_.merge(other.pinned_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        all_.fields(visit);
+        pinned_.fields(visit);
+    }
+
+  private:
+    BlockMean all_, pinned_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,83 @@
+// How hard the discs press on the wall and how they drag it, along the wall, in the M-frame.
+//
+//   pressure(θ)   Σ J_n / (R Δθ t)     force on the wall per length, outwards
+//   traction(θ)   Σ J_t / (R Δθ t)     force on the wall per length, along it, counter-clockwise
+//
+// over the disc–wall collisions whose contact lies in the slice Δθ of θ within the time t, J the
+// impulse on the wall. In the M-frame the wall runs clockwise; where it drags the discs along they
+// drag it back, so the traction is positive there. |traction| ≤ μ_w · pressure, everywhere.
+//
+// Units: force/length, in disc mass × speed² / length². Error from blocks of periods. Limits: no
+// time: NaN; slices where nobody hit: 0.
+#pragma once
+
+#include <algorithm>
+
+#include "measure/cell_averages.hpp"
+#include "measure/m_frame.hpp"
+#include "physics/event.hpp"
+
+namespace swirl {
+
+class WallStress {
+  public:
+    explicit WallStress(double container_radius, std::size_t slices = 72)
+        : container_radius_(container_radius), normal_(slices), along_(slices) {}
+
+    /// Every event, with the state after it.
+    void look(const Event& event, const Snapshot& after) {
+        if (event.kind != EventKind::disc_wall) return;
+        const double u = turns_of(m_frame(after).turn(event.normal));
+        const std::size_t slice = std::min(
+            static_cast<std::size_t>(u * static_cast<double>(normal_.size())), normal_.size() - 1);
+        normal_.add(slice, event.impulse.normal);
+        // The law's tangent (n_y, −n_x) points clockwise.
+        along_.add(slice, -event.impulse.tangential);
+    }
+    /// `duration`: the time the events since the last call took.
+    void close_block(double duration) {
+        normal_.add_weight(duration);
+        along_.add_weight(duration);
+        normal_.close_block();
+        along_.close_block();
+    }
+
+    std::size_t slices() const { return normal_.size(); }
+    double theta(std::size_t slice) const {
+        return 2.0 * pi * (static_cast<double>(slice) + 0.5) / static_cast<double>(slices());
+    }
+    Estimate pressure(std::size_t slice) const {
+        return scaled(normal_.estimate(slice), per_length());
+    }
+    Estimate traction(std::size_t slice) const {
+        return scaled(along_.estimate(slice), per_length());
+    }
+    /// Averaged along the whole wall.
+    double mean_pressure() const { return mean(normal_); }
+    double mean_traction() const { return mean(along_); }
+
+    void merge(const WallStress& other) {
+        normal_.merge(other.normal_);
+        along_.merge(other.along_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        normal_.fields(visit);
+        along_.fields(visit);
+    }
+
+  private:
+    double per_length() const {
+        return static_cast<double>(slices()) / (2.0 * pi * container_radius_);
+    }
+    double mean(const CellRates& rates) const {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < rates.size(); ++k) sum += rates.mean(k);
+        return sum / (2.0 * pi * container_radius_);
+    }
+
+    double container_radius_;
+    CellRates normal_, along_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,53 @@
+#include "measure/collision_rates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace swirl {
+namespace {
+
+Event event_of(EventKind kind) { return {0, 0.0, kind, 0, 1, {1.0, 0.0}, {1.0, 0.0, false}, 0.0}; }
+
+TEST(CollisionRates, CountPerDiscAndTime) {
+    CollisionRates rates;
+    for (int block = 0; block < 3; ++block) {
+        for (int k = 0; k < 30; ++k) rates.look(event_of(EventKind::disc_disc));
+        for (int k = 0; k < 20; ++k) rates.look(event_of(EventKind::disc_wall));
+        for (int k = 0; k < 30; ++k) rates.look(event_of(EventKind::path_vertex));
+        rates.close_block(4.0, 5);
+    }
+    EXPECT_DOUBLE_EQ(rates.disc_disc().mean, 60.0 / 20.0);
+    EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 20.0 / 20.0);
+    EXPECT_DOUBLE_EQ(rates.mean_free_time().mean, 20.0 / 80.0);
+    EXPECT_NEAR(rates.mean_free_time().error, 0.0, 1e-15);
+}
+
+TEST(CollisionRates, WithoutTimeDiscsOrCollisions) {
+    CollisionRates rates;
+    EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
+    rates.look(event_of(EventKind::disc_disc));
+    rates.close_block(4.0, 0);
+    EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
+    CollisionRates quiet;
+    quiet.close_block(4.0, 5);
+    EXPECT_EQ(quiet.disc_disc().mean, 0.0);
+    EXPECT_TRUE(std::isinf(quiet.mean_free_time().mean));
+}
+
+TEST(CollisionRates, MergedRunsAreOneLongRun) {
+    CollisionRates whole, first, second;
+    for (int block = 0; block < 10; ++block) {
+        for (int k = 0; k < 5 + block % 3; ++k) {
+            whole.look(event_of(EventKind::disc_disc));
+            (block < 4 ? first : second).look(event_of(EventKind::disc_disc));
+        }
+        whole.close_block(2.0, 3);
+        (block < 4 ? first : second).close_block(2.0, 3);
+    }
+    first.merge(second);
+    EXPECT_DOUBLE_EQ(first.disc_disc().mean, whole.disc_disc().mean);
+}
+
+}  // namespace
+}  // namespace swirl

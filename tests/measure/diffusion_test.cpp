@@ -1,0 +1,94 @@
+#include "measure/diffusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr int per_period = 8;
+
+Snapshot dish_at(int look) {
+    Snapshot s = empty_dish(static_cast<double>(look % per_period) / per_period);
+    s.swirls = look / per_period;
+    return s;
+}
+
+TEST(Diffusion, OfUniformMotionGrowsWithTheSquareOfTheLag) {
+    Diffusion diffusion(5);
+    const double step = paper_period / per_period;
+    for (int k = 0; k < 40; ++k) {
+        Snapshot s = dish_at(k);
+        add_disc(s, s.container_centre + Vec2{0.03 * step * k, 0.04 * step * k}, {0.0, 0.0});
+        s.angle[0] = 0.5 * step * k;
+        diffusion.look(s);
+        if (k % per_period == per_period - 1) diffusion.close_block();
+    }
+    for (std::size_t k = 0; k < diffusion.lags(); ++k) {
+        const double t = step * (1 << k);
+        EXPECT_NEAR(diffusion.lag(k), t, 1e-12);
+        EXPECT_NEAR(diffusion.square_displacement(k).mean, 0.0025 * t * t, 1e-12);
+        EXPECT_NEAR(diffusion.mean_turn(k).mean, 0.5 * t, 1e-12);
+        EXPECT_NEAR(diffusion.turn_variance(k).mean, 0.0, 1e-10);
+    }
+    EXPECT_EQ(diffusion.breaks(), 0.0);
+}
+
+TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
+    Diffusion diffusion(4);
+    Noise noise(6);
+    std::vector<Vec2> p(40);
+    std::vector<double> angle(40, 0.0);
+    for (int k = 0; k < 4000; ++k) {
+        Snapshot s = dish_at(k);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            p[i] = p[i] + Vec2{noise(), noise()};
+            angle[i] += noise() + 0.1;
+            add_disc(s, s.container_centre + p[i], {0.0, 0.0});
+            s.angle[i] = angle[i];
+        }
+        diffusion.look(s);
+        if (k % per_period == per_period - 1) diffusion.close_block();
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        // Steps uniform in (−1, 1): variance 1/3 per coordinate. 160 000 steps: 0.5 %, five times
+        // that for the longest lag, whose displacements overlap.
+        EXPECT_NEAR(diffusion.square_displacement(k).mean / (1 << k), 2.0 / 3.0, 0.02);
+        EXPECT_NEAR(diffusion.turn_variance(k).mean / (1 << k), 1.0 / 3.0, 0.01);
+        EXPECT_NEAR(diffusion.mean_turn(k).mean / (1 << k), 0.1, 0.01);
+    }
+}
+
+TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
+    Diffusion diffusion(3);
+    for (int k = 0; k < 20; ++k) {
+        Snapshot s = dish_at(k);
+        add_disc(s, s.container_centre + Vec2{2.0, 1.0}, s.container_velocity);
+        s.angle[0] = s.spin[0] = not_known;
+        diffusion.look(s);
+    }
+    diffusion.close_block();
+    EXPECT_NEAR(diffusion.square_displacement(2).mean, 0.0, 1e-28);
+    EXPECT_TRUE(std::isnan(diffusion.mean_turn(0).mean));
+}
+
+TEST(Diffusion, UnsortedOrUnevenTimesBeginAnew) {
+    Diffusion diffusion(3);
+    const auto look = [&](int k) {
+        Snapshot s = dish_at(k);
+        add_disc(s, s.container_centre, {0.0, 0.0});
+        diffusion.look(s);
+    };
+    for (const int k : {0, 1, 2, 1}) look(k);
+    EXPECT_EQ(diffusion.breaks(), 1.0);
+    for (const int k : {2, 4}) look(k);
+    EXPECT_EQ(diffusion.breaks(), 2.0);
+    diffusion.look(empty_dish());
+    EXPECT_TRUE(std::isnan(Diffusion(3).square_displacement(0).mean));
+}
+
+}  // namespace
+}  // namespace swirl

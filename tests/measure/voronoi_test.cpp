@@ -1,0 +1,197 @@
+#include "measure/voronoi.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/hexatic_order.hpp"
+#include "measure/local_packing.hpp"
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double R = paper_container_radius;
+
+/// A triangular lattice of touching discs, as many rings as `rings`, about C.
+Snapshot lattice(int rings) {
+    Snapshot s = empty_dish(0.15);
+    s.container_radius = 2.0 * rings + 1.0;
+    for (int a = -rings; a <= rings; ++a)
+        for (int b = -rings; b <= rings; ++b) {
+            if (a + b < -rings || a + b > rings) continue;
+            add_disc(s, s.container_centre + Vec2{2.0 * a + b, std::sqrt(3.0) * b}, {0.0, 0.0});
+        }
+    return s;
+}
+
+/// Index of the disc nearest to C.
+std::size_t centre_of(const MFrameView& view) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < view.size(); ++i)
+        if (dot(view.position(i), view.position(i)) < dot(view.position(best), view.position(best)))
+            best = i;
+    return best;
+}
+
+TEST(Voronoi, CellsFillTheDish) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        Snapshot s = random_discs(1 + seed, seed, 0.02 * static_cast<double>(seed));
+        if (seed % 2 == 0) {
+            Noise noise(seed);
+            for (double& r : s.radius) r = 0.5 + 0.3 * noise();
+        }
+        Voronoi cells;
+        cells.find(s);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < s.size(); ++i) sum += cells.area(i);
+        EXPECT_NEAR(sum, pi * R * R, 1e-11) << seed;
+    }
+}
+
+TEST(Voronoi, EveryPointBelongsToTheDiscOfSmallestPower) {
+    // Areas against a fine lattice of points.
+    Snapshot s = random_discs(9, 5, 0.3);
+    Noise noise(5);
+    for (double& r : s.radius) r = 1.0 + 0.5 * noise();
+    const MFrameView view(s);
+    Voronoi cells;
+    cells.find(view);
+    std::vector<double> counted(s.size(), 0.0);
+    const int n = 600;
+    const double step = 2.0 * R / n;
+    for (int row = 0; row < n; ++row)
+        for (int column = 0; column < n; ++column) {
+            const Vec2 p{(column + 0.5) * step - R, (row + 0.5) * step - R};
+            if (dot(p, p) > R * R) continue;
+            std::size_t best = 0;
+            double least = never;
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                const Vec2 d = p - view.position(i);
+                const double power = dot(d, d) - s.radius[i] * s.radius[i];
+                if (power < least) {
+                    least = power;
+                    best = i;
+                }
+            }
+            counted[best] += step * step;
+        }
+    // Of the lattice: a cell's border of length ~10 misses about step × √length of area.
+    for (std::size_t i = 0; i < s.size(); ++i) EXPECT_NEAR(cells.area(i), counted[i], 0.1);
+}
+
+TEST(Voronoi, NeighboursAreMutual) {
+    const Snapshot s = random_discs(40, 12, 0.3);
+    Voronoi cells;
+    cells.find(s);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        for (const Voronoi::Border* b = cells.begin(i); b != cells.end(i); ++b) {
+            double back = 0.0;
+            for (const Voronoi::Border* c = cells.begin(b->neighbour); c != cells.end(b->neighbour);
+                 ++c)
+                if (c->neighbour == i) back = c->length;
+            EXPECT_NEAR(back, b->length, 1e-12);
+        }
+}
+
+TEST(Voronoi, OneDiscHasTheWholeDishAndNothingHasNothing) {
+    Voronoi cells;
+    cells.find(empty_dish());
+    EXPECT_EQ(cells.size(), 0u);
+    Snapshot s = empty_dish();
+    add_disc(s, {1.0, 2.0}, {0.0, 0.0});
+    cells.find(s);
+    EXPECT_NEAR(cells.area(0), pi * R * R, 1e-12);
+    EXPECT_EQ(cells.begin(0), cells.end(0));
+    add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // on one point
+    add_disc(s, {not_known, 2.0}, {0.0, 0.0});
+    cells.find(s);
+    EXPECT_NEAR(cells.area(1), pi * R * R, 1e-12);
+    EXPECT_EQ(cells.area(2), 0.0);
+}
+
+TEST(HexaticOrder, OfAPerfectHexagonIsOne) {
+    const Snapshot s = lattice(1);
+    const MFrameView view(s);
+    Voronoi cells;
+    cells.find(view);
+    const std::size_t centre = centre_of(view);
+    EXPECT_EQ(cells.end(centre) - cells.begin(centre), 6);
+    EXPECT_NEAR(hexatic_order(view, cells, centre), 1.0, 1e-14);
+}
+
+TEST(HexaticOrder, OfASquareLatticeIsZero) {
+    Snapshot s = empty_dish(0.4);
+    for (int row = -2; row <= 2; ++row)
+        for (int column = -2; column <= 2; ++column)
+            add_disc(s, s.container_centre + Vec2{2.0 * column, 2.0 * row}, {0.0, 0.0});
+    const MFrameView view(s);
+    Voronoi cells;
+    cells.find(view);
+    // exp(6 i θ) at 0°, 90°, 180°, 270° is 1, −1, 1, −1.
+    EXPECT_NEAR(hexatic_order(view, cells, centre_of(view)), 0.0, 1e-12);
+}
+
+TEST(HexaticOrder, DoesNotDependOnTheDirectionOfTheCluster) {
+    const Snapshot s = random_discs(30, 9, 0.2);
+    const MFrameView view(s);
+    Voronoi cells;
+    cells.find(view);
+    for (const double u : {0.01, 0.2, 0.7}) {
+        Snapshot turned = s;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec2 d = s.position(i) - s.container_centre, e = unit_circle(u);
+            const Vec2 p = s.container_centre + e.x * d + e.y * perpendicular(d);
+            turned.x[i] = p.x;
+            turned.y[i] = p.y;
+        }
+        const MFrameView turned_view(turned);
+        Voronoi turned_cells;
+        turned_cells.find(turned_view);
+        for (std::size_t i = 0; i < s.size(); ++i)
+            EXPECT_NEAR(hexatic_order(turned_view, turned_cells, i), hexatic_order(view, cells, i),
+                        1e-11);
+    }
+}
+
+TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
+    const Snapshot s = lattice(2);
+    const MFrameView view(s);
+    Voronoi cells;
+    cells.find(view);
+    EXPECT_NEAR(cells.area(centre_of(view)), 2.0 * std::sqrt(3.0), 1e-13);
+    LocalPacking packing;
+    std::vector<std::uint8_t> only_centre(s.size(), 0);
+    only_centre[centre_of(view)] = 1;
+    packing.look(view, cells, only_centre);
+    packing.close_block();
+    EXPECT_NEAR(packing.pinned().mean, pi / std::sqrt(12.0), 1e-14);
+    EXPECT_LT(packing.all().mean, pi / std::sqrt(12.0));
+}
+
+TEST(LocalStructure, OfNothingIsNotANumberAndMergedRunsAreOneLongRun) {
+    HexaticOrder order, first, second;
+    LocalPacking packing, one, two;
+    EXPECT_TRUE(std::isnan(order.all().mean));
+    EXPECT_TRUE(std::isnan(packing.all().mean));
+    for (int k = 0; k < 10; ++k) {
+        const MFrameView view(random_discs(20, k + 1, k / 10.0));
+        Voronoi cells;
+        cells.find(view);
+        order.look(view, cells);
+        order.close_block();
+        packing.look(view, cells);
+        packing.close_block();
+        (k < 4 ? first : second).look(view, cells);
+        (k < 4 ? first : second).close_block();
+        (k < 4 ? one : two).look(view, cells);
+        (k < 4 ? one : two).close_block();
+    }
+    first.merge(second);
+    one.merge(two);
+    EXPECT_NEAR(first.all().mean, order.all().mean, 1e-15);
+    EXPECT_NEAR(one.all().mean, packing.all().mean, 1e-15);
+}
+
+}  // namespace
+}  // namespace swirl
