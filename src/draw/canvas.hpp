@@ -1,0 +1,71 @@
+// Where the picture goes: pixels in memory, or a vector file. A thin owner of a cairo surface; it
+// belongs to the thread that uses it, and any number of them may live side by side.
+#pragma once
+
+#include <cairo.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "draw/color.hpp"
+#include "physics/vec2.hpp"
+
+namespace swirl {
+
+/// A picture or movie that could not be made, as a full sentence.
+class DrawFailure : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// In pixels; in a vector file a pixel is 1/96 inch.
+struct Size {
+    int width, height;
+};
+
+struct Rectangle {
+    double x, y, width, height;
+};
+
+enum class PictureFormat { png, svg, pdf };
+
+class Canvas {
+  public:
+    /// Pixels, kept in memory.
+    explicit Canvas(Size size);
+    /// A file `path` of the given kind. It appears under its name in finish(), complete or not at
+    /// all. PNG files have `size` pixels. No time stamps: same picture, same bytes.
+    Canvas(Size size, PictureFormat format, const std::string& path);
+    ~Canvas();
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
+
+    cairo_t* cairo() const { return cairo_; }
+    Size size() const { return size_; }
+
+    /// Completes the file. Throws DrawFailure if it could not be written.
+    void finish();
+
+    /// The pixels of a canvas in memory, rows from the top, four bytes each: blue, green, red,
+    /// unused. Rows follow each other without gap.
+    std::span<std::uint8_t> pixels();
+    /// Writes the pixels of a canvas in memory as a PNG file; written aside and renamed.
+    void write_png(const std::string& path);
+
+    void set(const Color& color, double opacity = 1.0) const {
+        cairo_set_source_rgba(cairo_, color.red, color.green, color.blue, opacity);
+    }
+    void fill_page(const Color& color) const;
+
+  private:
+    Size size_;
+    std::string path_;
+    PictureFormat format_ = PictureFormat::png;
+    cairo_surface_t* surface_;
+    cairo_t* cairo_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,67 @@
+// Colours, and the two scales that turn a number into one.
+//
+// All sets were chosen to be told apart with every common kind of colour vision: the categorical
+// hues are those of Okabe and Ito ("Color Universal Design", 2008); the sequential scale rises
+// evenly in lightness, as viridis does (van der Walt and Smith, 2015); the diverging scale goes
+// from blue to vermillion through the theme's neutral tone, the pair that red-green-blind people
+// separate best.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace swirl {
+
+/// sRGB components from 0 to 1.
+struct Color {
+    double red, green, blue;
+};
+
+constexpr Color color_from_hex(unsigned hex) {
+    return {((hex >> 16) & 0xff) / 255.0, ((hex >> 8) & 0xff) / 255.0, (hex & 0xff) / 255.0};
+}
+
+constexpr Color mix(const Color& a, const Color& b, double share_of_b) {
+    return {a.red + share_of_b * (b.red - a.red), a.green + share_of_b * (b.green - a.green),
+            a.blue + share_of_b * (b.blue - a.blue)};
+}
+
+/// How bright it looks, 0 to 1 (Rec. 709 weights on the gamma-encoded values: good enough to choose
+/// between dark and light ink).
+constexpr double brightness(const Color& c) {
+    return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
+}
+
+/// Okabe and Ito's hues, in an order in which neighbours differ also in lightness.
+inline constexpr std::array<Color, 7> distinct_colors{
+    color_from_hex(0x56B4E9), color_from_hex(0xE69F00), color_from_hex(0x009E73),
+    color_from_hex(0xCC79A7), color_from_hex(0xF0E442), color_from_hex(0x0072B2),
+    color_from_hex(0xD55E00)};
+
+/// Interpolates evenly spaced stops; `u` is cut to 0…1, and a number that is none counts as 0.
+template <std::size_t count>
+constexpr Color interpolate(const std::array<Color, count>& stops, double u) {
+    if (!(u > 0.0)) return stops.front();
+    if (u >= 1.0) return stops.back();
+    const double place = u * static_cast<double>(count - 1);
+    const auto below = static_cast<std::size_t>(place);
+    return mix(stops[below], stops[below + 1], place - static_cast<double>(below));
+}
+
+/// 0…1 → dark blue, green, yellow.
+constexpr Color sequential_color(double u) {
+    constexpr std::array<Color, 7> stops{
+        color_from_hex(0x46337E), color_from_hex(0x365C8D), color_from_hex(0x277F8E),
+        color_from_hex(0x1FA187), color_from_hex(0x4AC16D), color_from_hex(0xA0DA39),
+        color_from_hex(0xFDE725)};
+    return interpolate(stops, u);
+}
+
+/// −1…1 → blue, neutral, vermillion.
+constexpr Color diverging_color(double u, const Color& neutral) {
+    const std::array<Color, 5> stops{color_from_hex(0x0072B2), color_from_hex(0x6DB6E3), neutral,
+                                     color_from_hex(0xF0A45D), color_from_hex(0xD55E00)};
+    return interpolate(stops, 0.5 * (u + 1.0));
+}
+
+}  // namespace swirl

@@ -1,0 +1,329 @@
+#include "draw/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "draw/label.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr double full_turn = 2.0 * pi;
+
+/// Below this radius, in pixels, outlines and marks would only be noise.
+constexpr double smallest_marked_radius = 3.5;
+constexpr double smallest_outlined_radius = 2.5;
+
+Color disc_color(const SceneStyle& style, const SceneContent& content, Frame frame,
+                 std::size_t i) {
+    const Theme& theme = style.theme;
+    switch (style.coloring) {
+        case Coloring::pinned:
+            if (content.pinned.size() != content.now.size()) return theme.disc;
+            return content.pinned[i] ? theme.pinned : theme.loose;
+        case Coloring::spin: {
+            const double spin = content.now.spin[i];
+            if (std::isnan(spin)) return theme.disc;
+            return diverging_color(spin / style.full_spin, theme.neutral);
+        }
+        case Coloring::speed: {
+            const Vec2 v = velocity_in(content.now, i, frame);
+            return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
+        }
+        case Coloring::id: return distinct_colors[i % distinct_colors.size()];
+        case Coloring::none: break;
+    }
+    return theme.disc;
+}
+
+void circle(cairo_t* cairo, const Vec2& centre, double radius) {
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, centre.x, centre.y, radius, 0.0, full_turn);
+}
+
+/// A disc in its colour with a darker rim, and a hand that shows how it is turned.
+void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
+               double orientation, double opacity, const Theme& theme) {
+    cairo_t* cairo = canvas.cairo();
+    if (radius < smallest_outlined_radius) {
+        circle(cairo, centre, radius);
+        canvas.set(color, opacity);
+        cairo_fill(cairo);
+        return;
+    }
+    const Color rim = mix(color, {0.0, 0.0, 0.0}, 0.45);
+    const double rim_width = std::max(0.7, 0.055 * radius);
+    circle(cairo, centre, radius);
+    canvas.set(rim, opacity);
+    cairo_fill(cairo);
+    circle(cairo, centre, radius - rim_width);
+    canvas.set(color, opacity);
+    cairo_fill(cairo);
+    if (radius < smallest_marked_radius || std::isnan(orientation)) return;
+
+    // The hand: from the middle almost to the rim, dark on light and light on dark.
+    const bool dark_ink = brightness(color) > 0.42;
+    const Color mark = dark_ink ? mix(color, color_from_hex(0x0B0F14), 0.82)
+                                : mix(color, color_from_hex(0xFFFFFF), 0.85);
+    const Vec2 direction{std::cos(orientation), -std::sin(orientation)};
+    const double reach = 0.74 * radius;
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cairo, std::max(1.0, 0.17 * radius));
+    cairo_move_to(cairo, centre.x, centre.y);
+    cairo_line_to(cairo, centre.x + reach * direction.x, centre.y + reach * direction.y);
+    canvas.set(mark, opacity);
+    cairo_stroke(cairo);
+    (void)theme;
+}
+
+double line_unit(const View& view, const Snapshot& now) {
+    return view.pixels_per_unit * now.container_radius;
+}
+
+}  // namespace
+
+std::optional<Coloring> coloring_named(std::string_view name) {
+    if (name == "pinned") return Coloring::pinned;
+    if (name == "spin") return Coloring::spin;
+    if (name == "speed") return Coloring::speed;
+    if (name == "none") return Coloring::none;
+    if (name == "id") return Coloring::id;
+    return std::nullopt;
+}
+
+void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color) {
+    const Vec2 along = tip - tail;
+    const double length = std::sqrt(dot(along, along));
+    const double head = 3.4 * width;
+    if (!(length > 0.0) || length < 0.6 * head) return;
+    const Vec2 u = (1.0 / length) * along;
+    const Vec2 side = perpendicular(u);
+    const Vec2 neck = tip - std::min(head, length) * u;
+    cairo_t* cairo = canvas.cairo();
+    canvas.set(color);
+    cairo_set_line_width(cairo, width);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+    cairo_move_to(cairo, tail.x, tail.y);
+    cairo_line_to(cairo, neck.x + 0.5 * width * u.x, neck.y + 0.5 * width * u.y);
+    cairo_stroke(cairo);
+    cairo_move_to(cairo, tip.x, tip.y);
+    cairo_line_to(cairo, neck.x + 1.5 * width * side.x, neck.y + 1.5 * width * side.y);
+    cairo_line_to(cairo, neck.x - 1.5 * width * side.x, neck.y - 1.5 * width * side.y);
+    cairo_close_path(cairo);
+    cairo_fill(cairo);
+}
+
+void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
+               const Snapshot& now) {
+    cairo_t* cairo = canvas.cairo();
+    const FrameAt at = frame_at(now, view.frame);
+    const Vec2 c = view.on_page(at.position(now.container_centre));
+    const double radius = view.pixels_per_unit * now.container_radius;
+    const double thickness = wall_thickness * radius;
+
+    circle(cairo, c, radius + thickness);
+    canvas.set(style.theme.wall);
+    cairo_fill(cairo);
+    // Marks that stand still on the wall: twelve, one of them broad, so that the wall's turning in
+    // the M-frame, and its not turning in the lab, can be seen.
+    for (int k = 0; k < 12; ++k) {
+        const double angle = at.orientation(full_turn * k / 12.0);
+        const Vec2 u{std::cos(angle), -std::sin(angle)};
+        const double inner = radius, outer = radius + thickness;
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+        cairo_set_line_width(cairo, (k == 0 ? 1.5 : 0.38) * thickness);
+        cairo_move_to(cairo, c.x + inner * u.x, c.y + inner * u.y);
+        cairo_line_to(cairo, c.x + outer * u.x, c.y + outer * u.y);
+        canvas.set(k == 0 ? style.theme.accent : style.theme.wall_mark);
+        cairo_stroke(cairo);
+    }
+    circle(cairo, c, radius);
+    canvas.set(style.theme.floor);
+    cairo_fill(cairo);
+}
+
+void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    if (content.past.empty()) return;
+    cairo_t* cairo = canvas.cairo();
+    const std::size_t count = content.now.size();
+    std::vector<std::vector<Vec2>> places;  // of all discs on the page, oldest instant first
+    for (std::size_t k = 0; k <= content.past.size(); ++k) {
+        const Snapshot& then = k < content.past.size() ? *content.past[k] : content.now;
+        if (then.size() != count) continue;
+        const FrameAt at = frame_at(then, view.frame);
+        std::vector<Vec2>& row = places.emplace_back(count);
+        for (std::size_t i = 0; i < count; ++i)
+            row[i] = view.on_page(at.position(then.position(i)));
+    }
+    if (places.size() < 2) return;
+    // A few bands of one opacity each, all discs of a colour in one path: segment by segment it
+    // would take longer than everything else.
+    constexpr std::size_t bands = 8;
+    const std::size_t segments = places.size() - 1;
+    const double radius = count > 0 ? view.pixels_per_unit * content.now.radius[0] : 1.0;
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    for (std::size_t band = 0; band < bands; ++band) {
+        const std::size_t from = segments * band / bands, to = segments * (band + 1) / bands;
+        if (from == to) continue;
+        const double age = (static_cast<double>(band) + 1.0) / bands;
+        cairo_set_line_width(cairo, std::max(1.0, (0.05 + 0.14 * age) * radius));
+        for (std::size_t i = 0; i < count; ++i) {
+            cairo_move_to(cairo, places[from][i].x, places[from][i].y);
+            for (std::size_t k = from + 1; k <= to; ++k)
+                cairo_line_to(cairo, places[k][i].x, places[k][i].y);
+            const bool own_color = style.coloring != Coloring::none;
+            if (!own_color && i + 1 < count) continue;
+            const Color color = disc_color(style, content, view.frame, i);
+            canvas.set(mix(style.theme.floor, color, 0.12 + 0.6 * age));
+            cairo_stroke(cairo);
+        }
+    }
+}
+
+void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const SceneContent& content) {
+    const Snapshot& now = content.now;
+    const FrameAt at = frame_at(now, view.frame);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const double orientation =
+            style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
+        draw_disc(canvas, view.on_page(at.position(now.position(i))),
+                  view.pixels_per_unit * now.radius[i], disc_color(style, content, view.frame, i),
+                  orientation, style.discs_opacity, style.theme);
+    }
+}
+
+void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const Snapshot& now, std::span<const std::size_t> discs) {
+    if (view.frame != Frame::m || now.size() == 0 || !(now.period > 0.0)) return;
+    const FrameAt at = frame_at(now, view.frame);
+    const double omega = full_turn / now.period;
+    const Vec2 swirl_centre = at.position({0.0, 0.0});
+    const double amplitude = std::sqrt(dot(swirl_centre, swirl_centre));
+    // Both forces on one scale: the largest centrifugal force in the dish is 2.6 radii long.
+    const double largest = omega * omega * (now.container_radius + amplitude);
+    const double length = 2.6 * now.radius[0] * view.pixels_per_unit / largest;
+    for (std::size_t i : discs) {
+        const Vec2 p = at.position(now.position(i));
+        const Vec2 v = velocity_in(now, i, view.frame);
+        const Vec2 centrifugal = (omega * omega) * (p - swirl_centre);
+        const Vec2 coriolis = (-2.0 * omega) * perpendicular(v);
+        const Vec2 tail = view.on_page(p);
+        const double width = std::max(1.0, 0.13 * view.pixels_per_unit * now.radius[i]);
+        const auto tip = [&](const Vec2& force) {
+            return Vec2{tail.x + length * force.x, tail.y - length * force.y};
+        };
+        draw_arrow(canvas, tail, tip(centrifugal), width, style.theme.centrifugal);
+        draw_arrow(canvas, tail, tip(coriolis), width, style.theme.coriolis);
+    }
+}
+
+void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    cairo_t* cairo = canvas.cairo();
+    const Snapshot& now = content.now;
+    const Theme& theme = style.theme;
+    const FrameAt at = frame_at(now, view.frame);
+    const double unit = line_unit(view, now);
+    const double line = std::max(0.8, 0.005 * unit);
+    const Vec2 centre = now.container_centre;
+    const double amplitude = std::sqrt(dot(centre, centre));
+
+    if (style.path && view.frame == Frame::lab && content.path.size() > 1) {
+        for (const Vec2& p : content.path) {
+            const Vec2 q = view.on_page(p);
+            cairo_line_to(cairo, q.x, q.y);
+        }
+        cairo_close_path(cairo);
+        cairo_set_line_width(cairo, 2.6 * line);
+        canvas.set(theme.floor, 0.75);
+        cairo_stroke_preserve(cairo);
+        cairo_set_line_width(cairo, 1.1 * line);
+        canvas.set(theme.ink, 0.9);
+        cairo_stroke(cairo);
+    }
+    if (!style.points) return;
+
+    const double type = std::max(0.0, 0.062 * unit);
+    const bool labelled = type >= 8.0;
+    const LabelStyle label{.size = type, .color = theme.ink, .halo = theme.floor};
+    const Vec2 s = view.on_page(at.position({0.0, 0.0}));
+    const Vec2 c = view.on_page(at.position(centre));
+
+    // S: a cross.
+    const double arm = 0.022 * unit;
+    for (int pass = 0; pass < 2; ++pass) {
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_width(cairo, (pass == 0 ? 4.2 : 2.0) * line);
+        cairo_move_to(cairo, s.x - arm, s.y);
+        cairo_line_to(cairo, s.x + arm, s.y);
+        cairo_move_to(cairo, s.x, s.y - arm);
+        cairo_line_to(cairo, s.x, s.y + arm);
+        canvas.set(pass == 0 ? theme.floor : theme.ink);
+        cairo_stroke(cairo);
+    }
+    // C: a dot.
+    circle(cairo, c, 0.019 * unit + line);
+    canvas.set(theme.floor);
+    cairo_fill(cairo);
+    circle(cairo, c, 0.019 * unit);
+    canvas.set(theme.ink);
+    cairo_fill(cairo);
+    if (labelled) {
+        draw_label(canvas, "$S$", {s.x - 1.05 * type, s.y - 0.28 * type}, label);
+        draw_label(canvas, "$C$", {c.x + 0.45 * type, c.y + 0.75 * type}, label);
+    }
+    if (amplitude == 0.0) return;
+    // M: a triangle outside the wall that points at it.
+    const Vec2 outward = (1.0 / amplitude) * centre;
+    const double wall = now.container_radius * (1.0 + wall_thickness);
+    const Vec2 m = view.on_page(at.position(centre + wall * outward));
+    Vec2 u = at.turned(outward);
+    u.y = -u.y;
+    const Vec2 side{-u.y, u.x};
+    // In the lab frame the picture ends at the wall's farthest reach, so there M lies on the wall.
+    const double inward = view.frame == Frame::lab ? -wall_thickness * unit : 0.0;
+    const double height = 0.038 * unit;
+    const Vec2 tip{m.x + inward * u.x, m.y + inward * u.y};
+    cairo_move_to(cairo, tip.x, tip.y);
+    cairo_line_to(cairo, tip.x + height * u.x + 0.6 * height * side.x,
+                  tip.y + height * u.y + 0.6 * height * side.y);
+    cairo_line_to(cairo, tip.x + height * u.x - 0.6 * height * side.x,
+                  tip.y + height * u.y - 0.6 * height * side.y);
+    cairo_close_path(cairo);
+    canvas.set(theme.ink);
+    cairo_fill(cairo);
+    if (!labelled) return;
+    const Vec2 middle = view.frame == Frame::lab
+                            ? Vec2{tip.x - 0.65 * type * u.x, tip.y - 0.65 * type * u.y}
+                            : Vec2{tip.x + height + 0.35 * type, tip.y + 0.6 * type};
+    if (view.frame == Frame::lab) {
+        LabelStyle centred = label;
+        centred.align = Align::center;
+        draw_label(canvas, "$M$", {middle.x, middle.y + 0.34 * type}, centred);
+    } else {
+        LabelStyle outside = label;
+        outside.halo = std::nullopt;
+        draw_label(canvas, "$M$", middle, outside);
+    }
+}
+
+void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const SceneContent& content) {
+    draw_dish(canvas, view, style, content.now);
+    draw_trails(canvas, view, style, content);
+    draw_discs(canvas, view, style, content);
+    if (style.forces) {
+        std::vector<std::size_t> all(content.now.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        draw_forces(canvas, view, style, content.now, all);
+    }
+    draw_points(canvas, view, style, content);
+}
+
+}  // namespace swirl

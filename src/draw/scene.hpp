@@ -1,0 +1,74 @@
+// The dish and its discs at one instant, drawn in a view.
+//
+// Discs carry an orientation mark, the wall carries marks, so that what spins and what does not can
+// be seen. On top lie the swirl centre S, the dish's centre C, the point M on the wall farthest from
+// S, and the path of C.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "draw/canvas.hpp"
+#include "draw/theme.hpp"
+#include "draw/view.hpp"
+#include "physics/snapshot.hpp"
+
+namespace swirl {
+
+/// What the colour of a disc says.
+enum class Coloring : std::uint8_t {
+    pinned,  // moves with the wall, or loose (measure/pinned_loose.hpp)
+    spin,    // lab-frame spin ω_i, diverging about zero
+    speed,   // in the frame that is shown
+    none,    // all alike
+    id,      // seven hues in turn, to follow one disc with the eye
+};
+
+std::optional<Coloring> coloring_named(std::string_view name);
+
+struct SceneStyle {
+    Theme theme = dark_theme();
+    Coloring coloring = Coloring::none;
+    double full_spin = 1.0;    // |ω_i| at the end of the colour scale
+    double full_speed = 1.0;   // speed at the end of the colour scale
+    bool orientation = true;   // marks on the discs
+    bool points = true;        // S, C, M
+    bool path = true;          // of C
+    bool forces = false;       // centrifugal and Coriolis, per disc; M-frame only
+    double discs_opacity = 1.0;
+};
+
+/// One instant, and what else is to be seen with it. All optional but `now`.
+struct SceneContent {
+    const Snapshot& now;
+    /// Corners of the closed path of C in the lab frame, S at the origin.
+    std::span<const Vec2> path = {};
+    /// One per disc: 1 pinned, 0 loose. Empty: not known, all discs have the plain colour.
+    std::span<const std::uint8_t> pinned = {};
+    /// Earlier instants, oldest first: trails.
+    std::span<const Snapshot* const> past = {};
+};
+
+/// Everything, back to front.
+void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const SceneContent& content);
+
+/// The parts of it, for pictures that are composed otherwise.
+void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
+               const Snapshot& now);
+void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content);
+void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const SceneContent& content);
+void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const Snapshot& now, std::span<const std::size_t> discs);
+void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content);
+
+/// An arrow from `tail` to `tip`, on the page. Nothing if it is too short to have a head.
+void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color);
+
+}  // namespace swirl

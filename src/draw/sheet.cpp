@@ -1,0 +1,243 @@
+#include "draw/sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "draw/label.hpp"
+
+namespace swirl {
+
+namespace {
+
+/// Type smaller than this, in pixels, cannot be read.
+constexpr double smallest_type = 7.0;
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : "   ·   ") + part;
+    return text;
+}
+
+std::string fixed(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+}  // namespace
+
+Sheet::Sheet(const SheetSpec& spec) : spec_(spec) {
+    const Canvas ruler(Size{8, 8});
+    lay_out(ruler);
+}
+
+void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
+    const auto count = static_cast<double>(spec_.panels.size());
+    double x = area.x + 0.5 * (area.width - count * side - (count - 1.0) * gap);
+    const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
+                                      [](const Panel& p) { return !p.caption.empty(); });
+    const double caption = captions && type_ >= smallest_type ? 1.7 * type_ : 0.0;
+    const double y = area.y + 0.5 * (area.height - side - caption) + caption;
+    for (const Panel& panel : spec_.panels) {
+        const Rectangle square{x, y, side, side};
+        views_.push_back(
+            fitting_view(square, panel.frame, panel.container_radius, panel.amplitude));
+        if (caption > 0.0)
+            texts_.push_back({panel.caption, {x + 0.5 * side, y - 0.55 * type_},
+                              {.size = type_, .color = spec_.style.theme.faint_ink,
+                               .align = Align::center}});
+        x += side + gap;
+    }
+}
+
+double Sheet::legend_height() const {
+    return spec_.style.coloring == Coloring::pinned || spec_.style.forces ||
+                   spec_.style.coloring == Coloring::spin ||
+                   spec_.style.coloring == Coloring::speed
+               ? 2.0 * type_
+               : 0.0;
+}
+
+void Sheet::lay_out(const Canvas& canvas) {
+    const double width = spec_.size.width, height = spec_.size.height;
+    const double shorter = std::min(width, height);
+    margin_ = 0.026 * shorter;
+    type_ = 0.0235 * shorter;
+    const auto count = static_cast<double>(spec_.panels.size());
+    const double side = height - 2.0 * margin_;
+    const double left_over = width - count * side - (count + 2.0) * margin_;
+    const bool has_text = type_ >= smallest_type &&
+                          (!spec_.title.empty() || !spec_.parameters.empty() || spec_.plot);
+    if (has_text && left_over > 0.36 * height) {
+        const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
+                                          [](const Panel& p) { return !p.caption.empty(); });
+        const double panel = side - (captions ? 1.7 * type_ : 0.0);
+        const double panels = count * panel + (count - 1.0) * margin_;
+        const double column = std::min(width - panels - 4.0 * margin_, 0.85 * height);
+        const double total = panels + 2.0 * margin_ + column;
+        const double x = 0.5 * (width - total);
+        lay_out_panels({x, margin_, panels, side}, panel, margin_);
+        lay_out_column(canvas, {x + panels + 2.0 * margin_, margin_, column, side});
+        return;
+    }
+    lay_out_bands(canvas);
+}
+
+void Sheet::lay_out_column(const Canvas& canvas, const Rectangle& column) {
+    const Theme& theme = spec_.style.theme;
+    double y = column.y + 0.06 * column.height;
+    if (!spec_.title.empty()) {
+        LabelStyle style{.size = 1.9 * type_, .color = theme.ink, .bold = true};
+        style.size = fitting_size(canvas, spec_.title, style, column.width);
+        texts_.push_back({spec_.title, {column.x, y + style.size}, style});
+        y += 1.1 * style.size + 1.3 * type_;
+    }
+    for (const std::string& parameter : spec_.parameters) {
+        LabelStyle style{.size = 1.05 * type_, .color = theme.faint_ink};
+        style.size = fitting_size(canvas, parameter, style, column.width);
+        y += 1.75 * type_;
+        texts_.push_back({parameter, {column.x, y}, style});
+    }
+    y += 1.6 * type_;
+    if (legend_height() > 0.0) {
+        legend_area_ = Rectangle{column.x, y, column.width, 2.0 * type_};
+        y += 3.2 * type_;
+    }
+    const double bottom = column.y + column.height;
+    if (spec_.plot && bottom - y > 8.0 * type_) {
+        const double height = std::min(0.36 * column.height, bottom - y - 3.0 * type_);
+        plot_area_ = Rectangle{column.x, bottom - height, column.width, height};
+        spec_.plot->type = 0.9 * type_;
+        if (spec_.clock) clock_place_ = Vec2{column.x + column.width - 0.6 * type_,
+                                             bottom - height - 0.8 * type_};
+        return;
+    }
+    if (spec_.clock) clock_place_ = Vec2{column.x + column.width, bottom - 0.5 * type_};
+}
+
+void Sheet::lay_out_bands(const Canvas& canvas) {
+    const Theme& theme = spec_.style.theme;
+    const double width = spec_.size.width, height = spec_.size.height;
+    const double inner = width - 2.0 * margin_;
+    const bool readable = type_ >= smallest_type;
+    double top = margin_, bottom = height - margin_;
+    const double clock_width = readable && spec_.clock ? 7.5 * type_ : 0.0;
+    if (readable && (!spec_.title.empty() || spec_.clock)) {
+        if (!spec_.title.empty()) {
+            LabelStyle style{.size = 1.5 * type_, .color = theme.ink, .bold = true};
+            style.size = fitting_size(canvas, spec_.title, style, inner - clock_width);
+            texts_.push_back({spec_.title, {margin_, top + 1.3 * type_}, style});
+        }
+        if (spec_.clock) clock_place_ = Vec2{width - margin_, top + 1.3 * type_};
+        top += 2.2 * type_;
+    }
+    if (readable && !spec_.parameters.empty()) {
+        const std::string line = joined(spec_.parameters);
+        LabelStyle style{.size = 0.9 * type_, .color = theme.faint_ink, .align = Align::center};
+        style.size = fitting_size(canvas, line, style, inner);
+        if (style.size >= smallest_type) {
+            texts_.push_back({line, {0.5 * width, bottom - 0.2 * type_}, style});
+            bottom -= 1.9 * type_;
+        }
+    }
+    if (readable && spec_.plot) {
+        const double plot = std::clamp(0.19 * height, 6.0 * type_, 0.3 * height);
+        const double plot_width = std::min(inner, 2.2 * height);
+        plot_area_ = Rectangle{0.5 * (width - plot_width), bottom - plot, plot_width, plot};
+        spec_.plot->type = 0.85 * type_;
+        bottom -= plot + 0.8 * type_;
+    }
+    if (readable && legend_height() > 0.0) {
+        legend_area_ = Rectangle{margin_, bottom - 1.5 * type_, inner, 1.5 * type_};
+        bottom -= 2.1 * type_;
+    }
+    const auto count = static_cast<double>(spec_.panels.size());
+    const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
+                                      [](const Panel& p) { return !p.caption.empty(); });
+    const double caption = captions && readable ? 1.7 * type_ : 0.0;
+    const double side = std::max(
+        1.0, std::min(bottom - top - caption, (inner - (count - 1.0) * margin_) / count));
+    const double spare = inner - count * side;
+    lay_out_panels({margin_, top, inner, bottom - top}, side,
+                   count > 1.0 ? std::min(spare / (count - 1.0), 3.0 * margin_) : 0.0);
+}
+
+void Sheet::draw_legend(const Canvas& canvas) const {
+    if (!legend_area_) return;
+    cairo_t* cairo = canvas.cairo();
+    const SceneStyle& style = spec_.style;
+    const Theme& theme = style.theme;
+    const Rectangle& area = *legend_area_;
+    const double baseline = area.y + 1.05 * type_, middle = baseline - 0.34 * type_;
+    const LabelStyle label{.size = 0.95 * type_, .color = theme.ink};
+    double x = area.x;
+    const auto spot = [&](const Color& color, std::string_view text) {
+        cairo_new_sub_path(cairo);
+        cairo_arc(cairo, x + 0.45 * type_, middle, 0.45 * type_, 0.0, 2.0 * pi);
+        canvas.set(color);
+        cairo_fill(cairo);
+        x += 1.4 * type_;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+    };
+    const auto arrow = [&](const Color& color, std::string_view text) {
+        draw_arrow(canvas, {x, middle}, {x + 1.7 * type_, middle}, 0.16 * type_, color);
+        x += 2.2 * type_;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+    };
+    const auto bar = [&](bool diverging, std::string_view low, std::string_view high,
+                         std::string_view text) {
+        x += draw_label(canvas, low, {x, baseline}, label) + 0.5 * type_;
+        constexpr int steps = 64;
+        const double length = 7.0 * type_;
+        for (int k = 0; k < steps; ++k) {
+            const double u = (k + 0.5) / steps;
+            canvas.set(diverging ? diverging_color(2.0 * u - 1.0, theme.neutral)
+                                 : sequential_color(u));
+            // Each step reaches under the next, so no seam shows between them.
+            const double end = k + 1 < steps ? (k + 1.5) / steps : 1.0;
+            cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * type_,
+                            length * (end - static_cast<double>(k) / steps), 0.8 * type_);
+            cairo_fill(cairo);
+        }
+        x += length + 0.5 * type_;
+        x += draw_label(canvas, high, {x, baseline}, label) + 0.9 * type_;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+    };
+    switch (style.coloring) {
+        case Coloring::pinned:
+            spot(theme.pinned, "pinned");
+            spot(theme.loose, "loose");
+            break;
+        case Coloring::spin:
+            bar(true, "−" + fixed(style.full_spin, 2), fixed(style.full_spin, 2), "spin $ω_{i}$");
+            break;
+        case Coloring::speed: bar(false, "0", fixed(style.full_speed, 1), "speed"); break;
+        default: break;
+    }
+    if (!style.forces) return;
+    arrow(theme.centrifugal, "centrifugal");
+    arrow(theme.coriolis, "Coriolis");
+}
+
+void Sheet::draw_still(const Canvas& canvas) const {
+    canvas.fill_page(spec_.style.theme.page);
+    for (const Text& text : texts_) draw_label(canvas, text.text, text.place, text.style);
+    draw_legend(canvas);
+    if (plot_area_) draw_plot_frame(canvas, *plot_area_, spec_.style.theme, *spec_.plot);
+}
+
+void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
+                        std::span<const Curve> curves, double swirls) const {
+    for (std::size_t k = 0; k < contents.size() && k < views_.size(); ++k)
+        draw_scene(canvas, views_[k], spec_.style, contents[k]);
+    if (plot_area_)
+        draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
+    if (clock_place_)
+        draw_label(canvas, "swirl " + fixed(swirls, 2), *clock_place_,
+                   {.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::right,
+                    .even_digits = true});
+}
+
+}  // namespace swirl

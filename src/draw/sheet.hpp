@@ -1,0 +1,74 @@
+// The page of a picture or movie: title, one or more dishes side by side, captions, what the colours
+// mean, the running plot, the line of parameters; laid out for any size. Where there is room to
+// spare at the side, the text stands there as a column; else above and below. What would be too
+// small to read is left out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/canvas.hpp"
+#include "draw/label.hpp"
+#include "draw/plot.hpp"
+#include "draw/scene.hpp"
+#include "draw/theme.hpp"
+#include "draw/view.hpp"
+
+namespace swirl {
+
+struct Panel {
+    Frame frame = Frame::lab;
+    std::string caption;
+    double container_radius = 1.0, amplitude = 0.0;
+};
+
+struct SheetSpec {
+    Size size{1920, 1080};
+    SceneStyle style;
+    std::string title;
+    std::vector<std::string> parameters;  // "$N$ = 48", …
+    std::vector<Panel> panels;
+    std::optional<PlotStyle> plot;        // its `type` is set by the layout
+    bool clock = true;                    // the running count of swirls
+};
+
+class Sheet {
+  public:
+    explicit Sheet(const SheetSpec& spec);
+
+    const SheetSpec& spec() const { return spec_; }
+    const View& view(std::size_t panel) const { return views_[panel]; }
+
+    /// What is the same in every frame.
+    void draw_still(const Canvas& canvas) const;
+    /// What changes: `contents` has one entry per panel; `curves` belong to the plot; `swirls` is
+    /// the time shown.
+    void draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
+                     std::span<const Curve> curves, double swirls) const;
+
+  private:
+    struct Text {
+        std::string text;
+        Vec2 place;
+        LabelStyle style;
+    };
+
+    void lay_out(const Canvas& canvas);
+    void lay_out_column(const Canvas& canvas, const Rectangle& column);
+    void lay_out_bands(const Canvas& canvas);
+    void lay_out_panels(const Rectangle& area, double side, double gap);
+    void draw_legend(const Canvas& canvas) const;
+    double legend_height() const;
+
+    SheetSpec spec_;
+    double type_ = 0.0;  // size of the ordinary type
+    double margin_ = 0.0;
+    std::vector<View> views_;
+    std::vector<Text> texts_;
+    std::optional<Rectangle> plot_area_;
+    std::optional<Vec2> clock_place_;
+    std::optional<Rectangle> legend_area_;
+};
+
+}  // namespace swirl
