@@ -143,7 +143,7 @@ double draw_label(const Canvas& canvas, std::string_view text, Vec2 place,
             cairo_text_path(cairo, run.text.c_str());
         });
         canvas.set(*style.halo, 0.85 * style.opacity);
-        cairo_set_line_width(cairo, 0.22 * style.size);
+        cairo_set_line_width(cairo, 0.17 * style.size);
         cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
         cairo_stroke(cairo);
     }

@@ -81,7 +81,7 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
 
     LabelStyle tick{.size = 0.88 * style.type, .color = theme.faint_ink, .align = Align::right};
     const double step = round_step(style.highest - style.lowest,
-                                   std::max(2, static_cast<int>(inner.height / (2.2 * style.type))));
+                                   std::max(2, static_cast<int>(inner.height / (1.7 * style.type))));
     for (double k = std::ceil(style.lowest / step); k * step <= style.highest; k += 1.0) {
         const Vec2 p = place(inner, style, style.from, k * step);
         const bool zero = k == 0.0;

@@ -46,7 +46,7 @@ void circle(cairo_t* cairo, const Vec2& centre, double radius) {
 
 /// A disc in its colour with a darker rim, and a hand that shows how it is turned.
 void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
-               double orientation, double opacity, const Theme& theme) {
+               double orientation, double opacity) {
     cairo_t* cairo = canvas.cairo();
     if (radius < smallest_outlined_radius) {
         circle(cairo, centre, radius);
@@ -76,7 +76,6 @@ void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Co
     cairo_line_to(cairo, centre.x + reach * direction.x, centre.y + reach * direction.y);
     canvas.set(mark, opacity);
     cairo_stroke(cairo);
-    (void)theme;
 }
 
 double line_unit(const View& view, const Snapshot& now) {
@@ -194,7 +193,7 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
             style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
         draw_disc(canvas, view.on_page(at.position(now.position(i))),
                   view.pixels_per_unit * now.radius[i], disc_color(style, content, view.frame, i),
-                  orientation, style.discs_opacity, style.theme);
+                  orientation, style.discs_opacity);
     }
 }
 
@@ -251,7 +250,7 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
 
     const double type = std::max(0.0, 0.062 * unit);
     const bool labelled = type >= 8.0;
-    const LabelStyle label{.size = type, .color = theme.ink, .halo = theme.floor};
+    const LabelStyle label{.size = type, .color = theme.ink, .bold = true, .halo = theme.floor};
     const Vec2 s = view.on_page(at.position({0.0, 0.0}));
     const Vec2 c = view.on_page(at.position(centre));
 

@@ -50,6 +50,9 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
                                .align = Align::center}});
         x += side + gap;
     }
+    // One scale for all, so that dishes can be compared by eye.
+    for (const View& view : views_) scale_ = std::min(scale_, view.pixels_per_unit);
+    for (View& view : views_) view.pixels_per_unit = scale_;
 }
 
 double Sheet::legend_height() const {
@@ -75,7 +78,7 @@ void Sheet::lay_out(const Canvas& canvas) {
                                           [](const Panel& p) { return !p.caption.empty(); });
         const double panel = side - (captions ? 1.7 * type_ : 0.0);
         const double panels = count * panel + (count - 1.0) * margin_;
-        const double column = std::min(width - panels - 4.0 * margin_, 0.85 * height);
+        const double column = std::min(width - panels - 4.0 * margin_, column_width(canvas));
         const double total = panels + 2.0 * margin_ + column;
         const double x = 0.5 * (width - total);
         lay_out_panels({x, margin_, panels, side}, panel, margin_);
@@ -83,6 +86,18 @@ void Sheet::lay_out(const Canvas& canvas) {
         return;
     }
     lay_out_bands(canvas);
+}
+
+/// As wide as its texts need, and the plot likes.
+double Sheet::column_width(const Canvas& canvas) const {
+    const double height = spec_.size.height;
+    double width = spec_.plot ? 0.72 * height : legend_height() > 0.0 ? 0.6 * height : 8.0 * type_;
+    const LabelStyle plain{.size = 1.05 * type_, .color = spec_.style.theme.ink};
+    for (const std::string& parameter : spec_.parameters)
+        width = std::max(width, label_width(canvas, parameter, plain));
+    const LabelStyle title{.size = 1.9 * type_, .color = spec_.style.theme.ink, .bold = true};
+    width = std::max(width, label_width(canvas, spec_.title, title));
+    return std::min(width, 0.8 * height);
 }
 
 void Sheet::lay_out_column(const Canvas& canvas, const Rectangle& column) {
@@ -110,11 +125,10 @@ void Sheet::lay_out_column(const Canvas& canvas, const Rectangle& column) {
         const double height = std::min(0.36 * column.height, bottom - y - 3.0 * type_);
         plot_area_ = Rectangle{column.x, bottom - height, column.width, height};
         spec_.plot->type = 0.9 * type_;
-        if (spec_.clock) clock_place_ = Vec2{column.x + column.width - 0.6 * type_,
-                                             bottom - height - 0.8 * type_};
+        if (spec_.clock) clock_place_ = Vec2{column.x, bottom - height - 0.9 * type_};
         return;
     }
-    if (spec_.clock) clock_place_ = Vec2{column.x + column.width, bottom - 0.5 * type_};
+    if (spec_.clock) clock_place_ = Vec2{column.x, bottom - 0.5 * type_};
 }
 
 void Sheet::lay_out_bands(const Canvas& canvas) {
@@ -130,8 +144,12 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
             style.size = fitting_size(canvas, spec_.title, style, inner - clock_width);
             texts_.push_back({spec_.title, {margin_, top + 1.3 * type_}, style});
         }
-        if (spec_.clock) clock_place_ = Vec2{width - margin_, top + 1.3 * type_};
-        top += 2.2 * type_;
+        if (spec_.clock) {
+            clock_place_ = Vec2{width - margin_, top + 1.15 * type_};
+            clock_align_ = Align::right;
+        }
+        // Without a headline the clock shares the line of the captions.
+        top += spec_.title.empty() ? 0.0 : 2.2 * type_;
     }
     if (readable && !spec_.parameters.empty()) {
         const std::string line = joined(spec_.parameters);
@@ -143,7 +161,7 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
         }
     }
     if (readable && spec_.plot) {
-        const double plot = std::clamp(0.19 * height, 6.0 * type_, 0.3 * height);
+        const double plot = std::clamp(0.165 * height, 6.0 * type_, 0.3 * height);
         const double plot_width = std::min(inner, 2.2 * height);
         plot_area_ = Rectangle{0.5 * (width - plot_width), bottom - plot, plot_width, plot};
         spec_.plot->type = 0.85 * type_;
@@ -236,7 +254,7 @@ void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> cont
         draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
     if (clock_place_)
         draw_label(canvas, "swirl " + fixed(swirls, 2), *clock_place_,
-                   {.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::right,
+                   {.size = type_, .color = spec_.style.theme.faint_ink, .align = clock_align_,
                     .even_digits = true});
 }
 

@@ -4,6 +4,7 @@
 // small to read is left out.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,14 +61,17 @@ class Sheet {
     void lay_out_panels(const Rectangle& area, double side, double gap);
     void draw_legend(const Canvas& canvas) const;
     double legend_height() const;
+    double column_width(const Canvas& canvas) const;
 
     SheetSpec spec_;
     double type_ = 0.0;  // size of the ordinary type
     double margin_ = 0.0;
+    double scale_ = std::numeric_limits<double>::infinity();  // pixels per unit of length
     std::vector<View> views_;
     std::vector<Text> texts_;
     std::optional<Rectangle> plot_area_;
     std::optional<Vec2> clock_place_;
+    Align clock_align_ = Align::left;
     std::optional<Rectangle> legend_area_;
 };
 

@@ -1,0 +1,25 @@
+// The options that say how a picture or a movie looks, the same for both.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+#include "lab/movie.hpp"
+
+namespace swirl {
+
+/// As given; appearance() reads it.
+struct AppearanceTexts {
+    std::string frame, color = "none", theme = "dark", title, size;
+    double trail_length = 0.3;
+    bool trails = false, forces = false, plot = false, bare = false;
+};
+
+std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand);
+
+/// Throws WrongCall. `otherwise` is the size if none was given.
+Appearance appearance(const AppearanceTexts& texts, Size otherwise);
+
+}  // namespace swirl

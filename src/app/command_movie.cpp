@@ -1,0 +1,147 @@
+// swirl movie: the dish in motion.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "app/appearance_options.hpp"
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/run_options.hpp"
+#include "app/stop_signal.hpp"
+#include "lab/failure.hpp"
+#include "lab/movie.hpp"
+
+namespace swirl {
+namespace {
+
+struct MovieCall {
+    std::shared_ptr<ParameterTexts> parameters;
+    std::shared_ptr<AppearanceTexts> appearance;
+    std::string out, frames_folder;
+    std::optional<double> seconds, swirls, start, slip;
+    std::optional<std::int64_t> beside;
+    std::optional<int> frames_per_second;
+    double pace = 0.5, ball_radius = 5.0;
+    bool quiet = false;
+};
+
+std::vector<Footage> footage_of(const MovieCall& call) {
+    RunConfig config = resolve(*call.parameters);
+    if (call.slip) {
+        if (!(*call.slip >= 0.0 && *call.slip <= 1.0))
+            throw WrongCall(fmt::format(
+                "--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).", *call.slip));
+        if (!(call.ball_radius > 0.0 && call.ball_radius < config.container_radius))
+            throw WrongCall(fmt::format(
+                "--ball-radius is {}, but it must be above 0 and below the container's {}.",
+                call.ball_radius, config.container_radius));
+        return {rolling_ball(*call.slip, call.ball_radius, config)};
+    }
+    std::vector<Footage> footage{simulated(config)};
+    if (call.beside) {
+        RunConfig other = config;
+        other.discs = *call.beside;
+        if (const auto wrong = problem(other)) throw WrongCall(*wrong);
+        footage.insert(footage.begin(), simulated(other));
+    }
+    return footage;
+}
+
+MovieConfig movie_config(const MovieCall& call) {
+    MovieConfig config;
+    config.out = call.out;
+    config.frames_folder = call.frames_folder;
+    const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
+    config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
+    config.footage = footage_of(call);
+    config.pace = call.pace;
+    config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
+    config.start = call.start.value_or(call.slip ? 0.0 : double(default_warmup));
+    if (call.seconds && call.swirls)
+        throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
+    double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
+    if (call.swirls) seconds = *call.swirls / call.pace;
+    const double frames = std::round(seconds * config.frames_per_second);
+    if (!(frames >= 1.0 && frames <= 1e6))
+        throw WrongCall(fmt::format(
+            "A movie of {:g} seconds cannot be made: it must have from 1 to 1000000 frames.",
+            seconds));
+    config.frames = static_cast<int>(frames);
+    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    return config;
+}
+
+void make_and_report(const MovieCall& call) {
+    const MovieConfig config = movie_config(call);
+    ProgressLine line(call.out.empty() ? call.frames_folder : call.out, call.quiet);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    MovieControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](int done, int of) {
+        line.show(double(done) / of, fmt::format("{:.0f} frames/s", done / seconds()));
+    };
+    const MovieResult result = make_movie(config, control);
+    line.clear();
+    const std::string where = call.out.empty() ? call.frames_folder : call.out;
+    if (result.frames == 0) throw Interrupted("Stopped before the first frame; nothing written.");
+    if (!call.quiet)
+        print_all(fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} swirls/s; made in {} "
+                              "({:.0f} frames/s).\n",
+                              where, result.frames,
+                              double(result.frames) / config.frames_per_second,
+                              config.frames_per_second, config.pace, short_duration(seconds()),
+                              result.frames / seconds()));
+    if (!result.complete)
+        throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
+                                      result.frames, config.frames, where));
+}
+
+void add_movie_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<MovieCall>();
+    const auto group = "Movie";
+    subcommand.add_option("--out", call->out, "the movie; its ending decides: .mp4, .webm or .gif")
+        ->type_name("FILE")->group(group);
+    subcommand.add_option("--frames", call->frames_folder,
+                          "write every frame as a PNG file, with or without a movie")
+        ->type_name("DIR")->group(group);
+    subcommand.add_option("--seconds", call->seconds, "how long it plays [20; .gif 6]")
+        ->type_name("NUMBER")->group(group);
+    subcommand.add_option("--swirls", call->swirls, "how many swirls it shows, instead")
+        ->type_name("NUMBER")->group(group);
+    subcommand.add_option("--pace", call->pace,
+                          "swirls per second of playing; the paper's table makes 1.88 [0.5]")
+        ->type_name("NUMBER")->group(group);
+    subcommand.add_option("--fps", call->frames_per_second, "frames per second [60; .gif 25]")
+        ->type_name("NUMBER")->group(group);
+    subcommand.add_option("--start", call->start, "swirls before the first frame [20]")
+        ->type_name("SWIRLS")->group(group);
+    subcommand.add_option("--beside", call->beside,
+                          "a second dish to the left, with N discs and otherwise alike")
+        ->type_name("N")->group(group);
+    subcommand.add_option("--rolling-ball", call->slip,
+                          "the paper's minimal model instead: one rigid ball, slip parameter from 0 "
+                          "(slips) to 1 (rolls)")
+        ->type_name("S")->group(group);
+    subcommand.add_option("--ball-radius", call->ball_radius, "of that ball [5]")
+        ->type_name("NUMBER")->group(group);
+    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
+    call->appearance = add_appearance_options(subcommand);
+    call->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
+    set_examples(subcommand,
+                 {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
+                  "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
+                  "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif"});
+    subcommand.callback([call] { make_and_report(*call); });
+}
+
+const Command command(60, "movie", "A movie of the dish, in the lab frame or the M-frame.",
+                      add_movie_command);
+
+}  // namespace
+}  // namespace swirl

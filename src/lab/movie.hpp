@@ -1,0 +1,66 @@
+// A movie of one dish or of several side by side, in the lab frame, the M-frame or both: which
+// moments are shown, what is drawn at each, and where it goes.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/scene.hpp"
+#include "draw/sheet.hpp"
+#include "lab/footage.hpp"
+
+namespace swirl {
+
+/// How things are shown, in movies and in pictures.
+struct Appearance {
+    std::vector<Frame> frames{Frame::lab};
+    Coloring coloring = Coloring::none;
+    bool trails = false;
+    double trail_length = 0.3;  // swirls
+    bool forces = false;
+    bool points = true;
+    bool path = true;
+    bool plot = false;
+    bool texts = true;
+    std::string title;
+    Theme theme = dark_theme();
+    Size size{1920, 1080};
+};
+
+struct MovieConfig {
+    std::vector<Footage> footage;  // side by side
+    Appearance appearance;
+    double start = 0.0;            // swirls
+    double pace = 0.5;             // swirls per second
+    int frames_per_second = 60;
+    int frames = 1200;
+    std::string out;               // movie file; empty: none
+    std::string frames_folder;     // PNG files; empty: none
+};
+
+struct MovieControl {
+    const std::atomic<bool>* stop = nullptr;
+    /// Called now and then with the number of frames done.
+    std::function<void(int done, int of)> progress;
+};
+
+struct MovieResult {
+    int frames = 0;  // in the file
+    bool complete = false;
+};
+
+/// Why this cannot be filmed, as a full sentence; nothing if it can.
+std::optional<std::string> problem(const MovieConfig& config);
+
+/// Stopped early, it leaves a movie of what was filmed. Throws Failure.
+MovieResult make_movie(const MovieConfig& config, const MovieControl& control = {});
+
+/// The page for these dishes, with scales and plot fitted to the swirls from `start` to `end`.
+/// `curves` receives what the plot shows.
+Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearance, double start,
+                 double end, std::vector<Curve>& curves);
+
+}  // namespace swirl
