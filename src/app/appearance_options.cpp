@@ -25,7 +25,8 @@ Size size_from(const std::string& text) {
     if (std::min(width, height) < 16 || std::max(width, height) > 8192)
         throw WrongCall(fmt::format(
             "--size is '{}', but it must be WIDTHxHEIGHT with sides from 16 to 8192 pixels, for "
-            "example 1920x1080.", text));
+            "example 1920x1080.",
+            text));
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 
@@ -35,29 +36,36 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand) {
     auto texts = std::make_shared<AppearanceTexts>();
     texts->frame = "lab";
     const auto group = "Appearance";
-    subcommand.add_option("--frame", texts->frame,
-                          "lab; m: turning with the swirl, the point M at the bottom; or both [lab]")
-        ->type_name("lab|m|both")->group(group);
-    subcommand.add_option("--color", texts->color,
-                          "what the discs' colours tell: pinned, spin, speed, none, id [none]")
-        ->type_name("NAME")->group(group);
-    subcommand.add_flag("--trails", texts->trails, "draw where the discs come from")
+    subcommand
+        .add_option("--frame", texts->frame,
+                    "lab; m: turning with the swirl, the point M at the bottom; or both [lab]")
+        ->type_name("lab|m|both")
         ->group(group);
-    subcommand.add_option("--trail-length", texts->trail_length,
-                          "how far trails reach back, in swirls [0.3]")
-        ->type_name("SWIRLS")->group(group);
-    subcommand.add_flag("--forces", texts->forces,
-                        "centrifugal and Coriolis force on each disc (M-frame)")
+    subcommand
+        .add_option("--color", texts->color,
+                    "what the discs' colours tell: pinned, spin, speed, none, id [none]")
+        ->type_name("NAME")
         ->group(group);
-    subcommand.add_flag("--plot", texts->plot, "the cluster's rotation against time")
+    subcommand.add_flag("--trails", texts->trails, "draw where the discs come from")->group(group);
+    subcommand
+        .add_option("--trail-length", texts->trail_length,
+                    "how far trails reach back, in swirls [0.3]")
+        ->type_name("SWIRLS")
         ->group(group);
+    subcommand
+        .add_flag("--forces", texts->forces,
+                  "centrifugal and Coriolis force on each disc (M-frame)")
+        ->group(group);
+    subcommand.add_flag("--plot", texts->plot, "the cluster's rotation against time")->group(group);
     subcommand.add_option("--theme", texts->theme, "dark or light [dark]")
-        ->type_name("NAME")->group(group);
+        ->type_name("NAME")
+        ->group(group);
     subcommand.add_option("--title", texts->title, "a headline")->type_name("TEXT")->group(group);
     subcommand.add_flag("--bare", texts->bare, "no text, no points: dish and discs only")
         ->group(group);
     subcommand.add_option("--size", texts->size, "in pixels [1920x1080]")
-        ->type_name("WxH")->group(group);
+        ->type_name("WxH")
+        ->group(group);
     return texts;
 }
 
@@ -71,14 +79,13 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     look.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)
-        throw WrongCall(fmt::format("--theme is '{}', but it must be dark or light.",
-                                    texts.theme));
+        throw WrongCall(fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
     look.theme = *theme;
     look.size = texts.size.empty() ? otherwise : size_from(texts.size);
     if (!(texts.trail_length > 0.0) || texts.trail_length > 100.0)
-        throw WrongCall(fmt::format(
-            "--trail-length is {}, but it must be above 0 and at most 100 swirls.",
-            texts.trail_length));
+        throw WrongCall(
+            fmt::format("--trail-length is {}, but it must be above 0 and at most 100 swirls.",
+                        texts.trail_length));
     look.trail_length = texts.trail_length;
     look.trails = texts.trails;
     look.forces = texts.forces;

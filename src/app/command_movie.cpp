@@ -64,6 +64,9 @@ MovieConfig movie_config(const MovieCall& call) {
         throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
     if (call.swirls) seconds = *call.swirls / call.pace;
+    if (config.frames_per_second < 1)
+        throw WrongCall(fmt::format("{} frames per second cannot be had: 1 or more can.",
+                                    config.frames_per_second));
     const double frames = std::round(seconds * config.frames_per_second);
     if (!(frames >= 1.0 && frames <= 1e6))
         throw WrongCall(fmt::format(
@@ -91,12 +94,12 @@ void make_and_report(const MovieCall& call) {
     const std::string where = call.out.empty() ? call.frames_folder : call.out;
     if (result.frames == 0) throw Interrupted("Stopped before the first frame; nothing written.");
     if (!call.quiet)
-        print_all(fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} swirls/s; made in {} "
-                              "({:.0f} frames/s).\n",
-                              where, result.frames,
-                              double(result.frames) / config.frames_per_second,
-                              config.frames_per_second, config.pace, short_duration(seconds()),
-                              result.frames / seconds()));
+        print_all(
+            fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} swirls/s; made in {} "
+                        "({:.0f} frames/s).\n",
+                        where, result.frames, double(result.frames) / config.frames_per_second,
+                        config.frames_per_second, config.pace, short_duration(seconds()),
+                        result.frames / seconds()));
     if (!result.complete)
         throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
                                       result.frames, config.frames, where));
@@ -106,30 +109,44 @@ void add_movie_command(CLI::App& subcommand) {
     const auto call = std::make_shared<MovieCall>();
     const auto group = "Movie";
     subcommand.add_option("--out", call->out, "the movie; its ending decides: .mp4, .webm or .gif")
-        ->type_name("FILE")->group(group);
-    subcommand.add_option("--frames", call->frames_folder,
-                          "write every frame as a PNG file, with or without a movie")
-        ->type_name("DIR")->group(group);
+        ->type_name("FILE")
+        ->group(group);
+    subcommand
+        .add_option("--frames", call->frames_folder,
+                    "write every frame as a PNG file, with or without a movie")
+        ->type_name("DIR")
+        ->group(group);
     subcommand.add_option("--seconds", call->seconds, "how long it plays [20; .gif 6]")
-        ->type_name("NUMBER")->group(group);
+        ->type_name("NUMBER")
+        ->group(group);
     subcommand.add_option("--swirls", call->swirls, "how many swirls it shows, instead")
-        ->type_name("NUMBER")->group(group);
-    subcommand.add_option("--pace", call->pace,
-                          "swirls per second of playing; the paper's table makes 1.88 [0.5]")
-        ->type_name("NUMBER")->group(group);
+        ->type_name("NUMBER")
+        ->group(group);
+    subcommand
+        .add_option("--pace", call->pace,
+                    "swirls per second of playing; the paper's table makes 1.88 [0.5]")
+        ->type_name("NUMBER")
+        ->group(group);
     subcommand.add_option("--fps", call->frames_per_second, "frames per second [60; .gif 25]")
-        ->type_name("NUMBER")->group(group);
+        ->type_name("NUMBER")
+        ->group(group);
     subcommand.add_option("--start", call->start, "swirls before the first frame [20]")
-        ->type_name("SWIRLS")->group(group);
-    subcommand.add_option("--beside", call->beside,
-                          "a second dish to the left, with N discs and otherwise alike")
-        ->type_name("N")->group(group);
-    subcommand.add_option("--rolling-ball", call->slip,
-                          "the paper's minimal model instead: one rigid ball, slip parameter from 0 "
-                          "(slips) to 1 (rolls)")
-        ->type_name("S")->group(group);
+        ->type_name("SWIRLS")
+        ->group(group);
+    subcommand
+        .add_option("--beside", call->beside,
+                    "a second dish to the left, with N discs and otherwise alike")
+        ->type_name("N")
+        ->group(group);
+    subcommand
+        .add_option("--rolling-ball", call->slip,
+                    "the paper's minimal model instead: one rigid ball, slip parameter from 0 "
+                    "(slips) to 1 (rolls)")
+        ->type_name("S")
+        ->group(group);
     subcommand.add_option("--ball-radius", call->ball_radius, "of that ball [5]")
-        ->type_name("NUMBER")->group(group);
+        ->type_name("NUMBER")
+        ->group(group);
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
     call->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});

@@ -119,13 +119,12 @@ void Canvas::write_png(const std::string& path) {
     std::FILE* file = std::fopen(written_aside(path).c_str(), "wb");
     if (file == nullptr) fail_to_write(path, std::strerror(errno));
     errno = 0;
-    const cairo_status_t status =
-        cairo_surface_write_to_png_stream(surface_, append_to_file, file);
+    const cairo_status_t status = cairo_surface_write_to_png_stream(surface_, append_to_file, file);
     const int write_error = errno;
     const bool closed = std::fclose(file) == 0;
     if (status != CAIRO_STATUS_SUCCESS)
-        fail_to_write(path, write_error != 0 ? std::strerror(write_error)
-                                             : cairo_status_to_string(status));
+        fail_to_write(
+            path, write_error != 0 ? std::strerror(write_error) : cairo_status_to_string(status));
     if (!closed) fail_to_write(path, std::strerror(errno));
     move_into_place(path);
 }

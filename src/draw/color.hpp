@@ -50,10 +50,10 @@ constexpr Color interpolate(const std::array<Color, count>& stops, double u) {
 
 /// 0…1 → dark blue, green, yellow.
 constexpr Color sequential_color(double u) {
-    constexpr std::array<Color, 7> stops{
-        color_from_hex(0x46337E), color_from_hex(0x365C8D), color_from_hex(0x277F8E),
-        color_from_hex(0x1FA187), color_from_hex(0x4AC16D), color_from_hex(0xA0DA39),
-        color_from_hex(0xFDE725)};
+    constexpr std::array<Color, 7> stops{color_from_hex(0x46337E), color_from_hex(0x365C8D),
+                                         color_from_hex(0x277F8E), color_from_hex(0x1FA187),
+                                         color_from_hex(0x4AC16D), color_from_hex(0xA0DA39),
+                                         color_from_hex(0xFDE725)};
     return interpolate(stops, u);
 }
 

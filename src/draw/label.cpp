@@ -56,10 +56,9 @@ constexpr const char* complete_face = "DejaVu Sans";
 bool has_all_glyphs(cairo_t* cairo, const std::string& text) {
     cairo_glyph_t* glyphs = nullptr;
     int count = 0;
-    const cairo_status_t status =
-        cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(cairo), 0.0, 0.0, text.c_str(),
-                                         static_cast<int>(text.size()), &glyphs, &count, nullptr,
-                                         nullptr, nullptr);
+    const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
+        cairo_get_scaled_font(cairo), 0.0, 0.0, text.c_str(), static_cast<int>(text.size()),
+        &glyphs, &count, nullptr, nullptr, nullptr);
     if (status != CAIRO_STATUS_SUCCESS) return false;
     const bool all =
         std::all_of(glyphs, glyphs + count, [](const cairo_glyph_t& g) { return g.index != 0; });

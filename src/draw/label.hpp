@@ -23,8 +23,8 @@ struct LabelStyle {
     Align align = Align::left;
     bool bold = false;
     double opacity = 1.0;
-    bool even_digits = false;           // digits of one width, so that a running number stands still
-    std::optional<Color> halo = {};     // drawn behind the letters, to lift them off what is there
+    bool even_digits = false;        // digits of one width, so that a running number stands still
+    std::optional<Color> halo = {};  // drawn behind the letters, to lift them off what is there
 };
 
 /// Writes `text` with its baseline at `place`. Returns the width it took.

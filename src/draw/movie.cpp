@@ -27,9 +27,12 @@ bool ends_with(const std::string& text, const char* ending) {
 
 const char* name_of(MovieFormat format) {
     switch (format) {
-        case MovieFormat::mp4: return "mp4";
-        case MovieFormat::webm: return "webm";
-        case MovieFormat::gif: break;
+        case MovieFormat::mp4:
+            return "mp4";
+        case MovieFormat::webm:
+            return "webm";
+        case MovieFormat::gif:
+            break;
     }
     return "gif";
 }
@@ -37,10 +40,21 @@ const char* name_of(MovieFormat format) {
 std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second,
                                    const std::string& out) {
     const std::string dimensions = std::to_string(size.width) + "x" + std::to_string(size.height);
-    std::vector<std::string> args{
-        "ffmpeg", "-hide_banner", "-nostats", "-loglevel", "error", "-xerror", "-y",
-        "-f", "rawvideo", "-pix_fmt", format == MovieFormat::gif ? "bgr0" : "yuv420p",
-        "-s", dimensions, "-framerate", std::to_string(frames_per_second)};
+    std::vector<std::string> args{"ffmpeg",
+                                  "-hide_banner",
+                                  "-nostats",
+                                  "-loglevel",
+                                  "error",
+                                  "-xerror",
+                                  "-y",
+                                  "-f",
+                                  "rawvideo",
+                                  "-pix_fmt",
+                                  format == MovieFormat::gif ? "bgr0" : "yuv420p",
+                                  "-s",
+                                  dimensions,
+                                  "-framerate",
+                                  std::to_string(frames_per_second)};
     const auto add = [&](std::initializer_list<const char*> more) {
         args.insert(args.end(), more.begin(), more.end());
     };
@@ -55,9 +69,9 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
                  "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
             break;
         case MovieFormat::webm:
-            add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good",
-                 "-cpu-used", "5", "-row-mt", "1", "-tile-columns", "1", "-threads", "2",
-                 "-pix_fmt", "yuv420p"});
+            add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used",
+                 "5", "-row-mt", "1", "-tile-columns", "1", "-threads", "2", "-pix_fmt",
+                 "yuv420p"});
             break;
         case MovieFormat::gif:
             add({"-filter_threads", "1", "-filter_complex",
@@ -88,10 +102,17 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
     if (format != MovieFormat::gif && (size.width % 2 != 0 || size.height % 2 != 0))
         return "A movie of " + given + " pixels cannot be made: the sides of an ." +
                name_of(format) + " movie must be even.";
-    const int fastest = format == MovieFormat::gif ? 50 : 240;
-    if (frames_per_second < 1 || frames_per_second > fastest)
+    // A GIF counts in hundredths of a second, and players slow down what is faster than fifty.
+    if (format == MovieFormat::gif) {
+        if (frames_per_second >= 1 && frames_per_second <= 50 && 100 % frames_per_second == 0)
+            return std::nullopt;
+        return std::to_string(frames_per_second) +
+               " frames per second cannot be had: a .gif counts in hundredths of a second and "
+               "takes 1, 2, 4, 5, 10, 20, 25 or 50.";
+    }
+    if (frames_per_second < 1 || frames_per_second > 240)
         return std::to_string(frames_per_second) + " frames per second cannot be had: ." +
-               name_of(format) + " movies take 1 to " + std::to_string(fastest) + ".";
+               name_of(format) + " movies take 1 to 240.";
     return std::nullopt;
 }
 
@@ -101,15 +122,14 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
     // ffmpeg would say this too, but only once the first frames have been drawn.
     const int probe = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (probe < 0)
-        throw DrawFailure("The movie " + path_ + " could not be written: " +
-                          std::strerror(errno) + ".");
+        throw DrawFailure("The movie " + path_ + " could not be written: " + std::strerror(errno) +
+                          ".");
     ::close(probe);
 
     // A socket and not a pipe: writing to a dead reader then gives an error instead of a signal.
     std::array<int, 2> ends{};
     complaints_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
-    if (complaints_ < 0 ||
-        ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    if (complaints_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         const std::string reason = std::strerror(errno);
         if (complaints_ >= 0) ::close(complaints_);
         ::unlink(aside_.c_str());
@@ -132,14 +152,14 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                              POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setflags(
+        &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     std::vector<std::string> args = arguments(format, size, frames_per_second, aside_);
     std::vector<char*> pointers;
     for (std::string& arg : args) pointers.push_back(arg.data());
     pointers.push_back(nullptr);
-    const int error = ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(),
-                                     environ);
+    const int error =
+        ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
     ::close(ends[1]);
@@ -178,7 +198,8 @@ int MovieWriter::end_process() {
 std::string MovieWriter::last_words() const {
     std::array<char, 4096> text{};
     const off_t size = ::lseek(complaints_, 0, SEEK_END);
-    const off_t from = size > static_cast<off_t>(text.size()) ? size - static_cast<off_t>(text.size()) : 0;
+    const off_t from =
+        size > static_cast<off_t>(text.size()) ? size - static_cast<off_t>(text.size()) : 0;
     const ssize_t count = ::pread(complaints_, text.data(), text.size(), from);
     std::string words(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
     while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();
@@ -188,9 +209,9 @@ std::string MovieWriter::last_words() const {
 
 void MovieWriter::fail(int status) {
     ::unlink(aside_.c_str());
-    const std::string how =
-        WIFSIGNALED(status) ? "was killed by signal " + std::to_string(WTERMSIG(status))
-                            : "ended with code " + std::to_string(WEXITSTATUS(status));
+    const std::string how = WIFSIGNALED(status)
+                                ? "was killed by signal " + std::to_string(WTERMSIG(status))
+                                : "ended with code " + std::to_string(WEXITSTATUS(status));
     const std::string words = last_words();
     throw DrawFailure("The movie " + path_ + " could not be made: ffmpeg " + how +
                       (words.empty() ? "." : " and said: " + words));

@@ -47,8 +47,8 @@ class MovieWriter {
     std::string last_words() const;
 
     std::string path_, aside_;
-    int input_ = -1;        // our end of ffmpeg's standard input
-    int complaints_ = -1;   // an unnamed file that takes its standard error
+    int input_ = -1;       // our end of ffmpeg's standard input
+    int complaints_ = -1;  // an unnamed file that takes its standard error
     int process_ = -1;
 };
 

@@ -13,8 +13,8 @@ constexpr int half = 1 << 15;
 void luma_row(const std::uint8_t* __restrict pixel, int width, std::uint8_t* __restrict luma) {
     for (int x = 0; x < width; ++x) {
         const int b = pixel[4 * x], g = pixel[4 * x + 1], r = pixel[4 * x + 2];
-        luma[x] = static_cast<std::uint8_t>(
-            16 + ((y_red * r + y_green * g + y_blue * b + half) >> 16));
+        luma[x] =
+            static_cast<std::uint8_t>(16 + ((y_red * r + y_green * g + y_blue * b + half) >> 16));
     }
 }
 
@@ -38,8 +38,7 @@ std::size_t planar_bytes(Size size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 3 / 2;
 }
 
-void to_planar(std::span<const std::uint8_t> pixels, Size size,
-               std::vector<std::uint8_t>& planes) {
+void to_planar(std::span<const std::uint8_t> pixels, Size size, std::vector<std::uint8_t>& planes) {
     planes.resize(planar_bytes(size));
     const auto width = static_cast<std::size_t>(size.width);
     const auto height = static_cast<std::size_t>(size.height);

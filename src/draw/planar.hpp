@@ -5,9 +5,9 @@
 //     Y  = 16 + 0.2126·219/255 R + 0.7152·219/255 G + 0.0722·219/255 B
 //     Cb = 128 + 224/255 (B − Y')/1.8556        Cr = 128 + 224/255 (R − Y')/1.5748
 //
-// in 16-bit fixed point; the chroma of two by two pixels is that of their mean. Doing this where the
-// frame is drawn shares the work between the cores, and makes what flows to the encoder 2.7 times
-// smaller.
+// in 16-bit fixed point; the chroma of two by two pixels is that of their mean. Doing this where
+// the frame is drawn shares the work between the cores, and makes what flows to the encoder 2.7
+// times smaller.
 #pragma once
 
 #include <cstdint>

@@ -38,8 +38,10 @@ void polyline(cairo_t* cairo, const Rectangle& inner, const PlotStyle& style, co
             continue;
         }
         const Vec2 p = place(inner, style, curve.time[k], values[k]);
-        if (drawing) cairo_line_to(cairo, p.x, p.y);
-        else cairo_move_to(cairo, p.x, p.y);
+        if (drawing)
+            cairo_line_to(cairo, p.x, p.y);
+        else
+            cairo_move_to(cairo, p.x, p.y);
         drawing = true;
     }
 }
@@ -80,8 +82,9 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
     cairo_fill(cairo);
 
     LabelStyle tick{.size = 0.88 * style.type, .color = theme.faint_ink, .align = Align::right};
-    const double step = round_step(style.highest - style.lowest,
-                                   std::max(2, static_cast<int>(inner.height / (1.7 * style.type))));
+    const double step =
+        round_step(style.highest - style.lowest,
+                   std::max(2, static_cast<int>(inner.height / (1.7 * style.type))));
     for (double k = std::ceil(style.lowest / step); k * step <= style.highest; k += 1.0) {
         const Vec2 p = place(inner, style, style.from, k * step);
         const bool zero = k == 0.0;
@@ -90,25 +93,27 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
         cairo_line_to(cairo, inner.x + inner.width, p.y);
         canvas.set(theme.faint_ink, zero ? 0.9 : 0.25);
         cairo_stroke(cairo);
-        draw_label(canvas, number(k * step, step), {inner.x - 0.5 * style.type,
-                                                    p.y + 0.32 * style.type}, tick);
+        draw_label(canvas, number(k * step, step),
+                   {inner.x - 0.5 * style.type, p.y + 0.32 * style.type}, tick);
     }
     tick.align = Align::center;
-    const double time_step = std::max(
-        round_step(style.to - style.from,
-                   std::max(2, static_cast<int>(inner.width / (5.0 * style.type)))), 1e-9);
-    for (double k = std::ceil(style.from / time_step - 1e-9); k * time_step <= style.to * (1 + 1e-9);
-         k += 1.0) {
+    const double time_step =
+        std::max(round_step(style.to - style.from,
+                            std::max(2, static_cast<int>(inner.width / (5.0 * style.type)))),
+                 1e-9);
+    for (double k = std::ceil(style.from / time_step - 1e-9);
+         k * time_step <= style.to * (1 + 1e-9); k += 1.0) {
         const Vec2 p = place(inner, style, k * time_step, style.lowest);
         draw_label(canvas, number(k * time_step, time_step), {p.x, p.y + 1.2 * style.type}, tick);
     }
     const LabelStyle name{.size = style.type, .color = theme.ink};
     draw_label(canvas, style.time_label,
                {inner.x + 0.5 * (inner.width - label_width(canvas, style.time_label, name)),
-                inner.y + inner.height + 2.2 * style.type}, name);
+                inner.y + inner.height + 2.2 * style.type},
+               name);
     // The name of the quantity stands upright beside its numbers, in the upper left corner.
-    draw_label(canvas, style.vertical_label, {inner.x + 0.5 * style.type,
-                                              inner.y + 1.35 * style.type}, name);
+    draw_label(canvas, style.vertical_label,
+               {inner.x + 0.5 * style.type, inner.y + 1.35 * style.type}, name);
 }
 
 void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& theme,
@@ -149,8 +154,10 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
             const bool left = p.x > inner.x + 0.8 * inner.width;
             draw_label(canvas, curve.label,
                        {p.x + (left ? -0.6 : 0.6) * style.type, p.y - 0.5 * style.type},
-                       {.size = 0.92 * style.type, .color = curve.color,
-                        .align = left ? Align::right : Align::left, .halo = theme.floor});
+                       {.size = 0.92 * style.type,
+                        .color = curve.color,
+                        .align = left ? Align::right : Align::left,
+                        .halo = theme.floor});
         }
     }
 }

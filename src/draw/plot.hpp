@@ -19,11 +19,11 @@ struct Curve {
 };
 
 struct PlotStyle {
-    double from, to;                      // of the time axis, in swirls
-    double lowest, highest;               // of the vertical axis
+    double from, to;         // of the time axis, in swirls
+    double lowest, highest;  // of the vertical axis
     std::string vertical_label = "$ϖ$/$Ω$";
     std::string time_label = "swirls";
-    double type;                          // size of the type in pixels
+    double type;  // size of the type in pixels
 };
 
 /// A range that holds zero and every smooth value between `from` and `to`, with some air.

@@ -17,8 +17,7 @@ constexpr double full_turn = 2.0 * pi;
 constexpr double smallest_marked_radius = 3.5;
 constexpr double smallest_outlined_radius = 2.5;
 
-Color disc_color(const SceneStyle& style, const SceneContent& content, Frame frame,
-                 std::size_t i) {
+Color disc_color(const SceneStyle& style, const SceneContent& content, Frame frame, std::size_t i) {
     const Theme& theme = style.theme;
     switch (style.coloring) {
         case Coloring::pinned:
@@ -33,8 +32,10 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, Frame fra
             const Vec2 v = velocity_in(content.now, i, frame);
             return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
         }
-        case Coloring::id: return distinct_colors[i % distinct_colors.size()];
-        case Coloring::none: break;
+        case Coloring::id:
+            return distinct_colors[i % distinct_colors.size()];
+        case Coloring::none:
+            break;
     }
     return theme.disc;
 }

@@ -1,8 +1,8 @@
 // The dish and its discs at one instant, drawn in a view.
 //
 // Discs carry an orientation mark, the wall carries marks, so that what spins and what does not can
-// be seen. On top lie the swirl centre S, the dish's centre C, the point M on the wall farthest from
-// S, and the path of C.
+// be seen. On top lie the swirl centre S, the dish's centre C, the point M on the wall farthest
+// from S, and the path of C.
 #pragma once
 
 #include <cstdint>
@@ -32,12 +32,12 @@ std::optional<Coloring> coloring_named(std::string_view name);
 struct SceneStyle {
     Theme theme = dark_theme();
     Coloring coloring = Coloring::none;
-    double full_spin = 1.0;    // |ω_i| at the end of the colour scale
-    double full_speed = 1.0;   // speed at the end of the colour scale
-    bool orientation = true;   // marks on the discs
-    bool points = true;        // S, C, M
-    bool path = true;          // of C
-    bool forces = false;       // centrifugal and Coriolis, per disc; M-frame only
+    double full_spin = 1.0;   // |ω_i| at the end of the colour scale
+    double full_speed = 1.0;  // speed at the end of the colour scale
+    bool orientation = true;  // marks on the discs
+    bool points = true;       // S, C, M
+    bool path = true;         // of C
+    bool forces = false;      // centrifugal and Coriolis, per disc; M-frame only
     double discs_opacity = 1.0;
 };
 

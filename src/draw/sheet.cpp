@@ -45,9 +45,10 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
         views_.push_back(
             fitting_view(square, panel.frame, panel.container_radius, panel.amplitude));
         if (caption > 0.0)
-            texts_.push_back({panel.caption, {x + 0.5 * side, y - 0.55 * type_},
-                              {.size = type_, .color = spec_.style.theme.faint_ink,
-                               .align = Align::center}});
+            texts_.push_back(
+                {panel.caption,
+                 {x + 0.5 * side, y - 0.55 * type_},
+                 {.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::center}});
         x += side + gap;
     }
     // One scale for all, so that dishes can be compared by eye.
@@ -57,8 +58,7 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
 
 double Sheet::legend_height() const {
     return spec_.style.coloring == Coloring::pinned || spec_.style.forces ||
-                   spec_.style.coloring == Coloring::spin ||
-                   spec_.style.coloring == Coloring::speed
+                   spec_.style.coloring == Coloring::spin || spec_.style.coloring == Coloring::speed
                ? 2.0 * type_
                : 0.0;
 }
@@ -71,8 +71,8 @@ void Sheet::lay_out(const Canvas& canvas) {
     const auto count = static_cast<double>(spec_.panels.size());
     const double side = height - 2.0 * margin_;
     const double left_over = width - count * side - (count + 2.0) * margin_;
-    const bool has_text = type_ >= smallest_type &&
-                          (!spec_.title.empty() || !spec_.parameters.empty() || spec_.plot);
+    const bool has_text =
+        type_ >= smallest_type && (!spec_.title.empty() || !spec_.parameters.empty() || spec_.plot);
     if (has_text && left_over > 0.36 * height) {
         const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
                                           [](const Panel& p) { return !p.caption.empty(); });
@@ -175,8 +175,8 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
     const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
                                       [](const Panel& p) { return !p.caption.empty(); });
     const double caption = captions && readable ? 1.7 * type_ : 0.0;
-    const double side = std::max(
-        1.0, std::min(bottom - top - caption, (inner - (count - 1.0) * margin_) / count));
+    const double side =
+        std::max(1.0, std::min(bottom - top - caption, (inner - (count - 1.0) * margin_) / count));
     const double spare = inner - count * side;
     lay_out_panels({margin_, top, inner, bottom - top}, side,
                    count > 1.0 ? std::min(spare / (count - 1.0), 3.0 * margin_) : 0.0);
@@ -231,8 +231,11 @@ void Sheet::draw_legend(const Canvas& canvas) const {
         case Coloring::spin:
             bar(true, "−" + fixed(style.full_spin, 2), fixed(style.full_spin, 2), "spin $ω_{i}$");
             break;
-        case Coloring::speed: bar(false, "0", fixed(style.full_speed, 1), "speed"); break;
-        default: break;
+        case Coloring::speed:
+            bar(false, "0", fixed(style.full_speed, 1), "speed");
+            break;
+        default:
+            break;
     }
     if (!style.forces) return;
     arrow(theme.centrifugal, "centrifugal");
@@ -254,7 +257,9 @@ void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> cont
         draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
     if (clock_place_)
         draw_label(canvas, "swirl " + fixed(swirls, 2), *clock_place_,
-                   {.size = type_, .color = spec_.style.theme.faint_ink, .align = clock_align_,
+                   {.size = type_,
+                    .color = spec_.style.theme.faint_ink,
+                    .align = clock_align_,
                     .even_digits = true});
 }
 

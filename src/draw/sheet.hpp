@@ -1,7 +1,7 @@
-// The page of a picture or movie: title, one or more dishes side by side, captions, what the colours
-// mean, the running plot, the line of parameters; laid out for any size. Where there is room to
-// spare at the side, the text stands there as a column; else above and below. What would be too
-// small to read is left out.
+// The page of a picture or movie: title, one or more dishes side by side, captions, what the
+// colours mean, the running plot, the line of parameters; laid out for any size. Where there is
+// room to spare at the side, the text stands there as a column; else above and below. What would be
+// too small to read is left out.
 #pragma once
 
 #include <limits>
@@ -30,8 +30,8 @@ struct SheetSpec {
     std::string title;
     std::vector<std::string> parameters;  // "$N$ = 48", …
     std::vector<Panel> panels;
-    std::optional<PlotStyle> plot;        // its `type` is set by the layout
-    bool clock = true;                    // the running count of swirls
+    std::optional<PlotStyle> plot;  // its `type` is set by the layout
+    bool clock = true;              // the running count of swirls
 };
 
 class Sheet {

@@ -9,17 +9,17 @@
 namespace swirl {
 
 struct Theme {
-    Color page;              // behind everything
-    Color floor;             // inside the dish
-    Color wall, wall_mark;   // the ring, and the marks that show whether it turns
-    Color ink, faint_ink;    // text; captions, axes
-    Color path;              // of the container's centre
-    Color disc;              // without a meaning
-    Color pinned, loose;     // the paper's red and blue, for every kind of colour vision
-    Color neutral;           // middle of the diverging scale
+    Color page;             // behind everything
+    Color floor;            // inside the dish
+    Color wall, wall_mark;  // the ring, and the marks that show whether it turns
+    Color ink, faint_ink;   // text; captions, axes
+    Color path;             // of the container's centre
+    Color disc;             // without a meaning
+    Color pinned, loose;    // the paper's red and blue, for every kind of colour vision
+    Color neutral;          // middle of the diverging scale
     Color centrifugal, coriolis, velocity;
-    Color accent;            // the point M, the present moment
-    Color curve;             // of the running plot
+    Color accent;  // the point M, the present moment
+    Color curve;   // of the running plot
 };
 
 /// For projectors and screens.

@@ -38,7 +38,7 @@ Vec2 velocity_in(const Snapshot& snapshot, std::size_t disc, Frame frame);
 
 struct View {
     Frame frame;
-    Vec2 centre;             // on the page: S in the lab frame, C in the M-frame
+    Vec2 centre;  // on the page: S in the lab frame, C in the M-frame
     double pixels_per_unit;
 
     Vec2 on_page(const Vec2& p) const {

@@ -38,8 +38,9 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
     if (config.restitution != 1.0) labels.push_back("$e$ = " + plain(config.restitution));
     if (config.tangential_restitution != 0.0)
         labels.push_back("$β$ = " + plain(config.tangential_restitution));
-    labels.push_back("$I$ = " + plain(config.inertia / (config.mass * config.radius *
-                                                        config.radius)) + " $m$$r^{2}$");
+    labels.push_back(
+        "$I$ = " + plain(config.inertia / (config.mass * config.radius * config.radius)) +
+        " $m$$r^{2}$");
     labels.push_back("$R$ = " + plain(config.container_radius / config.radius) + " $r$");
     labels.push_back("$A$ = " + plain(config.amplitude / config.radius) + " $r$");
     if (config.mixture)
@@ -105,11 +106,10 @@ Footage rolling_ball(double slip, double ball_radius, const RunConfig& container
     footage.amplitude = container.amplitude;
     footage.period = container.period;
     footage.caption = slip == 0.0 ? "slip" : "no slip";
-    footage.parameters = {
-        "$s$ = " + plain(slip),
-        "$γ$ = $s$ $R$/$R_{ball}$ = " + fmt::format("{:.3g}", gamma),
-        "$ϖ$/$Ω$ = 1 − $γ$ = " + (gamma > 1.0 ? "−" : std::string()) +
-            fmt::format("{:.3g}", std::abs(1.0 - gamma))};
+    footage.parameters = {"$s$ = " + plain(slip),
+                          "$γ$ = $s$ $R$/$R_{ball}$ = " + fmt::format("{:.3g}", gamma),
+                          "$ϖ$/$Ω$ = 1 − $γ$ = " + (gamma > 1.0 ? "−" : std::string()) +
+                              fmt::format("{:.3g}", std::abs(1.0 - gamma))};
     return footage;
 }
 

@@ -31,7 +31,8 @@ constexpr int trail_samples = 96;
 double scale_end(std::vector<double> values) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     if (values.empty()) return 1.0;
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
     if (!(*place > 0.0)) return 1.0;
     return round_step(*place, 1);
@@ -58,7 +59,8 @@ struct Survey {
             sum += rotation;
             const auto size = curve.raw.size();
             if (size > plot_samples) sum -= curve.raw[size - plot_samples - 1];
-            curve.smooth.push_back(sum / static_cast<double>(std::min<std::size_t>(size, plot_samples)));
+            curve.smooth.push_back(sum /
+                                   static_cast<double>(std::min<std::size_t>(size, plot_samples)));
             if (k % 8 != 0) continue;
             for (std::size_t i = 0; i < s.size(); ++i) {
                 const Vec2 v = velocity_in(s, i, frame);
@@ -165,17 +167,21 @@ std::optional<std::string> problem(const MovieConfig& config) {
     if (!config.out.empty() && !format)
         return fmt::format(
             "The name '{}' does not tell what kind of movie is wanted: it must end in .mp4, .webm "
-            "or .gif.", config.out);
-    if (auto wrong = movie_problem(format.value_or(MovieFormat::gif), config.appearance.size,
-                                   format ? config.frames_per_second
-                                          : std::clamp(config.frames_per_second, 1, 50)))
-        return wrong;
+            "or .gif.",
+            config.out);
+    // Pictures alone take any size and rate; their sides may be odd.
+    const Size size = config.appearance.size;
+    if (format) {
+        if (auto wrong = movie_problem(*format, size, config.frames_per_second)) return wrong;
+    } else if (config.frames_per_second < 1) {
+        return fmt::format("{} frames per second cannot be had: 1 or more can.",
+                           config.frames_per_second);
+    }
     if (!(config.pace > 0.0) || !std::isfinite(config.pace))
         return fmt::format("A pace of {} swirls per second cannot be shown: it must be above 0.",
                            config.pace);
     if (config.frames < 1 || config.frames > 1'000'000)
-        return fmt::format("A movie of {} frames cannot be made: 1 to 1000000 can.",
-                           config.frames);
+        return fmt::format("A movie of {} frames cannot be made: 1 to 1000000 can.", config.frames);
     if (!(config.start >= 0.0) || !std::isfinite(config.start))
         return fmt::format("A movie cannot start at swirl {}: it must be 0 or later.",
                            config.start);
@@ -187,15 +193,17 @@ std::optional<std::string> problem(const MovieConfig& config) {
         if (footage.to && end > *footage.to + 1e-6)
             return fmt::format(
                 "The recording ends at swirl {:.3f}, before the movie does at {:.3f}: a shorter "
-                "--seconds or a lower --pace would be right.", *footage.to, end);
+                "--seconds or a lower --pace would be right.",
+                *footage.to, end);
     }
     // The palette of a GIF belongs to the whole movie, so ffmpeg keeps every frame until the end.
-    const double gif_bytes = 4.0 * config.appearance.size.width * config.appearance.size.height *
-                             config.frames;
+    const double gif_bytes =
+        4.0 * config.appearance.size.width * config.appearance.size.height * config.frames;
     if (format == MovieFormat::gif && gif_bytes > 2e9)
         return fmt::format(
             "This GIF would take {:.1f} GB of memory while it is made: fewer frames or a smaller "
-            "--size would be right, or an .mp4.", gif_bytes * 1e-9);
+            "--size would be right, or an .mp4.",
+            gif_bytes * 1e-9);
     return std::nullopt;
 }
 
@@ -219,8 +227,8 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
             const std::string name = frame == Frame::lab ? "lab frame" : "M-frame";
             Panel panel{frame, "", dish.container_radius, dish.amplitude};
             if (appearance.texts && footage.size() > 1)
-                panel.caption = appearance.frames.size() > 1 ? dish.caption + ", " + name
-                                                             : dish.caption;
+                panel.caption =
+                    appearance.frames.size() > 1 ? dish.caption + ", " + name : dish.caption;
             else if (appearance.texts)
                 panel.caption = name;
             spec.panels.push_back(panel);
@@ -235,8 +243,8 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
                 }))
                 spec.parameters.push_back(label);
     }
-    const bool scaled = appearance.coloring == Coloring::spin ||
-                        appearance.coloring == Coloring::speed;
+    const bool scaled =
+        appearance.coloring == Coloring::spin || appearance.coloring == Coloring::speed;
     if (appearance.plot || scaled) {
         Survey survey;
         for (std::size_t k = 0; k < footage.size(); ++k) {
@@ -249,8 +257,11 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
         spec.style.full_speed = scale_end(std::move(survey.speeds));
     }
     if (appearance.plot) {
-        PlotStyle plot{.from = start, .to = std::max(end, start + 1e-6), .lowest = 0.0,
-                       .highest = 1.0, .type = 10.0};
+        PlotStyle plot{.from = start,
+                       .to = std::max(end, start + 1e-6),
+                       .lowest = 0.0,
+                       .highest = 1.0,
+                       .type = 10.0};
         fit_range(plot, curves);
         spec.plot = plot;
     }

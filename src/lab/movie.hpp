@@ -33,12 +33,12 @@ struct Appearance {
 struct MovieConfig {
     std::vector<Footage> footage;  // side by side
     Appearance appearance;
-    double start = 0.0;            // swirls
-    double pace = 0.5;             // swirls per second
+    double start = 0.0;  // swirls
+    double pace = 0.5;   // swirls per second
     int frames_per_second = 60;
     int frames = 1200;
-    std::string out;               // movie file; empty: none
-    std::string frames_folder;     // PNG files; empty: none
+    std::string out;            // movie file; empty: none
+    std::string frames_folder;  // PNG files; empty: none
 };
 
 struct MovieControl {

@@ -1,0 +1,168 @@
+"""swirl movie, tried from outside."""
+
+import os
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+
+SWIRL = os.environ["SWIRL"]
+
+
+def swirl(*arguments, **more):
+    return subprocess.run([SWIRL, "movie", *arguments], capture_output=True, text=True,
+                          timeout=120, **more)
+
+
+def probe(path, entries):
+    return subprocess.run(
+        ["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-of", "csv=p=0",
+         "-show_entries", entries, path], capture_output=True, text=True,
+        check=True).stdout.strip()
+
+
+def png_size(path):
+    with open(path, "rb") as file:
+        head = file.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", head[16:24])
+
+
+class MovieTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def assert_wrong_call(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_count_and_duration_are_exact(self):
+        out = self.path("x.mp4")
+        result = swirl("--discs", "12", "--seconds", "0.7", "--fps", "30", "--size", "320x180",
+                       "--start", "1", "--frame", "both", "--plot", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(probe(out, "stream=width,height,r_frame_rate,duration,nb_read_frames"),
+                         "320,180,30/1,0.700000,21")
+        self.assertIn("21 frames", result.stdout)
+
+    def test_length_in_swirls(self):
+        out = self.path("x.mp4")
+        result = swirl("--discs", "12", "--swirls", "0.25", "--pace", "0.5", "--fps", "20",
+                       "--size", "64x64", "--start", "0", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(probe(out, "stream=duration,nb_read_frames"), "0.500000,10")
+
+    def test_the_same_call_gives_the_same_bytes(self):
+        both = []
+        for name in ("one.mp4", "two.mp4"):
+            result = swirl("--discs", "20", "--seconds", "0.5", "--size", "320x240", "--start",
+                           "1", "--trails", "--color", "spin", "--out", self.path(name))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path(name), "rb") as file:
+                both.append(file.read())
+        self.assertTrue(both[0] == both[1])
+
+    def test_frames_need_no_ffmpeg(self):
+        result = swirl("--discs", "5", "--seconds", "0.1", "--fps", "30", "--size", "65x33",
+                       "--start", "0", "--frames", self.path("frames"),
+                       env={**os.environ, "PATH": self.folder})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = sorted(os.listdir(self.path("frames")))
+        self.assertEqual(names, [f"frame-{k:06d}.png" for k in (1, 2, 3)])
+        self.assertEqual(png_size(self.path("frames/frame-000001.png")), (65, 33))
+
+    def test_without_ffmpeg_it_says_how_to_get_it(self):
+        result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),
+                       env={**os.environ, "PATH": self.folder})
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("apt-get install ffmpeg", result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_ctrl_c_leaves_a_playable_movie(self):
+        out = self.path("x.mp4")
+        # In a process group of its own, as a shell starts it, so that the signal reaches all of it.
+        process = subprocess.Popen(
+            [SWIRL, "movie", "--discs", "48", "--seconds", "600", "--size", "320x240",
+             "--start", "0", "--out", out],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
+        deadline = time.time() + 60
+        while time.time() < deadline and not (os.path.exists(out + ".part")
+                                              and os.path.getsize(out + ".part") > 20000):
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(errors, r"Stopped after \d+ of 36000 frames")
+        frames = int(errors.split("Stopped after ")[1].split()[0])
+        self.assertEqual(int(probe(out, "stream=nb_read_frames")), frames)
+        self.assertEqual(os.listdir(self.folder), ["x.mp4"])
+
+    def test_a_dying_ffmpeg_is_a_clear_error(self):
+        os.mkdir(self.path("bin"))
+        script = self.path("bin/ffmpeg")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\nhead -c 1000 >/dev/null\necho 'out of paint' >&2\nexit 4\n")
+        os.chmod(script, 0o755)
+        result = swirl("--discs", "5", "--seconds", "5", "--size", "320x240", "--out",
+                       self.path("x.mp4"),
+                       env={**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]})
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("out of paint", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertEqual(os.listdir(self.folder), ["bin"])
+
+    def test_wrong_calls(self):
+        out = self.path("x.mp4")
+        self.assert_wrong_call(swirl(), "--out", "--frames")
+        self.assert_wrong_call(swirl("--out", self.path("x.avi")), "x.avi", ".webm")
+        self.assert_wrong_call(swirl("--out", out, "--size", "12"), "'12'")
+        self.assert_wrong_call(swirl("--out", out, "--size", "8x8"), "'8x8'")
+        self.assert_wrong_call(swirl("--out", out, "--size", "99999x99999"), "99999")
+        self.assert_wrong_call(swirl("--out", out, "--size", "101x100"), "even")
+        self.assert_wrong_call(swirl("--out", out, "--fps", "0"), "0 frames per second")
+        self.assert_wrong_call(swirl("--out", self.path("x.gif"), "--fps", "30"), "hundredths")
+        self.assert_wrong_call(swirl("--out", out, "--seconds", "0"), "0 seconds")
+        self.assert_wrong_call(swirl("--out", out, "--seconds", "nan"))
+        self.assert_wrong_call(swirl("--out", out, "--seconds", "1", "--swirls", "1"), "--swirls")
+        self.assert_wrong_call(swirl("--out", out, "--pace", "-1"))
+        self.assert_wrong_call(swirl("--out", out, "--start", "-3"), "-3")
+        self.assert_wrong_call(swirl("--out", out, "--frame", "n"), "'n'", "both")
+        self.assert_wrong_call(swirl("--out", out, "--color", "red"), "'red'", "pinned")
+        self.assert_wrong_call(swirl("--out", out, "--theme", "x"), "'x'")
+        self.assert_wrong_call(swirl("--out", out, "--forces"), "--frame m")
+        self.assert_wrong_call(swirl("--out", out, "--discs", "70"))
+        self.assert_wrong_call(swirl("--out", out, "--beside", "70"))
+        self.assert_wrong_call(swirl("--out", out, "--rolling-ball", "2"), "2")
+        self.assert_wrong_call(swirl("--out", self.path("x.gif"), "--seconds", "600", "--size",
+                                     "1920x1080"), "memory")
+
+    def test_a_full_disk_is_a_clear_error(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can mount a small disk")
+        disk = self.path("disk")
+        os.mkdir(disk)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", disk],
+                          capture_output=True).returncode != 0:
+            self.skipTest("a small disk cannot be mounted here")
+        try:
+            result = swirl("--discs", "48", "--seconds", "3", "--size", "640x360", "--start", "0",
+                           "--out", os.path.join(disk, "x.mp4"))
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("No space left", result.stderr)
+            self.assertEqual(os.listdir(disk), [])
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,126 @@
+#include "draw/canvas.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "draw/label.hpp"
+#include "draw/scene.hpp"
+#include "pictures.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// cairo numbers all surfaces of a process, and writes the number into its SVG files.
+std::string without_number(std::string text) {
+    const std::size_t id = text.find("id=\"surface");
+    if (id == text.npos) return text;
+    const std::size_t digits = id + 11;
+    return text.erase(digits, text.find('"', digits) - digits);
+}
+
+class CanvasFiles : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("swirl-canvas-" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+
+    void draw(PictureFormat format, const std::string& file) const {
+        Snapshot s = dish(0.2);
+        add_disc(s, {1.0, 1.0}, 0.4);
+        Canvas canvas(Size{320, 240}, format, file);
+        canvas.fill_page(dark_theme().page);
+        draw_scene(canvas, fitting_view({0, 0, 320, 240}, Frame::m, 8.6, 1.892), {}, {s});
+        draw_label(canvas, "$ϖ$/$Ω$ = 1", {10, 20}, {.size = 12, .color = {1, 1, 1}});
+        canvas.finish();
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(CanvasFiles, EveryFormatHasItsSignatureAndTheSameBytesTwice) {
+    const std::pair<PictureFormat, std::string> formats[] = {{PictureFormat::png, "\x89PNG"},
+                                                             {PictureFormat::svg, "<?xml"},
+                                                             {PictureFormat::pdf, "%PDF"}};
+    for (const auto& [format, signature] : formats) {
+        draw(format, path("one"));
+        draw(format, path("two"));
+        const std::string one = contents_of(path("one"));
+        EXPECT_EQ(one.substr(0, signature.size()), signature);
+        EXPECT_TRUE(without_number(one) == without_number(contents_of(path("two")))) << signature;
+        EXPECT_GT(one.size(), 1000u);
+    }
+}
+
+TEST_F(CanvasFiles, APictureThatCannotBeWrittenIsAClearErrorAndLeavesNothing) {
+    for (const PictureFormat format :
+         {PictureFormat::png, PictureFormat::svg, PictureFormat::pdf}) {
+        try {
+            draw(format, path("no/such/folder.x"));
+            FAIL() << "it was written";
+        } catch (const DrawFailure& failure) {
+            EXPECT_NE(std::string(failure.what()).find("no/such/folder.x"), std::string::npos);
+        }
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(CanvasFiles, AFullDiskIsAClearErrorAndLeavesNothing) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    fs::create_symlink("/dev/full", path("x.png.part"));
+    EXPECT_THROW(draw(PictureFormat::png, path("x.png")), DrawFailure);
+    EXPECT_FALSE(fs::exists(path("x.png")));
+}
+
+TEST_F(CanvasFiles, AnAbandonedVectorFileIsRemoved) {
+    { const Canvas canvas(Size{10, 10}, PictureFormat::svg, path("x.svg")); }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST(Label, WidthIsThatOfTheLettersAndMarksTakeNone) {
+    const Canvas canvas(Size{100, 100});
+    const LabelStyle style{.size = 20.0, .color = {1, 1, 1}};
+    EXPECT_EQ(label_width(canvas, "", style), 0.0);
+    EXPECT_EQ(label_width(canvas, "$$", style), 0.0);
+    EXPECT_GT(label_width(canvas, "mm", style), label_width(canvas, "m", style));
+    EXPECT_LT(label_width(canvas, "$μ_{d}$", style), label_width(canvas, "$μ$$d$", style));
+    EXPECT_NEAR(label_width(canvas, "abc", {.size = 40.0, .color = {1, 1, 1}}),
+                2.0 * label_width(canvas, "abc", style), 1e-9 * 100.0);
+}
+
+TEST(Label, EvenDigitsKeepARunningNumberInItsPlace) {
+    const Canvas canvas(Size{100, 100});
+    const LabelStyle style{.size = 20.0, .color = {1, 1, 1}, .even_digits = true};
+    EXPECT_DOUBLE_EQ(label_width(canvas, "swirl 11.11", style),
+                     label_width(canvas, "swirl 28.70", style));
+}
+
+TEST(Label, ATitleIsTakenAsItIs) {
+    Canvas plain(Size{200, 40}), dollars(Size{200, 40});
+    const LabelStyle style{.size = 20.0, .color = {1, 1, 1}};
+    EXPECT_GT(label_width(plain, escaped("a$b$c\\d"), style), label_width(plain, "abcd", style));
+    EXPECT_EQ(escaped("48 discs"), "48 discs");
+}
+
+TEST(Label, FittingSizeFits) {
+    const Canvas canvas(Size{100, 100});
+    LabelStyle style{.size = 40.0, .color = {1, 1, 1}};
+    style.size = fitting_size(canvas, "a long headline", style, 100.0);
+    EXPECT_LE(label_width(canvas, "a long headline", style), 100.0 * (1 + 1e-9));
+    EXPECT_GT(style.size, 5.0);
+}
+
+}  // namespace
+}  // namespace swirl
