@@ -17,7 +17,8 @@ constexpr double full_turn = 2.0 * pi;
 constexpr double smallest_marked_radius = 3.5;
 constexpr double smallest_outlined_radius = 2.5;
 
-Color disc_color(const SceneStyle& style, const SceneContent& content, Frame frame, std::size_t i) {
+Color disc_color(const SceneStyle& style, const SceneContent& content, const FrameAt& at,
+                 std::size_t i) {
     const Theme& theme = style.theme;
     switch (style.coloring) {
         case Coloring::pinned:
@@ -29,7 +30,7 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, Frame fra
             return diverging_color(spin / style.full_spin, theme.neutral);
         }
         case Coloring::speed: {
-            const Vec2 v = velocity_in(content.now, i, frame);
+            const Vec2 v = at.velocity(content.now.position(i), content.now.velocity(i));
             return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
         }
         case Coloring::id:
@@ -119,7 +120,7 @@ void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const C
 void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
                const Snapshot& now) {
     cairo_t* cairo = canvas.cairo();
-    const FrameAt at = frame_at(now, view.frame);
+    const FrameAt at(now, view.frame);
     const Vec2 c = view.on_page(at.position(now.container_centre));
     const double radius = view.pixels_per_unit * now.container_radius;
     const double thickness = wall_thickness * radius;
@@ -154,7 +155,7 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
     for (std::size_t k = 0; k <= content.past.size(); ++k) {
         const Snapshot& then = k < content.past.size() ? *content.past[k] : content.now;
         if (then.size() != count) continue;
-        const FrameAt at = frame_at(then, view.frame);
+        const FrameAt at(then, view.frame);
         std::vector<Vec2>& row = places.emplace_back(count);
         for (std::size_t i = 0; i < count; ++i)
             row[i] = view.on_page(at.position(then.position(i)));
@@ -163,6 +164,7 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
     // A few bands of one opacity each, all discs of a colour in one path: segment by segment it
     // would take longer than everything else.
     constexpr std::size_t bands = 8;
+    const FrameAt at(content.now, view.frame);
     const std::size_t segments = places.size() - 1;
     const double radius = count > 0 ? view.pixels_per_unit * content.now.radius[0] : 1.0;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
@@ -178,7 +180,7 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
                 cairo_line_to(cairo, places[k][i].x, places[k][i].y);
             const bool own_color = style.coloring != Coloring::none;
             if (!own_color && i + 1 < count) continue;
-            const Color color = disc_color(style, content, view.frame, i);
+            const Color color = disc_color(style, content, at, i);
             canvas.set(mix(style.theme.floor, color, 0.12 + 0.6 * age));
             cairo_stroke(cairo);
         }
@@ -188,12 +190,12 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
 void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     const Snapshot& now = content.now;
-    const FrameAt at = frame_at(now, view.frame);
+    const FrameAt at(now, view.frame);
     for (std::size_t i = 0; i < now.size(); ++i) {
         const double orientation =
             style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
         draw_disc(canvas, view.on_page(at.position(now.position(i))),
-                  view.pixels_per_unit * now.radius[i], disc_color(style, content, view.frame, i),
+                  view.pixels_per_unit * now.radius[i], disc_color(style, content, at, i),
                   orientation, style.discs_opacity);
     }
 }
@@ -201,7 +203,7 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
 void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const Snapshot& now, std::span<const std::size_t> discs) {
     if (view.frame != Frame::m || now.size() == 0 || !(now.period > 0.0)) return;
-    const FrameAt at = frame_at(now, view.frame);
+    const FrameAt at(now, view.frame);
     const double omega = full_turn / now.period;
     const Vec2 swirl_centre = at.position({0.0, 0.0});
     const double amplitude = std::sqrt(dot(swirl_centre, swirl_centre));
@@ -210,7 +212,7 @@ void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style
     const double length = 2.6 * now.radius[0] * view.pixels_per_unit / largest;
     for (std::size_t i : discs) {
         const Vec2 p = at.position(now.position(i));
-        const Vec2 v = velocity_in(now, i, view.frame);
+        const Vec2 v = at.velocity(now.position(i), now.velocity(i));
         const Vec2 centrifugal = (omega * omega) * (p - swirl_centre);
         const Vec2 coriolis = (-2.0 * omega) * perpendicular(v);
         const Vec2 tail = view.on_page(p);
@@ -228,7 +230,7 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
     cairo_t* cairo = canvas.cairo();
     const Snapshot& now = content.now;
     const Theme& theme = style.theme;
-    const FrameAt at = frame_at(now, view.frame);
+    const FrameAt at(now, view.frame);
     const double unit = line_unit(view, now);
     const double line = std::max(0.8, 0.005 * unit);
     const Vec2 centre = now.container_centre;

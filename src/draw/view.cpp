@@ -4,24 +4,10 @@
 
 namespace swirl {
 
-FrameAt frame_at(const Snapshot& snapshot, Frame frame) {
-    if (frame == Frame::lab) return {{0.0, 0.0}, 0.0, 1.0, 0.0};
-    const Vec2 c = snapshot.container_centre;
-    // A dish that stands still has no direction S→C; its clock turns the frame.
-    const double phase = dot(c, c) > 0.0         ? std::atan2(c.y, c.x)
-                         : snapshot.period > 0.0 ? 2.0 * pi * snapshot.clock / snapshot.period
-                                                 : 0.0;
-    const double angle = -0.5 * pi - phase;
-    return {c, angle, std::cos(angle), std::sin(angle)};
-}
-
-Vec2 velocity_in(const Snapshot& snapshot, std::size_t disc, Frame frame) {
-    if (frame == Frame::lab) return snapshot.velocity(disc);
-    const FrameAt at = frame_at(snapshot, frame);
-    const double omega = snapshot.period > 0.0 ? 2.0 * pi / snapshot.period : 0.0;
-    const Vec2 relative = snapshot.velocity(disc) - snapshot.container_velocity;
-    const Vec2 arm = snapshot.position(disc) - snapshot.container_centre;
-    return at.turned(relative - omega * perpendicular(arm));
+FrameAt::FrameAt(const Snapshot& snapshot, Frame frame) {
+    if (frame == Frame::lab) return;
+    m_ = m_frame(snapshot);
+    angle_ = m_->angle();
 }
 
 View fitting_view(const Rectangle& rectangle, Frame frame, double container_radius,

@@ -8,33 +8,34 @@
 // Pages count y downwards, physics counts it upwards: the view turns one into the other.
 #pragma once
 
-#include <cmath>
+#include <optional>
 
 #include "draw/canvas.hpp"
+#include "measure/m_frame.hpp"
 #include "physics/snapshot.hpp"
-#include "physics/unit_circle.hpp"
 #include "physics/vec2.hpp"
 
 namespace swirl {
 
 enum class Frame { lab, m };
 
-/// The frame at one instant: p ↦ turned by `angle` about `origin`.
-struct FrameAt {
-    Vec2 origin;
-    double angle, cosine, sine;
+/// The frame at one instant: the lab as it is, or the M-frame of measure/m_frame.hpp.
+class FrameAt {
+  public:
+    FrameAt(const Snapshot& snapshot, Frame frame);
 
-    Vec2 position(const Vec2& p) const { return turned(p - origin); }
-    Vec2 turned(const Vec2& v) const {
-        return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
+    Vec2 position(const Vec2& lab) const { return m_ ? m_->position(lab) : lab; }
+    Vec2 turned(const Vec2& lab) const { return m_ ? m_->turn(lab) : lab; }
+    double orientation(double lab) const { return lab - angle_; }
+    /// Of a disc, as seen in the frame.
+    Vec2 velocity(const Vec2& lab_position, const Vec2& lab_velocity) const {
+        return m_ ? m_->velocity(lab_position, lab_velocity) : lab_velocity;
     }
-    double orientation(double lab_angle) const { return lab_angle + angle; }
+
+  private:
+    std::optional<MFrame> m_;
+    double angle_ = 0.0;
 };
-
-FrameAt frame_at(const Snapshot& snapshot, Frame frame);
-
-/// Velocity as seen in the frame: in the M-frame without the frame's own rotation Ω.
-Vec2 velocity_in(const Snapshot& snapshot, std::size_t disc, Frame frame);
 
 struct View {
     Frame frame;

@@ -62,8 +62,9 @@ struct Survey {
             curve.smooth.push_back(sum /
                                    static_cast<double>(std::min<std::size_t>(size, plot_samples)));
             if (k % 8 != 0) continue;
+            const FrameAt at(s, frame);
             for (std::size_t i = 0; i < s.size(); ++i) {
-                const Vec2 v = velocity_in(s, i, frame);
+                const Vec2 v = at.velocity(s.position(i), s.velocity(i));
                 spins.push_back(std::abs(s.spin[i]));
                 speeds.push_back(std::sqrt(dot(v, v)));
             }

@@ -118,7 +118,7 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
             canvas.fill_page(style.theme.page);
             draw_scene(canvas, view, style, {s});
             // One mark of the wall has the accent colour.
-            const Vec2 centre = view.on_page(frame_at(s, frame).position(s.container_centre));
+            const Vec2 centre = view.on_page(FrameAt(s, frame).position(s.container_centre));
             const double now = direction(centre, patch_of(canvas, style.theme.accent).middle);
             const double step = turned_by(before, now);
             if (k > 0) {
@@ -134,7 +134,7 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
 TEST(Scene, MIsAtTheBottomAndSStraightAboveCInTheMFrame) {
     for (int k = 0; k < 16; ++k) {
         const Snapshot s = dish(k / 16.0);
-        const FrameAt at = frame_at(s, Frame::m);
+        const FrameAt at = FrameAt(s, Frame::m);
         const Vec2 m = s.container_centre + (8.6 / 1.892) * s.container_centre;
         EXPECT_NEAR(at.position(m).x, 0.0, 1e-14 * 20.0);
         EXPECT_NEAR(at.position(m).y, -8.6, 1e-14 * 20.0);
@@ -158,10 +158,10 @@ TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
     };
     const double h = 1e-5;
     const Snapshot before = at(0.3 - h), now = at(0.3), after = at(0.3 + h);
-    const Vec2 difference = frame_at(after, Frame::m).position(after.position(0)) -
-                            frame_at(before, Frame::m).position(before.position(0));
+    const Vec2 difference = FrameAt(after, Frame::m).position(after.position(0)) -
+                            FrameAt(before, Frame::m).position(before.position(0));
     const Vec2 expected = (1.0 / (2.0 * h * now.period)) * difference;
-    const Vec2 found = velocity_in(now, 0, Frame::m);
+    const Vec2 found = FrameAt(now, Frame::m).velocity(now.position(0), now.velocity(0));
     EXPECT_NEAR(found.x, expected.x, 1e-7);
     EXPECT_NEAR(found.y, expected.y, 1e-7);
 }
@@ -219,7 +219,7 @@ TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
 TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
     Snapshot s = dish(0.0);
     add_disc(s, {1.892, -4.0});  // right of C in the M-frame of phase 0? C + (0, −4): to the left
-    const FrameAt at = frame_at(s, Frame::m);
+    const FrameAt at = FrameAt(s, Frame::m);
     // At rest in the lab it moves clockwise in the M-frame: v' = −Ω ẑ × p', less the swirl itself.
     SceneStyle style = plain_style();
     style.forces = true;
@@ -228,7 +228,7 @@ TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
     canvas.fill_page(style.theme.page);
     draw_scene(canvas, view, style, {s});
     const Vec2 p = at.position(s.position(0)), swirl_centre = at.position({0.0, 0.0});
-    const Vec2 v = velocity_in(s, 0, Frame::m);
+    const Vec2 v = at.velocity(s.position(0), s.velocity(0));
     const Vec2 tail = view.on_page(p);
     const auto page_angle = [](const Vec2& u) { return std::atan2(u.y, u.x); };
     const double centrifugal = direction(tail, patch_of(canvas, style.theme.centrifugal).middle);
