@@ -12,7 +12,7 @@
 #include "lab/paper.hpp"
 #include "lab/run_report.hpp"
 #include "lab/table.hpp"
-#include "lab/zero_crossing.hpp"
+#include "measure/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -68,17 +68,23 @@ Table empty_table() {
                   "steady_state", "seed", "state_hash"});
 }
 
-/// "high friction (μ_d = 1, μ_w = 1): crosses zero at N = 36.4 ± 0.3"
-std::string finding(const Setting& setting, const std::vector<CurvePoint>& curve) {
+/// "high friction (μ_d = 1, μ_w = 1): crosses zero at N = 36.4 ± 0.3 (95 %: 35.8 to 37.0)."
+std::string finding(const Setting& setting, const std::vector<RotationPoint>& curve) {
     const std::string who =
         fmt::format("{} (μ_d = {}, μ_w = {})", setting.words, setting.mu_disc, setting.mu_wall);
-    if (const auto zero = zero_crossing(curve))
-        return fmt::format("{}: crosses zero at N = {}.", who, with_error(zero->x, zero->error));
-    const CurvePoint* lowest = &curve.front();
-    for (const CurvePoint& p : curve)
-        if (p.y < lowest->y) lowest = &p;
-    return fmt::format("{}: does not cross zero; lowest is ϖ/Ω = {} at N = {:.0f}.", who,
-                       with_error(lowest->y, lowest->error), lowest->x);
+    const Crossing crossing = find_crossing(curve);
+    if (crossing.verdict == Crossing::Verdict::crosses)
+        return fmt::format("{}: crosses zero at N = {} (95 %: {:.1f} to {:.1f}).", who,
+                           with_error(crossing.discs, crossing.error), crossing.lower,
+                           crossing.upper);
+    const RotationPoint* lowest = &curve.front();
+    for (const RotationPoint& p : curve)
+        if (p.mean < lowest->mean) lowest = &p;
+    return fmt::format("{}: {}; lowest is ϖ/Ω = {} at N = {:.0f}.", who,
+                       crossing.verdict == Crossing::Verdict::undecided
+                           ? "the errors are too large to tell whether it crosses zero"
+                           : "does not cross zero",
+                       with_error(lowest->mean, lowest->error), lowest->discs);
 }
 
 FigureOutcome finish(const std::vector<Point>& points, const std::vector<Json>& results,
@@ -90,7 +96,7 @@ FigureOutcome finish(const std::vector<Point>& points, const std::vector<Json>& 
     table.write(outcome.files.back());
 
     for (const Setting& setting : settings_of_5b) {
-        std::vector<CurvePoint> curve;
+        std::vector<RotationPoint> curve;
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (points[k].setting.name != setting.name) continue;
             const Json& rotation = results[k]["rotation"]["by_event"];
