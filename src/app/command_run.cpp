@@ -1,9 +1,13 @@
 // swirl run: one simulation, from its seed to its averages.
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
+#include "app/recording_options.hpp"
 #include "app/run_options.hpp"
 #include "app/stop_signal.hpp"
 #include "lab/failure.hpp"
@@ -16,11 +20,13 @@ namespace {
 
 struct RunCall {
     std::shared_ptr<ParameterTexts> parameters;
+    std::shared_ptr<RecordingCall> recording;
     std::string json;
-    bool quiet = false;
+    bool quiet = false, dry_run = false;
 };
 
-RunResult run_with_progress(const RunConfig& config, bool quiet) {
+RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
+                            const Provenance& provenance, bool quiet) {
     ProgressLine line(fmt::format("{} discs", config.discs), quiet);
     const auto begin = std::chrono::steady_clock::now();
     RunControl control;
@@ -30,37 +36,72 @@ RunResult run_with_progress(const RunConfig& config, bool quiet) {
         const double rate = static_cast<double>(progress.events) / elapsed.count();
         line.show(progress.fraction, short_number(rate) + " events/s");
     };
-    return run(config, control);
+    return run_recorded(config, files, control, provenance);
 }
 
-void run_and_report(const RunCall& call) {
+/// With nothing but a checkpoint to go on, it says what run it is.
+void take_parameters_from_checkpoint(const RunCall& call) {
+    const auto checkpoint = call.recording->texts.find("checkpoint");
+    if (!call.recording->resume || checkpoint == call.recording->texts.end() ||
+        !call.parameters->empty())
+        return;
+    *call.parameters = parameters_in(
+        nlohmann::ordered_json::parse(configuration_in_checkpoint(checkpoint->second)));
+}
+
+void run_and_report(RunCall& call) {
+    const std::map<std::string, std::string*> others{{"json", &call.json}};
+    const std::string config_text = take_config_file(*call.recording, *call.parameters, others);
+    take_parameters_from_checkpoint(call);
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
+    RunFiles files = run_files(*call.recording, config, call.json);
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+    if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
+    files.complain = [](const std::string& what) { fmt::print(stderr, "swirl: {}\n", what); };
+    if (files.resume && !std::filesystem::exists(files.checkpoint) && !call.quiet)
+        fmt::print(stderr, "swirl: There is no checkpoint '{}'; the run starts at its beginning.\n",
+                   files.checkpoint.string());
 
-    const RunResult result = run_with_progress(config, call.quiet);
+    const Provenance provenance = provenance_of(config, command_line(), config_text);
+    const RunResult result = run_with_progress(config, files, provenance, call.quiet);
 
+    nlohmann::ordered_json json = result_json(result);
+    json["command"] = command_line();
+    json["config_text"] = config_text;
     const std::string text = call.quiet ? headline(result) + "\n" : report(result);
     if (json_to_stdout) {
-        print_all(result_json(result).dump(2) + "\n");
+        print_all(json.dump(2) + "\n");
         if (!call.quiet) fmt::print(stderr, "{}", text);
     } else {
-        if (!call.json.empty()) write_output(call.json, result_json(result).dump(2) + "\n");
+        if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
         if (!call.quiet || call.json.empty()) print_all(text);
     }
-    if (!result.complete) throw Interrupted("Stopped before the end of the run.");
+    if (result.complete) return forget_checkpoint(files);
+    if (!std::filesystem::exists(files.checkpoint))
+        throw Interrupted("Stopped before the end of the run.");
+    throw Interrupted(fmt::format(
+        "Stopped before the end of the run; the same command with --resume goes on from '{}'.",
+        files.checkpoint.string()));
 }
 
 void add_run_command(CLI::App& subcommand) {
     const auto call = std::make_shared<RunCall>();
     call->parameters = add_run_options(subcommand);
+    call->recording = add_recording_options(subcommand);
     subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report beyond one line")
         ->group("Output");
+    subcommand
+        .add_flag("--dry-run", call->dry_run,
+                  "only print what would be run, as a configuration file")
+        ->group("Output");
     set_examples(subcommand, {"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
-                              "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100"});
+                              "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
+                              "swirl run study.toml --discs 40 --trajectory frames.h5",
+                              "swirl run --discs 48 --events 1e9 --json out.json --resume"});
     subcommand.callback([call] { run_and_report(*call); });
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "lab/failure.hpp"
 #include "lab/run_parameters.hpp"
@@ -91,6 +92,7 @@ int main_or_throw(int argc, char** argv) {
 int main(int argc, char** argv) {
     // A file that grows beyond what is allowed is an error of write(), like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
+    swirl::remember_command_line(argc, argv);
     try {
         return main_or_throw(argc, argv);
     } catch (const swirl::WrongCall& wrong) {

@@ -43,24 +43,24 @@ Budget budget_of(const Snapshot& s) {
 /// the last snapshot holds, so a look at a moment in between needs nothing but its clock.
 class SampleTimes {
   public:
-    SampleTimes(int per_period, double period) : per_period_(per_period), period_(period) {}
+    SampleTimes(int per_period, double period, double interval = 0.0)
+        : per_period_(per_period), period_(period), interval_(interval) {}
 
     /// Calls look(snapshot) at every moment up to `clock` within the swirl of the snapshot. The
     /// end of a swirl is the beginning of the next, and counts there.
     template <class Look>
     void pass(Snapshot& s, const ContainerPath& path, double clock, Look&& look) {
-        while (next_ < per_period_) {
-            const double moment = period_ * next_ / per_period_;
-            if (moment > clock) return;
+        for (double moment; (moment = next_in(s.swirls)) <= clock; ++next_) {
             s.clock = moment;
             const Leg& leg = path.leg_at(moment);
             s.container_centre = leg.position_at(moment);
             s.container_velocity = leg.velocity_at(moment);
             look(s);
-            ++next_;
         }
     }
-    void begin_swirl() { next_ = 0; }
+    void begin_swirl() {
+        if (interval_ == 0.0) next_ = 0;
+    }
 
     template <class Visitor>
     void fields(Visitor&& visit) {
@@ -68,9 +68,18 @@ class SampleTimes {
     }
 
   private:
+    /// The next moment on the clock of this swirl; never, if it is not in it.
+    double next_in(std::int64_t swirls) const {
+        const auto k = static_cast<double>(next_);
+        if (interval_ == 0.0) return next_ < per_period_ ? period_ * k / per_period_ : never;
+        const double swirl = std::floor(k * interval_ / period_);
+        const auto now = static_cast<double>(swirls);
+        return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
+    }
+
     int per_period_;
-    double period_;
-    int next_ = 0;
+    double period_, interval_;
+    std::int64_t next_ = 0;
 };
 
 /// A trajectory between two events.
@@ -119,7 +128,7 @@ class Run {
         result_.energy_at_start = start.energy;
         result_.invariant_at_start = start.invariant;
         for (const RunControl::Sampler& sampler : control.samplers)
-            caller_times_.emplace_back(sampler.per_period, config.period);
+            caller_times_.emplace_back(sampler.per_period, config.period, sampler.interval);
         if (!kept_) return;
         fields(*kept_);
         kept_->expect_end();

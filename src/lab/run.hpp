@@ -59,10 +59,11 @@ struct RunControl {
     std::function<void(const Snapshot&, const Event&)> after_event;
 
     /// Each looks at equal intervals, warm-up included: at the exact state at the exact times
-    /// k T / per_period.
+    /// k T / per_period, or, if `interval` is above 0, k · interval.
     struct Sampler {
         int per_period;
         std::function<void(const Snapshot&)> look;
+        double interval = 0.0;
     };
     std::vector<Sampler> samplers;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lab/run_report.hpp"
 #include "lab/version.hpp"
 
@@ -63,6 +65,21 @@ Json config_json(const RunConfig& c) {
         json["events"] = c.events;
     if (c.warmup) json["warmup"] = *c.warmup;
     return json;
+}
+
+ParameterTexts parameters_in(const Json& config) {
+    ParameterTexts texts;
+    for (const auto& [name, value] : config.items()) {
+        if (value.is_null() || name == "omega" || name == "speed") continue;  // follow from others
+        std::string option = name;
+        std::replace(option.begin(), option.end(), '_', '-');
+        if (value.is_object())
+            texts[option] = fmt::format("{}:{}:{}", value.at("count").dump(),
+                                        value.at("radius").dump(), value.at("mass").dump());
+        else
+            texts[option] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+    return texts;
 }
 
 Json estimate_json(const Estimate& e) {

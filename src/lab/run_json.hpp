@@ -6,11 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/run.hpp"
+#include "lab/run_parameters.hpp"
 
 namespace swirl {
 
 /// Every parameter, resolved, in the order of `swirl run --help`.
 nlohmann::ordered_json config_json(const RunConfig& config);
+
+/// The parameters that resolve() to that configuration again.
+ParameterTexts parameters_in(const nlohmann::ordered_json& config);
 
 /// {"mean", "error", "effective_samples", "blocks"}
 nlohmann::ordered_json estimate_json(const Estimate& estimate);

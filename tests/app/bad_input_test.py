@@ -71,7 +71,7 @@ CALLS = [
     ("--discs", 2, ["--discs needs a value"]),
     ("--frobnicate", 2, ["no option --frobnicate"]),
     ("--disc 5", 2, ["no option --disc", "did you mean --discs"]),
-    ("48", 2, ["no use for '48'"]),
+    ("48", 2, ["no configuration file '48'", "--discs 48"]),
     ("--json", 2, ["--json needs a value"]),
     ("--json --quiet", 2, ["'--quiet' looks like an option"]),
     ("--json /no/such/folder/x.json", 1, ["/no/such/folder"]),

@@ -1,0 +1,117 @@
+#include "files/config.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "files/file_error.hpp"
+#include "files/whole_file.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr std::size_t largest_config = 1 << 20;
+
+/// The parser must not see what is not UTF-8 text: where the first such byte is.
+std::optional<std::size_t> first_bad_byte(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+        const unsigned char c = byte(i);
+        if (c < 0x80) {
+            if (c < 0x20 && c != '\n' && c != '\t' && c != '\r') return i;
+            if (c == 0x7f) return i;
+            ++i;
+            continue;
+        }
+        const std::size_t more = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : 1;
+        if (c < 0xc2 || c > 0xf4 || i + more >= text.size() + (more == 0)) return i;
+        for (std::size_t k = 1; k <= more; ++k)
+            if (i + k >= text.size() || (byte(i + k) & 0xc0) != 0x80) return i;
+        // Overlong forms, surrogates, and what lies beyond Unicode.
+        const unsigned char next = byte(i + 1);
+        if ((c == 0xe0 && next < 0xa0) || (c == 0xed && next > 0x9f) ||
+            (c == 0xf0 && next < 0x90) || (c == 0xf4 && next > 0x8f))
+            return i;
+        i += more + 1;
+    }
+    return {};
+}
+
+int line_of(std::string_view text, std::size_t at) {
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+}
+
+class Reader {
+  public:
+    explicit Reader(std::string_view name) : name_(name) {}
+
+    [[noreturn]] void wrong(int line, std::string_view what) const {
+        throw FileError(fmt::format("'{}', line {}: {}.", name_, line, what));
+    }
+
+    std::string value(const toml::node& node, std::string_view key) const {
+        if (const auto* text = node.as_string()) return text->get();
+        if (const auto* number = node.as_integer()) return std::to_string(number->get());
+        if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+        if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+        wrong(int(node.source().begin.line),
+              fmt::format("{} must be a number, a text or a list of them", key));
+    }
+
+    ConfigEntry entry(const toml::node& node, std::string_view key) const {
+        ConfigEntry entry;
+        entry.line = int(node.source().begin.line);
+        if (node.is_table())
+            wrong(
+                entry.line,
+                fmt::format("[{}] is a table; write the names of the options without tables", key));
+        const toml::array* list = node.as_array();
+        entry.is_list = list != nullptr;
+        if (list == nullptr) {
+            entry.values.push_back(value(node, key));
+        } else {
+            for (const toml::node& element : *list) entry.values.push_back(value(element, key));
+        }
+        return entry;
+    }
+
+  private:
+    std::string_view name_;
+};
+
+}  // namespace
+
+Config parse_config(std::string text, std::string_view name) {
+    const Reader reader(name);
+    if (text.size() > largest_config)
+        throw FileError(fmt::format("'{}' has {} bytes; a configuration has at most {}.", name,
+                                    text.size(), largest_config));
+    if (const auto bad = first_bad_byte(text))
+        reader.wrong(line_of(text, *bad),
+                     fmt::format("byte 0x{:02x} is not UTF-8 text; a configuration is a text file",
+                                 static_cast<unsigned char>(text[*bad])));
+    Config config;
+    try {
+        const toml::table table = toml::parse(text, name);
+        for (const auto& [key, node] : table) {
+            std::string option(key.str());
+            std::replace(option.begin(), option.end(), '_', '-');
+            if (!config.entries.emplace(option, reader.entry(node, key.str())).second)
+                reader.wrong(int(node.source().begin.line),
+                             fmt::format("{} is given twice", option));
+        }
+    } catch (const toml::parse_error& error) {
+        reader.wrong(int(error.source().begin.line),
+                     fmt::format("this is not TOML: {}", error.description()));
+    }
+    config.text = std::move(text);
+    return config;
+}
+
+Config read_config(const std::filesystem::path& path) {
+    return parse_config(read_whole_file(path), path.string());
+}
+
+}  // namespace swirl
