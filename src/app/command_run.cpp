@@ -11,6 +11,7 @@
 #include "app/run_options.hpp"
 #include "app/stop_signal.hpp"
 #include "lab/failure.hpp"
+#include "lab/measurements.hpp"
 #include "lab/run.hpp"
 #include "lab/run_json.hpp"
 #include "lab/run_report.hpp"
@@ -21,12 +22,13 @@ namespace {
 struct RunCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::shared_ptr<RecordingCall> recording;
-    std::string json;
+    std::string json, measure, tables;
     bool quiet = false, dry_run = false;
 };
 
 RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
-                            const Provenance& provenance, bool quiet) {
+                            const Provenance& provenance, RunMeasurements& measurements,
+                            bool quiet) {
     ProgressLine line(fmt::format("{} discs", config.discs), quiet);
     const auto begin = std::chrono::steady_clock::now();
     RunControl control;
@@ -36,7 +38,29 @@ RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
         const double rate = static_cast<double>(progress.events) / elapsed.count();
         line.show(progress.fraction, short_number(rate) + " events/s");
     };
+    measurements.attach_to(control);
     return run_recorded(config, files, control, provenance);
+}
+
+std::vector<std::string> measurements_of(const RunCall& call) {
+    if (call.measure.empty() && !call.tables.empty())
+        throw WrongCall("--tables needs --measure LIST, which says what to write there.");
+    if (call.measure.empty()) return {};
+    if (call.recording->resume)
+        throw WrongCall(
+            "--resume and --measure cannot go together: a checkpoint does not hold what was "
+            "measured; a run from its beginning would be right.");
+    return read_measurement_list(call.measure);
+}
+
+/// One line for every number and every table.
+std::string measured_text(const nlohmann::ordered_json& measured) {
+    std::string text;
+    for (const auto& [name, number] : measured_numbers(measured))
+        text += fmt::format("  {:<38}{}\n", name, with_error(number.mean, number.error));
+    for (const auto& [name, columns] : measured_tables(measured))
+        text += fmt::format("  {:<38}table of {} rows\n", name, columns.begin()->size());
+    return text;
 }
 
 /// With nothing but a checkpoint to go on, it says what run it is.
@@ -55,8 +79,10 @@ void run_and_report(RunCall& call) {
     take_parameters_from_checkpoint(call);
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
+    RunMeasurements measurements(config, measurements_of(call));
     RunFiles files = run_files(*call.recording, config, call.json);
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+    if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
     files.complain = [](const std::string& what) { fmt::print(stderr, "swirl: {}\n", what); };
     if (files.resume && !std::filesystem::exists(files.checkpoint) && !call.quiet)
@@ -64,12 +90,18 @@ void run_and_report(RunCall& call) {
                    files.checkpoint.string());
 
     const Provenance provenance = provenance_of(config, command_line(), config_text);
-    const RunResult result = run_with_progress(config, files, provenance, call.quiet);
+    const RunResult result = run_with_progress(config, files, provenance, measurements, call.quiet);
 
     nlohmann::ordered_json json = result_json(result);
     json["command"] = command_line();
     json["config_text"] = config_text;
-    const std::string text = call.quiet ? headline(result) + "\n" : report(result);
+    const nlohmann::ordered_json measured = measurements.results();
+    if (!measured.empty()) json["measured"] = measured;
+    std::string text =
+        call.quiet ? headline(result) + "\n" : report(result) + measured_text(measured);
+    if (!call.tables.empty())
+        for (const auto& file : write_measured_tables(measured, call.tables))
+            if (!call.quiet) text += fmt::format("wrote {}\n", file.string());
     if (json_to_stdout) {
         print_all(json.dump(2) + "\n");
         if (!call.quiet) fmt::print(stderr, "{}", text);
@@ -92,6 +124,15 @@ void add_run_command(CLI::App& subcommand) {
     subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
+    subcommand
+        .add_option("--measure", call->measure,
+                    "what to measure besides the rotation: names with commas between, or all")
+        ->type_name("LIST")
+        ->group("Output");
+    subcommand
+        .add_option("--tables", call->tables, "write what was measured as CSV tables into DIR")
+        ->type_name("DIR")
+        ->group("Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report beyond one line")
         ->group("Output");
     subcommand
@@ -100,8 +141,13 @@ void add_run_command(CLI::App& subcommand) {
         ->group("Output");
     set_examples(subcommand, {"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
                               "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
+                              "swirl run --discs 48 --measure density,flow --tables maps",
                               "swirl run study.toml --discs 40 --trajectory frames.h5",
                               "swirl run --discs 48 --events 1e9 --json out.json --resume"});
+    std::string kinds = "To measure:";
+    for (const MeasurementKind& kind : measurement_kinds())
+        kinds += fmt::format("\n  {:<14}{}", kind.name, kind.description);
+    subcommand.footer(kinds + "\n\n" + subcommand.get_footer());
     subcommand.callback([call] { run_and_report(*call); });
 }
 

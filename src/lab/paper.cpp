@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -12,6 +13,7 @@
 #include "files/whole_file.hpp"
 #include "lab/all_cores.hpp"
 #include "lab/failure.hpp"
+#include "lab/measurements.hpp"
 #include "lab/python_script.hpp"
 #include "lab/run_json.hpp"
 #include "lab/version.hpp"
@@ -35,7 +37,7 @@ class Parts {
                                       error.message()));
     }
     std::optional<Json> recall(const std::string& key) const {
-        if (!fs::exists(file(key))) return {};
+        if (key.empty() || !fs::exists(file(key))) return {};
         const Json part = Json::parse(read_whole_file(file(key)), nullptr, false);
         const auto says = [&](const char* name, const std::string& text) {
             return part.contains(name) && part[name] == text;
@@ -92,6 +94,9 @@ Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& 
     return result;
 }
 
+/// Of a whole set of measurements, in events.
+constexpr double cost_of_a_look = 6.0;
+
 [[noreturn]] void throw_interrupted(const PaperSettings& settings) {
     throw Interrupted(fmt::format(
         "Stopped before the end; what is done is kept in '{}', and the same call continues there.",
@@ -109,13 +114,27 @@ const PaperFigure& paper_figure(const std::string& name) {
     throw WrongCall(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
 }
 
-PaperTask run_task(const std::string& key, const RunConfig& config) {
-    const double events = config.periods ? 1000.0 * static_cast<double>(*config.periods)
-                                         : static_cast<double>(config.events);
-    return {key, events, [config](const RunControl& control) {
-                const RunResult result = run(config, control);
-                if (!result.complete) throw Interrupted("Stopped.");
-                return result_json(result);
+// In the paper's dish 480 at N = 28 and 3400 at N = 48; few when it is thin, by the corners alone.
+double expected_events_per_swirl(const RunConfig& config) {
+    const double filled = static_cast<double>(config.discs) * config.radius * config.radius /
+                          (config.container_radius * config.container_radius);
+    return config.sides + static_cast<double>(config.discs) * (5.0 + 275.0 * std::pow(filled, 3.3));
+}
+
+PaperTask run_task(const std::string& key, const RunConfig& config,
+                   const std::vector<std::string>& measurements) {
+    const double events =
+        config.periods ? expected_events_per_swirl(config) * static_cast<double>(*config.periods)
+                       : static_cast<double>(config.events);
+    const double swirls = events / expected_events_per_swirl(config);
+    const double looks = measurements.empty() ? 0.0 : looks_per_swirl * swirls;
+    const double cost = events + looks * cost_of_a_look;
+    return {key, cost, [config, measurements](const RunControl& control) {
+                const MeasuredRun done = measured_run(config, measurements, control);
+                if (!done.run.complete) throw Interrupted("Stopped.");
+                Json json = result_json(done.run);
+                json["measured"] = done.measured;
+                return json;
             }};
 }
 
@@ -133,9 +152,14 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     }
     std::map<std::string, Json> results;
     std::vector<const PaperTask*> left;
+    std::map<std::string, std::string> served;  // by another task
     for (const auto& [key, task] : tasks) {
         if (auto known = parts.recall(key))
             results[key] = std::move(*known);
+        else if (!task.served_by.empty() && tasks.contains(task.served_by))
+            served[key] = task.served_by;
+        else if (auto larger = parts.recall(task.served_by))
+            results[key] = std::move(*larger);
         else
             left.push_back(&task);
     }
@@ -163,6 +187,8 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     } catch (const Interrupted&) {
         throw_interrupted(settings);
     }
+
+    for (const auto& [key, larger] : served) results[key] = results.at(larger);
 
     for (const FigurePlan& plan : plans) {
         std::vector<Json> in_order;

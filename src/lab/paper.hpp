@@ -20,6 +20,9 @@ struct PaperSettings {
     std::optional<std::int64_t> events;  // of every run, where a figure gives no reason of its own
     std::filesystem::path out = "out";
     std::uint64_t seed = 1;
+
+    /// Of one run of the paper: its 10^6, or fewer.
+    std::int64_t events_of_a_run() const { return events.value_or(quick ? 200'000 : 1'000'000); }
 };
 
 /// One piece of work. Its result is remembered in OUT/parts/KEY.json, so a study that was
@@ -29,6 +32,9 @@ struct PaperTask {
     double cost;      // expected, in events: long tasks begin first, and the progress is weighted
     /// Returns the result; throws Interrupted if it was stopped.
     std::function<nlohmann::ordered_json(const RunControl&)> work;
+    /// Key of a larger piece whose result holds all that this one's does; empty: there is none. If
+    /// that is done anyway, or was done before, it serves.
+    std::string served_by = {};
 };
 
 /// What a figure leaves behind when its tasks are done.
@@ -76,8 +82,13 @@ struct PaperResult {
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control);
 
-/// A task that runs one configuration and returns result_json().
-PaperTask run_task(const std::string& key, const RunConfig& config);
+/// Events in a swirl, a fair guess for the progress and the order of work.
+double expected_events_per_swirl(const RunConfig& config);
+
+/// A task that runs one configuration and returns result_json(), with what was measured under
+/// "measured".
+PaperTask run_task(const std::string& key, const RunConfig& config,
+                   const std::vector<std::string>& measurements = {});
 
 /// The script must be one of figures/; draws `table` to PNG and PDF beside it. Returns the files.
 std::vector<std::filesystem::path> draw_figure(const std::string& script,

@@ -129,9 +129,12 @@ class Run {
         result_.invariant_at_start = start.invariant;
         for (const RunControl::Sampler& sampler : control.samplers)
             caller_times_.emplace_back(sampler.per_period, config.period, sampler.interval);
-        if (!kept_) return;
-        fields(*kept_);
-        kept_->expect_end();
+        if (kept_) {
+            fields(*kept_);
+            kept_->expect_end();
+        } else if (control.swirl_begins) {
+            control.swirl_begins(warm_);
+        }
     }
 
     RunResult operator()() {
@@ -210,10 +213,12 @@ class Run {
         rotation_times_.begin_swirl();
         for (SampleTimes& times : caller_times_) times.begin_swirl();
         average().close_block();
-        if (warm_ || !warm_now()) return;
-        warm_ = true;
-        result_.warmup = simulation_.swirls();
-        result_.warmup_events = simulation_.events();
+        if (!warm_ && warm_now()) {
+            warm_ = true;
+            result_.warmup = simulation_.swirls();
+            result_.warmup_events = simulation_.events();
+        }
+        if (control_.swirl_begins) control_.swirl_begins(warm_);
     }
 
     /// At the end of a swirl: is the warm-up over?

@@ -67,6 +67,10 @@ struct RunControl {
     };
     std::vector<Sampler> samplers;
 
+    /// Called at the beginning of every swirl, the first included, before anything is seen of it;
+    /// `warm` says that it counts, the warm-up being over.
+    std::function<void(bool warm)> swirl_begins;
+
     /// Asked every few hundred events, and once when the run is stopped: does the caller want to
     /// keep the state of the run?
     std::function<bool(bool stopped)> wants_state;

@@ -1,0 +1,420 @@
+#include "lab/measurements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lab/failure.hpp"
+#include "lab/run_json.hpp"
+#include "lab/table.hpp"
+#include "measure/angular_profile.hpp"
+#include "measure/density_map.hpp"
+#include "measure/flow_map.hpp"
+#include "measure/granular_temperature.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/radial_density.hpp"
+#include "measure/slip.hpp"
+#include "measure/spin_frustration.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double degrees = 180.0 / pi;
+
+/// Looks by event at every sixteenth event: that changes the error, hardly, and not the mean.
+constexpr int events_per_look = 16;
+
+/// Columns that grow together.
+class Columns {
+  public:
+    explicit Columns(std::vector<std::string> names)
+        : names_(std::move(names)), json_(Json::object()) {
+        for (const std::string& name : names_) json_[name] = Json::array();
+    }
+    void add(const std::vector<double>& row) {
+        for (std::size_t k = 0; k < names_.size(); ++k) json_[names_[k]].push_back(row[k]);
+    }
+    const Json& json() const { return json_; }
+
+  private:
+    std::vector<std::string> names_;
+    Json json_;
+};
+
+/// What looks at an MFrameView, closes blocks, and becomes JSON by a function of its own.
+template <class Observer, Json (*to_json)(const Observer&)>
+class OfTheView : public Measurement {
+  public:
+    explicit OfTheView(Observer observer) : observer_(std::move(observer)) {}
+    void look(const Look& look) override { observer_.look(look.view); }
+    void close_block() override { observer_.close_block(); }
+    Json result() const override { return to_json(observer_); }
+
+  private:
+    Observer observer_;
+};
+
+// --- density --------------------------------------------------------------------------------
+
+/// Both averages of one map: by time, and by event as in the paper.
+class Density : public Measurement {
+  public:
+    explicit Density(double container_radius)
+        : by_time_(container_radius), by_event_(container_radius) {}
+    void look(const Look& look) override { by_time_.look(look.view); }
+    void after_event(const Snapshot& lab, const Event&) override {
+        if (++events_ % events_per_look != 0) return;
+        view_.look(lab);
+        by_event_.look(view_);
+    }
+    void close_block() override {
+        by_time_.close_block();
+        by_event_.close_block();
+    }
+    Json result() const override {
+        Columns table({"x", "y", "by_time", "by_time_error", "by_event", "by_event_error"});
+        for (std::size_t c = 0; c < by_time_.grid().cells(); ++c) {
+            const Vec2 p = by_time_.grid().centre_of(c);
+            const Estimate time = by_time_.density(c), event = by_event_.density(c);
+            table.add({p.x, p.y, time.mean, time.error, event.mean, event.error});
+        }
+        return table.json();
+    }
+
+  private:
+    DensityMap by_time_, by_event_;
+    MFrameView view_;
+    std::uint64_t events_ = 0;
+};
+
+Json flow_json(const FlowMap& map) {
+    Columns table({"x", "y", "visits", "u_x", "u_x_error", "u_y", "u_y_error"});
+    for (std::size_t c = 0; c < map.grid().cells(); ++c) {
+        const Vec2 p = map.grid().centre_of(c);
+        const Estimate x = map.flow_x(c), y = map.flow_y(c);
+        table.add({p.x, p.y, map.visits(c), x.mean, x.error, y.mean, y.error});
+    }
+    return table.json();
+}
+
+Json profile_json(const AngularProfile& profile) {
+    Columns table(
+        {"theta", "visits", "varpi_m", "varpi_m_error", "wall", "normalised", "normalised_error"});
+    for (std::size_t s = 0; s < profile.slices(); ++s) {
+        const Estimate plain = profile.plain(s), normalised = profile.normalised(s);
+        table.add({profile.theta(s) * degrees, profile.visits(s), plain.mean, plain.error,
+                   profile.wall(s).mean, normalised.mean, normalised.error});
+    }
+    return table.json();
+}
+
+Json radial_json(const RadialDensity& density) {
+    Columns table({"inner_radius", "outer_radius", "density", "density_error"});
+    for (std::size_t r = 0; r < density.rings(); ++r) {
+        const Estimate e = density.density(r);
+        table.add({density.inner_radius(r), density.outer_radius(r), e.mean, e.error});
+    }
+    return table.json();
+}
+
+Json temperature_json(const GranularTemperature& temperature) {
+    return {{"granular", estimate_json(temperature.granular())},
+            {"of_the_spin", estimate_json(temperature.of_the_spin())}};
+}
+
+// --- pinned and loose -----------------------------------------------------------------------
+
+Json angle_json(const CircularMean& mean) {
+    Json json = estimate_json(scaled(mean.angle(), degrees));
+    json["concentration"] = mean.concentration();
+    json["count"] = mean.count();
+    return json;
+}
+
+/// By the paper's two criteria on trajectories, and from the collisions themselves.
+class Pinned : public Measurement {
+  public:
+    void look(const Look& look) override { by_tracks_ = &look.pinned_loose; }
+    void after_event(const Snapshot& lab, const Event& event) override {
+        by_collisions_.look(event, lab);
+    }
+    void close_block() override { by_collisions_.close_block(); }
+    Json result() const override {
+        const PinnedLoose none;
+        const PinnedLoose& tracks = by_tracks_ ? *by_tracks_ : none;
+        return {{"becoming_pinned", angle_json(tracks.becoming_pinned())},
+                {"becoming_free", angle_json(tracks.becoming_free())},
+                {"becoming_pinned_by_collisions", angle_json(by_collisions_.becoming_pinned())},
+                {"becoming_free_by_collisions", angle_json(by_collisions_.becoming_free())},
+                {"share", estimate_json(tracks.share())}};
+    }
+
+  private:
+    const PinnedLoose* by_tracks_ = nullptr;  // shared by all that need it
+    PinnedByCollisions by_collisions_;
+};
+
+class OfSlip : public Measurement {
+  public:
+    void look(const Look& look) override {
+        if (look.earlier) slip_.look(*look.earlier, look.pinned_loose.pinned());
+    }
+    void close_block() override { slip_.close_block(); }
+    Json result() const override {
+        return {{"cluster", estimate_json(slip_.cluster())},
+                {"pinned_region", estimate_json(slip_.pinned_region())},
+                {"cluster_perimeter", estimate_json(slip_.cluster_perimeter())},
+                {"pancake", estimate_json(slip_.pancake())}};
+    }
+
+  private:
+    Slip slip_;
+};
+
+class OfFrustration : public Measurement {
+  public:
+    void look(const Look& look) override {
+        if (look.earlier) spins_.look(*look.earlier, look.pinned_loose.pinned());
+    }
+    void after_event(const Snapshot&, const Event& event) override { spins_.look(event); }
+    void close_block() override { spins_.close_block(); }
+    Json result() const override {
+        return {{"wall_spin", estimate_json(spins_.wall_spin())},
+                {"pinned_wall_spin", estimate_json(spins_.pinned_wall_spin())},
+                {"spin_correlation", estimate_json(spins_.correlation())},
+                {"triangles", estimate_json(spins_.triangles())},
+                {"coordination", estimate_json(spins_.coordination())},
+                {"disc_sticking", estimate_json(spins_.disc_sticking())},
+                {"wall_sticking", estimate_json(spins_.wall_sticking())}};
+    }
+
+  private:
+    SpinFrustration spins_;
+};
+
+/// The frames of the last moments, so that a disc found pinned can be seen where it was then.
+class PinnedWatch {
+  public:
+    void look(const MFrameView& view) {
+        pinned_loose_.look(view);
+        recent_[frames_++ % recent_.size()] = view;
+    }
+    void close_block() { pinned_loose_.close_block(); }
+    const PinnedLoose& pinned_loose() const { return pinned_loose_; }
+    /// The frame that pinned() speaks of.
+    const MFrameView* earlier() const {
+        if (frames_ < PinnedLoose::width) return nullptr;
+        return &recent_[(frames_ - 1 - PinnedLoose::half_width) % recent_.size()];
+    }
+
+  private:
+    PinnedLoose pinned_loose_;
+    std::array<MFrameView, PinnedLoose::half_width + 1> recent_;
+    std::size_t frames_ = 0;
+};
+
+template <class Observer, Json (*to_json)(const Observer&)>
+std::unique_ptr<Measurement> of_the_dish(const RunConfig& config) {
+    return std::make_unique<OfTheView<Observer, to_json>>(Observer(config.container_radius));
+}
+template <class Observer, Json (*to_json)(const Observer&)>
+std::unique_ptr<Measurement> of_the_discs(const RunConfig&) {
+    return std::make_unique<OfTheView<Observer, to_json>>(Observer());
+}
+template <class Kind>
+std::unique_ptr<Measurement> made(const RunConfig&) {
+    return std::make_unique<Kind>();
+}
+
+const MeasurementKind& kind(std::string_view name) {
+    std::string known;
+    for (const MeasurementKind& k : measurement_kinds()) {
+        if (name == k.name) return k;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", k.name);
+    }
+    throw WrongCall(
+        fmt::format("--measure has '{}' in its list, but each must be one of: {}; or "
+                    "the list is 'all'.",
+                    name, known));
+}
+
+/// NaN, which JSON cannot hold, was written as null.
+double number(const Json& json) { return json.is_number() ? json.get<double>() : not_known; }
+
+bool is_table(const Json& json) {
+    return json.is_object() && !json.empty() && json.begin()->is_array();
+}
+
+}  // namespace
+
+const std::vector<MeasurementKind>& measurement_kinds() {
+    static const std::vector<MeasurementKind> all = {
+        {"density", "density map, 100 × 100, by time and by event (Figs 2, 5c)", false,
+         [](const RunConfig& c) -> std::unique_ptr<Measurement> {
+             return std::make_unique<Density>(c.container_radius);
+         }},
+        {"flow", "velocity relative to the container, 20 × 20 (Figs 2, 5d)", false,
+         of_the_dish<FlowMap, flow_json>},
+        {"profile", "angular velocity about the centre of mass against θ (Fig. 3)", false,
+         of_the_discs<AngularProfile, profile_json>},
+        {"pinned", "where discs become pinned and free, by tracks and by collisions (Fig. 3)", true,
+         made<Pinned>},
+        {"slip", "slip parameter, perimeter, pancake line (Figs 1b, 4a)", true, made<OfSlip>},
+        {"frustration", "spins at the wall and of neighbours, sticking contacts (Fig. 4b)", true,
+         made<OfFrustration>},
+        {"radial", "density against the distance from the container's centre", false,
+         of_the_dish<RadialDensity, radial_json>},
+        {"temperature", "granular temperature, of the motion and of the spins", false,
+         of_the_dish<GranularTemperature, temperature_json>},
+    };
+    return all;
+}
+
+std::vector<std::string> read_measurement_list(std::string_view list) {
+    std::vector<std::string> names;
+    if (list == "all") {
+        for (const MeasurementKind& k : measurement_kinds()) names.push_back(k.name);
+        return names;
+    }
+    while (true) {
+        const std::size_t comma = list.find(',');
+        const std::string name = kind(list.substr(0, comma)).name;
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (comma == list.npos) return names;
+        list.remove_prefix(comma + 1);
+    }
+}
+
+struct RunMeasurements::State {
+    std::vector<std::string> names;
+    std::vector<std::unique_ptr<Measurement>> measurements;
+    bool needs_pinned = false, counts = false;
+    MFrameView view;
+    PinnedWatch watch;
+
+    void look(const Snapshot& lab) {
+        if (!counts) return;
+        view.look(lab);
+        if (needs_pinned) watch.look(view);
+        const Look look{lab, view, watch.pinned_loose(), watch.earlier()};
+        for (const auto& m : measurements) m->look(look);
+    }
+    void after_event(const Snapshot& lab, const Event& event) {
+        if (!counts) return;
+        for (const auto& m : measurements) m->after_event(lab, event);
+    }
+    void swirl_begins(bool warm) {
+        if (counts) {
+            watch.close_block();
+            for (const auto& m : measurements) m->close_block();
+        }
+        counts = warm;
+    }
+};
+
+RunMeasurements::RunMeasurements(const RunConfig& config, const std::vector<std::string>& names)
+    : state_(std::make_unique<State>()) {
+    state_->names = names;
+    for (const std::string& name : names) {
+        state_->measurements.push_back(kind(name).make(config));
+        state_->needs_pinned = state_->needs_pinned || kind(name).needs_pinned;
+    }
+}
+RunMeasurements::~RunMeasurements() = default;
+
+void RunMeasurements::attach_to(RunControl& control) {
+    State* const state = state_.get();
+    if (state->measurements.empty()) return;
+    control.samplers.push_back(
+        {looks_per_swirl, [state](const Snapshot& lab) { state->look(lab); }});
+    const auto after_event = std::move(control.after_event);
+    control.after_event = [state, after_event](const Snapshot& lab, const Event& event) {
+        state->after_event(lab, event);
+        if (after_event) after_event(lab, event);
+    };
+    const auto swirl_begins = std::move(control.swirl_begins);
+    control.swirl_begins = [state, swirl_begins](bool warm) {
+        state->swirl_begins(warm);
+        if (swirl_begins) swirl_begins(warm);
+    };
+}
+
+Json RunMeasurements::results() const {
+    Json results = Json::object();
+    for (std::size_t k = 0; k < state_->names.size(); ++k)
+        results[state_->names[k]] = state_->measurements[k]->result();
+    return results;
+}
+
+MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
+                         const RunControl& control) {
+    RunMeasurements measurements(config, names);
+    RunControl inner = control;
+    measurements.attach_to(inner);
+    RunResult result = run(config, inner);
+    return {std::move(result), measurements.results()};
+}
+
+std::vector<std::pair<std::string, Estimate>> measured_numbers(const Json& measured) {
+    std::vector<std::pair<std::string, Estimate>> numbers;
+    for (const auto& [name, result] : measured.items()) {
+        if (is_table(result)) continue;
+        for (const auto& [quantity, value] : result.items()) {
+            if (is_table(value)) continue;
+            Estimate e;
+            e.mean = number(value.is_object() ? value.value("mean", Json()) : value);
+            if (value.is_object()) {
+                e.error = number(value.value("error", Json()));
+                e.effective_samples = number(value.value("effective_samples", Json()));
+                e.blocks = value.value("blocks", std::size_t{0});
+            }
+            numbers.emplace_back(name + "." + quantity, e);
+        }
+    }
+    return numbers;
+}
+
+std::vector<std::pair<std::string, Json>> measured_tables(const Json& measured) {
+    std::vector<std::pair<std::string, Json>> tables;
+    for (const auto& [name, result] : measured.items()) {
+        if (is_table(result)) {
+            tables.emplace_back(name, result);
+            continue;
+        }
+        for (const auto& [quantity, value] : result.items())
+            if (is_table(value)) tables.emplace_back(name + "." + quantity, value);
+    }
+    return tables;
+}
+
+std::vector<fs::path> write_measured_tables(const Json& measured, const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& [name, columns] : measured_tables(measured)) {
+        std::vector<std::string> heads;
+        for (const auto& [head, column] : columns.items()) heads.push_back(head);
+        Table table(heads);
+        for (std::size_t r = 0; r < columns.begin()->size(); ++r) {
+            std::vector<Table::Cell> row;
+            for (const std::string& head : heads) row.push_back(number(columns[head][r]));
+            table.add(std::move(row));
+        }
+        files.push_back(folder / (name + ".csv"));
+        table.write(files.back());
+    }
+    const auto numbers = measured_numbers(measured);
+    if (numbers.empty()) return files;
+    Table table({"quantity", "mean", "error", "effective_samples", "blocks"});
+    for (const auto& [name, e] : numbers)
+        table.add(
+            {name, e.mean, e.error, e.effective_samples, static_cast<std::int64_t>(e.blocks)});
+    files.push_back(folder / "numbers.csv");
+    table.write(files.back());
+    return files;
+}
+
+}  // namespace swirl

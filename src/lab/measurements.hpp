@@ -1,0 +1,102 @@
+// Everything measure/ can say of one run, by name: what `swirl run --measure LIST` prints and what
+// the figures of the paper are made of.
+//
+// A result is JSON of two kinds: numbers, each with its error ({"mean", "error", …}), and tables,
+// objects of columns of one length. Frames: M-frame unless a name says otherwise. Units: disc
+// radius, container's speed; angular velocities in Ω, angles in degrees.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lab/run.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/pinned_loose.hpp"
+
+namespace swirl {
+
+/// Looks per swirl: the paper's camera took 960 frames per second of a table turning at
+/// 11.81 rad/s.
+inline constexpr int looks_per_swirl = 511;
+
+/// What a measurement gets to see at a look. Which discs are pinned is known seven frames late
+/// (measure/pinned_loose.hpp), so there is a view of that moment beside the one of now.
+struct Look {
+    const Snapshot& lab;
+    const MFrameView& view;
+    const PinnedLoose& pinned_loose;
+    const MFrameView* earlier;  // seven frames ago; null in the first frames
+};
+
+/// One measurement while the run goes on.
+class Measurement {
+  public:
+    virtual ~Measurement() = default;
+    /// Called at equal time steps, `looks_per_swirl` per swirl.
+    virtual void look(const Look& /*look*/) {}
+    /// Called after every event.
+    virtual void after_event(const Snapshot& /*lab*/, const Event& /*event*/) {}
+    /// Called at the end of every swirl.
+    virtual void close_block() {}
+    virtual nlohmann::ordered_json result() const = 0;
+};
+
+struct MeasurementKind {
+    const char* name;
+    const char* description;  // one line
+    bool needs_pinned;
+    std::unique_ptr<Measurement> (*make)(const RunConfig& config);
+};
+
+/// In the order of the help text.
+const std::vector<MeasurementKind>& measurement_kinds();
+
+/// "density,flow" or "all"; throws WrongCall, naming those there are, if one is unknown.
+std::vector<std::string> read_measurement_list(std::string_view list);
+
+/// The measurements of one run. They look after the warm-up, and change nothing.
+class RunMeasurements {
+  public:
+    /// The names are those of read_measurement_list().
+    RunMeasurements(const RunConfig& config, const std::vector<std::string>& names);
+    ~RunMeasurements();
+
+    /// Puts them into the control of the run, beside what is there. They must outlive the run,
+    /// which must not be one that resumes.
+    void attach_to(RunControl& control);
+
+    /// Name of the measurement: its result.
+    nlohmann::ordered_json results() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+struct MeasuredRun {
+    RunResult run;
+    nlohmann::ordered_json measured;
+};
+
+/// run() and RunMeasurements in one.
+MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
+                         const RunControl& control = {});
+
+/// "slip.cluster" and its value, for every number in there.
+std::vector<std::pair<std::string, Estimate>> measured_numbers(
+    const nlohmann::ordered_json& measured);
+/// "density", or "pinned.angles", and its columns, for every table in there.
+std::vector<std::pair<std::string, nlohmann::ordered_json>> measured_tables(
+    const nlohmann::ordered_json& measured);
+
+/// Writes every table as FOLDER/NAME.csv and all numbers as FOLDER/numbers.csv; returns the files.
+std::vector<std::filesystem::path> write_measured_tables(const nlohmann::ordered_json& measured,
+                                                         const std::filesystem::path& folder);
+
+}  // namespace swirl

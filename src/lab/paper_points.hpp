@@ -1,0 +1,69 @@
+// The runs that the paper's figures share: one disc number at one pair of frictions, with the
+// paper's parameters. Several figures ask for the same point; it is run once.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lab/paper.hpp"
+#include "lab/table.hpp"
+#include "measure/crossing.hpp"
+
+namespace swirl {
+
+/// A pair of frictions, as in Figure 5b.
+struct Friction {
+    const char* name;   // in tables and keys
+    const char* words;  // in sentences
+    double mu_disc, mu_wall;
+};
+
+// Caption of Figure 5: "When one friction is completely turned off, the other is set to 1.0."
+inline constexpr Friction high_friction{"high", "high friction", 1.0, 1.0};
+inline constexpr Friction medium_friction{"medium", "medium friction", 0.5, 0.5};
+inline constexpr Friction low_friction{"low", "low friction", 0.1, 0.1};
+inline constexpr Friction no_wall_friction{"no-wall", "no wall friction", 1.0, 0.0};
+inline constexpr Friction no_disc_friction{"no-disc", "no disc friction", 0.0, 1.0};
+inline constexpr Friction frictions_of_5b[] = {high_friction, medium_friction, low_friction,
+                                               no_wall_friction, no_disc_friction};
+
+/// N = 5 … 48; a choice of them when it must be quick.
+std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings);
+/// N = 24 … 48, the numbers of the experiment.
+std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings);
+
+/// The paper's 10^6 events, the seed of the study, and nothing else but defaults.
+RunConfig paper_config(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
+
+/// The rotation alone.
+PaperTask point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
+/// The same run with everything measured that the figures need.
+PaperTask measured_point(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs);
+
+/// The same at other parameters than the paper's; `name` says which.
+PaperTask varied_point(const std::string& name, const RunConfig& config);
+
+// --- reading results ------------------------------------------------------------------------
+
+/// What JSON has as null is not known: NaN.
+double number(const nlohmann::ordered_json& value);
+Estimate estimate(const nlohmann::ordered_json& value);
+
+/// Columns of the rotation, in the order of add_rotation().
+std::vector<std::string> rotation_columns();
+void add_rotation(std::vector<Table::Cell>& row, const nlohmann::ordered_json& result);
+
+/// The point of a curve: "by_event" or "by_time".
+RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);
+
+/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or that it does not, and why.
+std::string crossing_sentence(std::span<const RotationPoint> curve);
+
+/// Columns of `front` before those of `back`.
+std::vector<std::string> joined(std::vector<std::string> front,
+                                const std::vector<std::string>& back);
+
+}  // namespace swirl
