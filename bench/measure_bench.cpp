@@ -1,12 +1,215 @@
-// What a look costs. The engine does an event in about 140 ns at N = 48; a look after every event
-// must be well below.
+// What looking costs: N = 48 in the paper's dish, one swirl per iteration. Every line is a whole
+// run, simulation included; the first is the simulation alone. Looks by time: 511 per swirl, the
+// paper's camera. The last lines are single looks.
 #include <benchmark/benchmark.h>
 
+#include <functional>
+
+#include "measure/angular_profile.hpp"
 #include "measure/cluster_rotation.hpp"
+#include "measure/collision_rates.hpp"
+#include "measure/density_map.hpp"
+#include "measure/diffusion.hpp"
+#include "measure/energy_budget.hpp"
+#include "measure/flow_map.hpp"
+#include "measure/granular_temperature.hpp"
+#include "measure/hexatic_order.hpp"
+#include "measure/local_packing.hpp"
+#include "measure/pinned_loose.hpp"
+#include "measure/radial_density.hpp"
+#include "measure/slip.hpp"
 #include "measure/snapshots.hpp"
+#include "measure/spin_frustration.hpp"
+#include "measure/wall_stress.hpp"
+#include "simulation/packing.hpp"
+#include "simulation/simulation.hpp"
 
 namespace swirl {
 namespace {
+
+constexpr int camera = 511;
+constexpr double R = paper_container_radius;
+
+Simulation dish(std::size_t discs) {
+    const auto places = place_discs(std::vector<double>(discs, 1.0), R, 1);
+    Scene scene{{}, polygon_path(paper_amplitude, paper_period, paper_sides), R, {}, {}};
+    const Leg& leg = scene.path.legs.front();
+    for (const Vec2& p : *places)
+        scene.discs.push_back(
+            {leg.start + p, leg.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
+    Simulation simulation(scene);
+    simulation.advance_to(20, 0.0);
+    return simulation;
+}
+
+struct Looks {
+    std::function<void(const Snapshot&)> by_time;  // null: nobody looks
+    std::function<void(const Snapshot&, const Event&)> by_event;
+    std::function<void()> close_block = [] {};
+};
+
+/// Swirl after swirl, with looks.
+void swirls(benchmark::State& state, const Looks& looks, std::size_t discs = 48) {
+    Simulation simulation = dish(discs);
+    const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
+    Snapshot snapshot = simulation.snapshot();
+    const auto before = simulation.events().total();
+    for (auto _ : state) {
+        if (!looks.by_time && !looks.by_event) {
+            simulation.advance_to(simulation.swirls() + 1, 0.0);
+            continue;
+        }
+        int next = 0;
+        for (bool over = false; !over;) {
+            const Event event = simulation.step();
+            for (; looks.by_time && next < camera && paper_period * next / camera <= event.clock;
+                 ++next) {
+                snapshot.clock = paper_period * next / camera;
+                const Leg& leg = path.leg_at(snapshot.clock);
+                snapshot.container_centre = leg.position_at(snapshot.clock);
+                snapshot.container_velocity = leg.velocity_at(snapshot.clock);
+                looks.by_time(snapshot);
+            }
+            over = simulation.swirls() > event.swirls;
+            simulation.refresh(snapshot, event);
+            if (looks.by_event) looks.by_event(snapshot, event);
+        }
+        looks.close_block();
+    }
+    state.counters["events"] = benchmark::Counter(
+        static_cast<double>(simulation.events().total() - before), benchmark::Counter::kIsRate);
+}
+
+void nobody_looks(benchmark::State& state) { swirls(state, {}); }
+BENCHMARK(nobody_looks);
+
+void one_by_one(benchmark::State& state) {
+    swirls(state, {{}, [](const Snapshot&, const Event&) {}, [] {}});
+}
+BENCHMARK(one_by_one);
+
+void rotation_by_event(benchmark::State& state) {
+    ClusterRotation rotation;
+    swirls(state, {{},
+                   [&](const Snapshot& s, const Event&) { rotation.look(s); },
+                   [&] { rotation.close_block(); }});
+}
+BENCHMARK(rotation_by_event);
+
+void rotation_by_time(benchmark::State& state) {
+    ClusterRotation rotation;
+    swirls(state, {[&](const Snapshot& s) { rotation.look_in_time(s); },
+                   {},
+                   [&] { rotation.close_block(); }});
+}
+BENCHMARK(rotation_by_time);
+
+void view_alone(benchmark::State& state) {
+    MFrameView view;
+    swirls(state, {[&](const Snapshot& s) { view.look(s); }, {}, [] {}});
+}
+BENCHMARK(view_alone);
+
+template <class Map>
+void view_and(benchmark::State& state, Map map) {
+    MFrameView view;
+    swirls(state, {[&](const Snapshot& s) {
+                       view.look(s);
+                       map.look(view);
+                   },
+                   {},
+                   [&] { map.close_block(); }});
+}
+void density_map(benchmark::State& state) { view_and(state, DensityMap(R)); }
+void flow_map(benchmark::State& state) { view_and(state, FlowMap(R)); }
+void angular_profile(benchmark::State& state) { view_and(state, AngularProfile()); }
+void radial_density(benchmark::State& state) { view_and(state, RadialDensity(R)); }
+void granular_temperature(benchmark::State& state) { view_and(state, GranularTemperature(R)); }
+void pinned_loose(benchmark::State& state) { view_and(state, PinnedLoose()); }
+void slip(benchmark::State& state) { view_and(state, Slip()); }
+void spin_frustration(benchmark::State& state) { view_and(state, SpinFrustration()); }
+BENCHMARK(density_map);
+BENCHMARK(flow_map);
+BENCHMARK(angular_profile);
+BENCHMARK(radial_density);
+BENCHMARK(granular_temperature);
+BENCHMARK(pinned_loose);
+BENCHMARK(slip);
+BENCHMARK(spin_frustration);
+
+void collisions(benchmark::State& state) {
+    CollisionRates rates;
+    WallStress stress(R);
+    EnergyBudget budget;
+    PinnedByCollisions pinned;
+    swirls(state, {{},
+                   [&](const Snapshot& s, const Event& event) {
+                       rates.look(event);
+                       stress.look(event, s);
+                       budget.look(event, s);
+                       pinned.look(event, s);
+                   },
+                   [&] {
+                       rates.close_block(paper_period, 48);
+                       stress.close_block(paper_period);
+                       budget.close_block(paper_period);
+                       pinned.close_block();
+                   }});
+}
+BENCHMARK(collisions);
+
+/// Everything that follows the camera at 511 looks per swirl; the structure of the cluster, which
+/// changes slowly and costs more, at every 32nd of them.
+void everything(benchmark::State& state) {
+    MFrameView view;
+    ClusterRotation rotation;
+    DensityMap density(R);
+    FlowMap flow(R);
+    AngularProfile profile;
+    RadialDensity radial(R);
+    GranularTemperature temperature(R);
+    PinnedLoose pinned;
+    Slip band;
+    SpinFrustration frustration;
+    Voronoi cells;
+    HexaticOrder order;
+    LocalPacking packing;
+    Diffusion diffusion(8);
+    int looks = 0;
+    swirls(state, {[&](const Snapshot& s) {
+                       view.look(s);
+                       rotation.look_in_time(s);
+                       density.look(view);
+                       flow.look(view);
+                       profile.look(view);
+                       radial.look(view);
+                       temperature.look(view);
+                       pinned.look(view);
+                       if (++looks % 32 != 0) return;
+                       band.look(view, pinned.pinned());
+                       frustration.look(view, pinned.pinned());
+                       cells.find(view);
+                       order.look(view, cells, pinned.pinned());
+                       packing.look(view, cells, pinned.pinned());
+                       diffusion.look(s);
+                   },
+                   {},
+                   [&] {
+                       rotation.close_block();
+                       density.close_block();
+                       flow.close_block();
+                       profile.close_block();
+                       radial.close_block();
+                       temperature.close_block();
+                       pinned.close_block();
+                       band.close_block();
+                       frustration.close_block();
+                       order.close_block();
+                       packing.close_block();
+                       diffusion.close_block();
+                   }});
+}
+BENCHMARK(everything);
 
 void look_after_every_event(benchmark::State& state) {
     Snapshot s = held_earlier(random_discs(static_cast<std::size_t>(state.range(0)), 1));
@@ -32,6 +235,14 @@ void look_of_each_width(benchmark::State& state) {
     benchmark::DoNotOptimize(sum);
 }
 BENCHMARK(look_of_each_width)->DenseRange(0, 2)->ArgName("width");
+
+void voronoi_of_48(benchmark::State& state) {
+    const MFrameView view(random_discs(48, 1));
+    Voronoi cells;
+    for (auto _ : state) cells.find(view);
+    benchmark::DoNotOptimize(cells.area(0));
+}
+BENCHMARK(voronoi_of_48);
 
 }  // namespace
 }  // namespace swirl

@@ -16,7 +16,8 @@
 // periods. Limits: a slice never visited: NaN. A disc on the centre of mass is left out.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "measure/cell_averages.hpp"
 #include "measure/m_frame.hpp"
@@ -27,27 +28,7 @@ class AngularProfile {
   public:
     explicit AngularProfile(std::size_t slices = 72) : cells_(slices) {}
 
-    void look(const MFrameView& view) {
-        const double per_omega = 1.0 / view.frame.omega;
-        const double slices_per_radian = static_cast<double>(cells_.size()) / (2.0 * pi);
-        const double R = view.container_radius;
-        for (std::size_t i = 0; i < view.size(); ++i) {
-            if (!(view.varpi[i] == view.varpi[i])) continue;
-            const double own = view.varpi[i] * per_omega - 1.0;
-            // A disc at C has no θ; turns_of puts it at 0, and so does this.
-            const Vec2 p = view.position(i);
-            const double distance = square_root(dot(p, p));
-            const Vec2 at_wall = distance > 0.0 ? (R / distance) * p : Vec2{R, 0.0};
-            const Vec2 arm = at_wall - view.centre_of_mass;
-            // Relative to the container, v_wall = 0 and so v_wall − v_cm = −u_cm; the turning of
-            // the frame takes Ω off, exactly as for ϖ_i.
-            const double wall =
-                -cross(arm, view.centre_of_mass_velocity) / dot(arm, arm) * per_omega - 1.0;
-            const std::size_t slice = std::min(
-                static_cast<std::size_t>(view.theta[i] * slices_per_radian), cells_.size() - 1);
-            cells_.add(slice, {own, wall});
-        }
-    }
+    void look(const MFrameView& view);
     void close_block() { cells_.close_block(); }
 
     std::size_t slices() const { return cells_.size(); }
@@ -71,6 +52,7 @@ class AngularProfile {
 
   private:
     CellMeans<2> cells_;
+    std::vector<double> own_, wall_, slice_;  // of one look
 };
 
 }  // namespace swirl

@@ -56,15 +56,15 @@ class CellMeans {
 
     void add(std::size_t cell, const std::array<double, Quantities>& values) {
         Open& o = open_[cell];
-        if (o.visits == 0.0) touched_.push_back(static_cast<std::uint32_t>(cell));
         o.visits += 1.0;
         for (std::size_t k = 0; k < Quantities; ++k) o.sum[k] += values[k];
     }
     void close_block() {
         ++blocks_;
-        for (const std::uint32_t cell : touched_) {
+        for (std::size_t cell = 0; cell < sums_.size(); ++cell) {
             Open& o = open_[cell];
             Sums& t = sums_[cell];
+            if (o.visits == 0.0) continue;
             t.w += o.visits;
             t.ww += o.visits * o.visits;
             for (std::size_t k = 0; k < Quantities; ++k) {
@@ -74,7 +74,6 @@ class CellMeans {
             }
             o = {};
         }
-        touched_.clear();
     }
     double visits(std::size_t cell) const { return sums_[cell].w; }
     double mean(std::size_t cell, std::size_t quantity = 0) const {
@@ -105,7 +104,6 @@ class CellMeans {
     void fields(Visitor&& visit) {
         visit(open_);
         visit(sums_);
-        visit(touched_);
         visit(blocks_);
     }
 
@@ -120,21 +118,17 @@ class CellMeans {
     };
     std::vector<Open> open_;
     std::vector<Sums> sums_;
-    std::vector<std::uint32_t> touched_;
     std::size_t blocks_ = 0;
 };
 
 class CellRates {
   public:
-    explicit CellRates(std::size_t cells) : open_(cells), sums_(cells) {}
+    explicit CellRates(std::size_t cells) : open_(cells), s_(cells), ss_(cells), sw_(cells) {}
 
-    std::size_t size() const { return sums_.size(); }
+    std::size_t size() const { return s_.size(); }
     std::size_t blocks() const { return blocks_; }
 
-    void add(std::size_t cell, double amount = 1.0) {
-        if (open_[cell] == 0.0) touched_.push_back(static_cast<std::uint32_t>(cell));
-        open_[cell] += amount;
-    }
+    void add(std::size_t cell, double amount = 1.0) { open_[cell] += amount; }
     /// Counts a look; or adds the time that has passed, when the amounts are per time.
     void add_weight(double weight = 1.0) { weight_ += weight; }
 
@@ -142,39 +136,38 @@ class CellRates {
         ++blocks_;
         w_ += weight_;
         ww_ += weight_ * weight_;
-        for (const std::uint32_t cell : touched_) {
-            Sums& t = sums_[cell];
-            t.s += open_[cell];
-            t.ss += open_[cell] * open_[cell];
-            t.sw += open_[cell] * weight_;
-            open_[cell] = 0.0;
+        // All cells, visited or not: in columns this is quicker than keeping a list of those that
+        // were.
+        double *const open = open_.data(), *const s = s_.data(), *const ss = ss_.data(),
+                      *const sw = sw_.data();
+        for (std::size_t c = 0; c < open_.size(); ++c) {
+            s[c] += open[c];
+            ss[c] += open[c] * open[c];
+            sw[c] += open[c] * weight_;
+            open[c] = 0.0;
         }
-        touched_.clear();
         weight_ = 0.0;
     }
     double weight() const { return w_; }
-    double sum(std::size_t cell) const { return sums_[cell].s; }
-    double mean(std::size_t cell) const { return w_ != 0.0 ? sums_[cell].s / w_ : not_known; }
+    double sum(std::size_t cell) const { return s_[cell]; }
+    double mean(std::size_t cell) const { return w_ != 0.0 ? s_[cell] / w_ : not_known; }
     Estimate estimate(std::size_t cell) const {
-        const Sums& t = sums_[cell];
-        return RatioSums{t.s, w_, t.ss, t.sw, ww_}.estimate(blocks_);
+        return RatioSums{s_[cell], w_, ss_[cell], sw_[cell], ww_}.estimate(blocks_);
     }
     /// The other must have as many cells.
     void merge(const CellRates& other) {
         blocks_ += other.blocks_;
         w_ += other.w_;
         ww_ += other.ww_;
-        for (std::size_t c = 0; c < sums_.size(); ++c) {
-            sums_[c].s += other.sums_[c].s;
-            sums_[c].ss += other.sums_[c].ss;
-            sums_[c].sw += other.sums_[c].sw;
+        for (std::size_t c = 0; c < s_.size(); ++c) {
+            s_[c] += other.s_[c];
+            ss_[c] += other.ss_[c];
+            sw_[c] += other.sw_[c];
         }
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(open_);
-        visit(sums_);
-        visit(touched_);
+        for (auto* column : {&open_, &s_, &ss_, &sw_}) visit(*column);
         visit(weight_);
         visit(w_);
         visit(ww_);
@@ -182,12 +175,7 @@ class CellRates {
     }
 
   private:
-    struct Sums {
-        double s = 0.0, ss = 0.0, sw = 0.0;
-    };
-    std::vector<double> open_;
-    std::vector<Sums> sums_;
-    std::vector<std::uint32_t> touched_;
+    std::vector<double> open_, s_, ss_, sw_;
     double weight_ = 0.0, w_ = 0.0, ww_ = 0.0;
     std::size_t blocks_ = 0;
 };

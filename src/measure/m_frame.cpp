@@ -1,6 +1,7 @@
 #include "measure/m_frame.hpp"
 
 #include "measure/statistics.hpp"
+#include "measure/wide.hpp"
 
 namespace swirl {
 
@@ -42,6 +43,42 @@ Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame) {
     return s;
 }
 
+namespace {
+
+/// Positions and velocities of all discs, turned into the M-frame.
+SWIRL_WIDE void turn_all(std::size_t n, const MFrame& frame, double clock,
+                         const double* __restrict x, const double* __restrict y,
+                         const double* __restrict vx, const double* __restrict vy,
+                         const double* __restrict held_at, double* __restrict X,
+                         double* __restrict Y, double* __restrict U, double* __restrict W) {
+    const MFrame f = frame;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double elapsed = clock - held_at[i];
+        const Vec2 p = f.position({x[i] + elapsed * vx[i], y[i] + elapsed * vy[i]});
+        const Vec2 u = f.relative_velocity({vx[i], vy[i]});
+        X[i] = p.x;
+        Y[i] = p.y;
+        U[i] = u.x;
+        W[i] = u.y;
+    }
+}
+
+/// θ and ϖ_i. Turning a frame does not change r × u, nor does the common V: this is ϖ_i in the lab.
+SWIRL_WIDE void turn_rates(std::size_t n, Vec2 centre, Vec2 velocity, double closest_square,
+                           const double* __restrict X, const double* __restrict Y,
+                           const double* __restrict U, const double* __restrict W,
+                           double* __restrict theta, double* __restrict varpi) {
+    for (std::size_t i = 0; i < n; ++i) {
+        theta[i] = 2.0 * pi * turns_of({X[i], Y[i]});
+        const Vec2 r{X[i] - centre.x, Y[i] - centre.y};
+        const double q = dot(r, r);
+        const double rate = cross(r, Vec2{U[i] - velocity.x, W[i] - velocity.y}) / q;
+        varpi[i] = q > closest_square ? rate : not_known;
+    }
+}
+
+}  // namespace
+
 void MFrameView::look(const Snapshot& s) {
     const std::size_t n = s.size();
     frame = m_frame(s);
@@ -53,38 +90,21 @@ void MFrameView::look(const Snapshot& s) {
     mass = s.mass;
     inertia = s.inertia;
 
-    // Copies of the pointers and of the frame, so that the loops vectorise.
-    double *const X = x.data(), *const Y = y.data(), *const U = ux.data(), *const W = uy.data();
-    const MFrame f = frame;
-    const double clock = s.clock;
+    turn_all(n, frame, s.clock, s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(),
+             x.data(), y.data(), ux.data(), uy.data());
     double m = 0.0, mx = 0.0, my = 0.0, mu = 0.0, mw = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double elapsed = clock - s.held_at[i];
-        const Vec2 p = f.position({s.x[i] + elapsed * s.vx[i], s.y[i] + elapsed * s.vy[i]});
-        const Vec2 u = f.relative_velocity({s.vx[i], s.vy[i]});
-        X[i] = p.x;
-        Y[i] = p.y;
-        U[i] = u.x;
-        W[i] = u.y;
-        m += s.mass[i];
-        mx += s.mass[i] * p.x;
-        my += s.mass[i] * p.y;
-        mu += s.mass[i] * u.x;
-        mw += s.mass[i] * u.y;
+        m += mass[i];
+        mx += mass[i] * x[i];
+        my += mass[i] * y[i];
+        mu += mass[i] * ux[i];
+        mw += mass[i] * uy[i];
     }
     centre_of_mass = {mx / m, my / m};
     centre_of_mass_velocity = {mu / m, mw / m};
-
-    const Vec2 c = centre_of_mass, cu = centre_of_mass_velocity;
-    const double closest = 0x1p-40 * container_radius, closest_square = closest * closest;
-    double *const angle = theta.data(), *const rate = varpi.data();
-    for (std::size_t i = 0; i < n; ++i) {
-        angle[i] = 2.0 * pi * turns_of({X[i], Y[i]});
-        // Turning a frame does not change r × u, nor does the common V: this is ϖ_i in the lab.
-        const Vec2 r{X[i] - c.x, Y[i] - c.y};
-        const double q = dot(r, r);
-        rate[i] = q > closest_square ? cross(r, Vec2{U[i] - cu.x, W[i] - cu.y}) / q : not_known;
-    }
+    const double closest = 0x1p-40 * container_radius;
+    turn_rates(n, centre_of_mass, centre_of_mass_velocity, closest * closest, x.data(), y.data(),
+               ux.data(), uy.data(), theta.data(), varpi.data());
 }
 
 }  // namespace swirl

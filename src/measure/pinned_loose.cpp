@@ -2,11 +2,53 @@
 
 #include <cmath>
 
+#include "measure/wide.hpp"
+
 namespace swirl {
 namespace {
 
 // The running sums lose a last bit with every frame; now and then they are added up afresh.
 constexpr std::int64_t frames_between_sums = 1024;
+
+/// The window of the fit moves on by one frame: Σ k r loses Σ r and the old end and gains the new
+/// one.
+SWIRL_WIDE void move_window(std::size_t n, const double* __restrict now, double* __restrict oldest,
+                            double* __restrict sum, double* __restrict slope) {
+    constexpr double h = PinnedLoose::half_width;
+    for (std::size_t i = 0; i < n; ++i) {
+        slope[i] += (h + 1.0) * oldest[i] + h * now[i] - sum[i];
+        sum[i] += now[i] - oldest[i];
+        oldest[i] = now[i];
+    }
+}
+
+/// The criteria, for every disc: position now, in the frame before and after, and path direction.
+SWIRL_WIDE void judge_all(std::size_t n, double sine_square, double jump_square,
+                          const double* __restrict x, const double* __restrict y,
+                          const double* __restrict bx, const double* __restrict by,
+                          const double* __restrict ax, const double* __restrict ay,
+                          const double* __restrict sx, const double* __restrict sy,
+                          double* __restrict parallel_for, double* __restrict pinned,
+                          double* __restrict freed, double* __restrict turned) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const double radial = sx[i] * x[i] + sy[i] * y[i];
+        const double sense = x[i] * sy[i] - y[i] * sx[i];
+        const double bound =
+            sine_square * (sx[i] * sx[i] + sy[i] * sy[i]) * (x[i] * x[i] + y[i] * y[i]);
+        const double along = radial * radial <= bound ? 1.0 : 0.0;
+        const double parallel = sense < 0.0 ? along : 0.0;
+        const double frames = parallel * (parallel_for[i] + 1.0);
+        const double settled = frames > PinnedLoose::half_width ? 1.0 : 0.0;
+        const double held = pinned[i] * parallel;
+        const double now = settled > held ? settled : held;
+        const double dx = ax[i] - 2.0 * x[i] + bx[i], dy = ay[i] - 2.0 * y[i] + by[i];
+        const double sharp = dx * dx + dy * dy >= jump_square ? 1.0 : 0.0;
+        freed[i] = pinned[i] * (1.0 - parallel);
+        turned[i] = sharp * (1.0 - now);
+        parallel_for[i] = frames;
+        pinned[i] = now;
+    }
+}
 
 }  // namespace
 
@@ -19,7 +61,7 @@ void PinnedLoose::begin_tracks(std::size_t n) {
     past_x_.assign(n * width, 0.0);
     past_y_.assign(n * width, 0.0);
     for (auto* column : {&sum_x_, &sum_y_, &slope_x_, &slope_y_}) column->assign(n, 0.0);
-    parallel_for_.assign(n, 0);
+    for (auto* column : {&parallel_for_, &is_pinned_, &freed_, &turned_}) column->assign(n, 0.0);
     pinned_.assign(n, 0);
 }
 
@@ -61,18 +103,8 @@ void PinnedLoose::look(const MFrameView& view) {
 
     double *const oldest_x = slot(past_x_, frames_), *const oldest_y = slot(past_y_, frames_);
     if (frames_ >= width && frames_ % frames_between_sums != 0) {
-        // The window moves on by one frame: Σ k r loses Σ r and the old end and gains the new one.
-        double *const sx = sum_x_.data(), *const sy = sum_y_.data();
-        double *const kx = slope_x_.data(), *const ky = slope_y_.data();
-        const double *const x = view.x.data(), *const y = view.y.data();
-        for (std::size_t i = 0; i < n; ++i) {
-            kx[i] += (half_width + 1) * oldest_x[i] + half_width * x[i] - sx[i];
-            ky[i] += (half_width + 1) * oldest_y[i] + half_width * y[i] - sy[i];
-            sx[i] += x[i] - oldest_x[i];
-            sy[i] += y[i] - oldest_y[i];
-            oldest_x[i] = x[i];
-            oldest_y[i] = y[i];
-        }
+        move_window(n, view.x.data(), oldest_x, sum_x_.data(), slope_x_.data());
+        move_window(n, view.y.data(), oldest_y, sum_y_.data(), slope_y_.data());
         ++frames_;
     } else {
         for (std::size_t i = 0; i < n; ++i) {
@@ -92,20 +124,15 @@ void PinnedLoose::judge(const MFrameView& view) {
     const double *const bx = slot(past_x_, centre - 1), *const by = slot(past_y_, centre - 1);
     const double *const ax = slot(past_x_, centre + 1), *const ay = slot(past_y_, centre + 1);
     const double jump = sharp_turn_ * view.frame.omega * view.container_radius * step_;
-    const double jump_square = jump * jump;
+    judge_all(n, sine_square_, jump * jump, x, y, bx, by, ax, ay, slope_x_.data(), slope_y_.data(),
+              parallel_for_.data(), is_pinned_.data(), freed_.data(), turned_.data());
     double pinned_now = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec2 p{x[i], y[i]}, s{slope_x_[i], slope_y_[i]};
-        const double radial = dot(s, p);
-        const bool parallel =
-            cross(p, s) < 0.0 && radial * radial <= sine_square_ * dot(s, s) * dot(p, p);
-        parallel_for_[i] = parallel ? parallel_for_[i] + 1 : 0;
-        if (pinned_[i] != 0 && !parallel) becoming_free_.add(p);
-        pinned_[i] = parallel_for_[i] > half_width || (pinned_[i] != 0 && parallel) ? 1 : 0;
-        pinned_now += pinned_[i];
-        if (pinned_[i] != 0) continue;
-        const Vec2 bend{ax[i] - 2.0 * x[i] + bx[i], ay[i] - 2.0 * y[i] + by[i]};
-        if (dot(bend, bend) >= jump_square) becoming_pinned_.add(p);
+        pinned_[i] = is_pinned_[i] != 0.0 ? 1 : 0;
+        pinned_now += is_pinned_[i];
+        if (freed_[i] + turned_[i] == 0.0) continue;
+        if (freed_[i] != 0.0) becoming_free_.add({x[i], y[i]});
+        if (turned_[i] != 0.0) becoming_pinned_.add({x[i], y[i]});
     }
     share_.add(pinned_now / static_cast<double>(n));
 }

@@ -79,6 +79,7 @@ class PinnedLoose {
         for (auto* column : {&past_x_, &past_y_, &sum_x_, &sum_y_, &slope_x_, &slope_y_})
             visit(*column);
         visit(parallel_for_);
+        visit(is_pinned_);
         visit(pinned_);
         becoming_pinned_.fields(visit);
         becoming_free_.fields(visit);
@@ -98,7 +99,9 @@ class PinnedLoose {
     std::vector<double> past_x_, past_y_;
     // Over those: Σ r and Σ k r.
     std::vector<double> sum_x_, sum_y_, slope_x_, slope_y_;
-    std::vector<std::int32_t> parallel_for_;
+    std::vector<double> parallel_for_;    // frames in a row
+    std::vector<double> is_pinned_;       // 0 or 1
+    std::vector<double> freed_, turned_;  // 0 or 1, at this frame
     std::vector<std::uint8_t> pinned_;
     CircularMean becoming_pinned_, becoming_free_;
     BlockMean share_;

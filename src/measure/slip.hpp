@@ -17,6 +17,9 @@
 //   pancake line: a single body with the cluster's perimeter, s = 1: ϖ/Ω = 1 −
 //   P_container/P_cluster
 //
+// Only every 16th look is looked at, unless told otherwise: the hull costs more than most
+// measurements, and the cluster changes little between two frames of a camera.
+//
 // Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
 // not averaged: the mean stays NaN if there was nothing else); nobody pinned: that look does not
 // count.
@@ -39,6 +42,8 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
 
 class Slip {
   public:
+    explicit Slip(int every = 16) : every_(every) {}
+
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
     void close_block() {
@@ -60,10 +65,13 @@ class Slip {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
+        visit(looks_);
         for (BlockMean* mean : {&cluster_, &pinned_, &perimeter_, &pancake_}) mean->fields(visit);
     }
 
   private:
+    int every_;
+    std::int64_t looks_ = 0;
     BlockMean cluster_, pinned_, perimeter_, pancake_;
     std::vector<Vec2> centres_;
 };

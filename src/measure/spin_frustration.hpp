@@ -15,6 +15,9 @@
 //   for
 //                     disc–wall separately (needs the collisions themselves)
 //
+// Only every 16th look at the discs is looked at, unless told otherwise: a search for neighbours
+// costs more than most measurements. Every collision counts.
+//
 // At the wall: gap below 0.1 r. Touching: gap below 0.1 of the mean radius. Units: none. The ratios
 // are of sums over looks; errors from blocks of periods. Limits: missing spins (NaN) make wall spin
 // and correlation NaN; nobody touching: NaN.
@@ -33,7 +36,7 @@ namespace swirl {
 
 class SpinFrustration {
   public:
-    explicit SpinFrustration(double gap = 0.1) : gap_(gap) {}
+    explicit SpinFrustration(double gap = 0.1, int every = 16) : gap_(gap), every_(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
@@ -67,6 +70,7 @@ class SpinFrustration {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
+        visit(looks_);
         for (BlockMean* mean : means()) mean->fields(visit);
     }
 
@@ -77,6 +81,8 @@ class SpinFrustration {
     }
 
     double gap_;
+    int every_;
+    std::int64_t looks_ = 0;
     BlockMean wall_spin_, pinned_wall_spin_, correlation_, triangles_, coordination_;
     BlockMean disc_sticking_, wall_sticking_;
     TouchingPairs touching_;

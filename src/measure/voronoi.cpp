@@ -97,8 +97,9 @@ void Voronoi::find(const MFrameView& view) {
         const double r = view.radius[i];
         cell_ = {{{-R, -R}, nobody}, {{R, -R}, nobody}, {{R, R}, nobody}, {{-R, R}, nobody}};
         // Beyond this distance no border can cut anything off the cell.
+        double far = 0.0;
         const auto horizon = [&] {
-            const double far = farthest(centre);
+            far = farthest(centre);
             return far + square_root(larger(far * far + largest * largest - r * r, 0.0));
         };
         double reach = horizon();
@@ -109,20 +110,33 @@ void Voronoi::find(const MFrameView& view) {
             const double distance = square_root(square);
             const double border =
                 (square + r * r - view.radius[j] * view.radius[j]) / (2.0 * distance);
+            if (border >= far) return;
             clip(centre, (1.0 / distance) * d, border, j);
             reach = horizon();
         };
-        // Outwards from the disc in the order of x, to both sides in turn.
+        // Outwards from the disc in the order of x, to both sides in turn: first those that are
+        // near, which cut off nearly everything, then whoever is still within reach.
+        const double near = 2.5 * (r + largest), near_square = near * near;
+        const auto distance_square = [&](std::uint32_t j) {
+            const Vec2 d = view.position(j) - centre;
+            return dot(d, d);
+        };
+        for (std::size_t k = rank[i]; k-- > 0 && centre.x - view.x[order_[k]] < near;)
+            if (distance_square(order_[k]) < near_square) meet(order_[k]);
+        for (std::size_t k = rank[i] + 1; k < order_.size() && view.x[order_[k]] - centre.x < near;
+             ++k)
+            if (distance_square(order_[k]) < near_square) meet(order_[k]);
         std::size_t left = rank[i], right = rank[i] + 1;
         bool more_left = true, more_right = true;
         while (more_left || more_right) {
             if (more_left) {
                 more_left = left > 0 && centre.x - view.x[order_[left - 1]] < reach;
-                if (more_left) meet(order_[--left]);
+                if (more_left && distance_square(order_[--left]) >= near_square) meet(order_[left]);
             }
             if (more_right) {
                 more_right = right < order_.size() && view.x[order_[right]] - centre.x < reach;
-                if (more_right) meet(order_[right++]);
+                if (more_right && distance_square(order_[right++]) >= near_square)
+                    meet(order_[right - 1]);
             }
         }
         for (std::size_t k = 0; k < cell_.size(); ++k) {

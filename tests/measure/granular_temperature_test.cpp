@@ -26,7 +26,7 @@ Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2
 }
 
 TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
-    GranularTemperature temperature(R, 5);
+    GranularTemperature temperature(R, 5, 1);
     for (int k = 0; k < 10; ++k) {
         temperature.look(jiggling(temperature.grid(), k / 10.0, 1.0));
         temperature.look(jiggling(temperature.grid(), k / 10.0, -1.0));
@@ -39,7 +39,7 @@ TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
 }
 
 TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
-    GranularTemperature temperature(R, 5);
+    GranularTemperature temperature(R, 5, 1);
     EXPECT_TRUE(std::isnan(temperature.granular().mean));
     EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));
     const SquareGrid grid = temperature.grid();
@@ -52,7 +52,7 @@ TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
 }
 
 TEST(GranularTemperature, MissingSpinsAreStated) {
-    GranularTemperature temperature(R, 5);
+    GranularTemperature temperature(R, 5, 1);
     Snapshot s = random_discs(5, 1);
     s.spin[2] = not_known;
     temperature.look(s);

@@ -25,7 +25,7 @@ Snapshot rim(double u, double grip, int discs = 23) {
 }
 
 TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
-    Slip slip;
+    Slip slip(1);
     const std::vector<std::uint8_t> everybody(23, 1);
     for (int k = 0; k < 10; ++k) {
         slip.look(rim(k / 10.0, 1.0), everybody);
@@ -43,7 +43,7 @@ TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
 
 TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
     for (const double grip : {0.0, 0.5}) {
-        Slip half, whole;
+        Slip half(1), whole(1);
         half.look(rim(0.1, grip));
         half.close_block();
         whole.look(rim(0.1, 1.0));
@@ -61,11 +61,11 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     // flags alone decide here.
     std::vector<std::uint8_t> pinned(23, 0);
     pinned[4] = 1;
-    Slip slip;
+    Slip slip(1);
     slip.look(s, pinned);
     slip.close_block();
     EXPECT_NEAR(slip.pinned_region().mean, slip.cluster().mean, 1e-13);
-    Slip none;
+    Slip none(1);
     none.look(still, pinned);
     none.close_block();
     EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
@@ -79,7 +79,7 @@ TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
 }
 
 TEST(Slip, NobodyAndOneDiscAndNonsense) {
-    Slip slip;
+    Slip slip(1);
     slip.look(empty_dish());
     slip.close_block();
     EXPECT_TRUE(std::isnan(slip.cluster().mean));
@@ -95,8 +95,15 @@ TEST(Slip, NobodyAndOneDiscAndNonsense) {
     EXPECT_NEAR(slip.cluster_perimeter().mean, 2.0 * pi, 1e-15);
 }
 
+TEST(Slip, LooksAtEverySixteenthLookOnly) {
+    Slip slip;
+    for (int k = 0; k < 32; ++k) slip.look(rim(0.1, k % 16 == 0 ? 1.0 : 0.3));
+    slip.close_block();
+    EXPECT_NEAR(slip.cluster().mean, 1.0, 0.003);
+}
+
 TEST(Slip, MergedRunsAreOneLongRun) {
-    Slip whole, first, second;
+    Slip whole(1), first(1), second(1);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
         whole.look(s);

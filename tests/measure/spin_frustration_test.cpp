@@ -34,7 +34,7 @@ Snapshot hexagon(double spin) {
 }
 
 TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     frustration.look(gears());
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
@@ -43,7 +43,7 @@ TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
 }
 
 TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     frustration.look(hexagon(0.3));
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, 1.0, 1e-15);
@@ -52,7 +52,7 @@ TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
 }
 
 TEST(SpinFrustration, IndependentSpinsHaveNone) {
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     Noise noise(4);
     for (int k = 0; k < 400; ++k) {
         Snapshot s = hexagon(0.0);
@@ -70,7 +70,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
     add_disc(s, s.container_centre + 7.55 * unit_circle(0.4), {0.0, 0.0}, 0.0);
     add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * omega);
     const std::vector<std::uint8_t> pinned{0, 1, 1};
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     frustration.look(s, pinned);
     frustration.close_block();
     EXPECT_NEAR(frustration.wall_spin().mean, 1.0, 1e-15);
@@ -79,7 +79,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
 }
 
 TEST(SpinFrustration, CountsTheCollisionsThatStick) {
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     const auto collide = [&](EventKind kind, bool sticks) {
         frustration.look(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0});
     };
@@ -95,7 +95,7 @@ TEST(SpinFrustration, CountsTheCollisionsThatStick) {
 }
 
 TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
-    SpinFrustration frustration;
+    SpinFrustration frustration(0.1, 1);
     frustration.look(empty_dish());
     frustration.close_block();
     EXPECT_TRUE(std::isnan(frustration.wall_spin().mean));
@@ -108,8 +108,15 @@ TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
     EXPECT_EQ(frustration.triangles().mean, 1.0);
 }
 
+TEST(SpinFrustration, LooksAtEverySixteenthLookOnly) {
+    SpinFrustration frustration;
+    for (int k = 0; k < 32; ++k) frustration.look(k % 16 == 0 ? gears() : hexagon(0.3));
+    frustration.close_block();
+    EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
+}
+
 TEST(SpinFrustration, MergedRunsAreOneLongRun) {
-    SpinFrustration whole, first, second;
+    SpinFrustration whole(0.1, 1), first(0.1, 1), second(0.1, 1);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(60, k, k / 12.0);
         whole.look(s);

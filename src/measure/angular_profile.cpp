@@ -1,0 +1,47 @@
+#include "measure/angular_profile.hpp"
+
+#include <algorithm>
+
+#include "measure/wide.hpp"
+
+namespace swirl {
+namespace {
+
+/// ϖ_M,i, the wall's rate where it is nearest, and the slice, of every disc.
+///
+/// Relative to the container the wall does not move, so with respect to the centre of mass it has
+/// the velocity −u_cm; the turning of the frame takes Ω off, exactly as for ϖ_i.
+SWIRL_WIDE void rates_of(std::size_t n, double R, double omega, double slices, Vec2 centre,
+                         Vec2 velocity, const double* __restrict x, const double* __restrict y,
+                         const double* __restrict theta, const double* __restrict varpi,
+                         double* __restrict own, double* __restrict wall,
+                         double* __restrict slice) {
+    const double per_omega = 1.0 / omega, per_radian = slices / (2.0 * pi);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double square = x[i] * x[i] + y[i] * y[i];
+        // A disc at C has no θ; turns_of puts it at 0, and so does this.
+        const double scale = R / square_root(square > 0.0 ? square : 1.0);
+        const double ax = (square > 0.0 ? scale * x[i] : R) - centre.x;
+        const double ay = scale * y[i] - centre.y;
+        own[i] = varpi[i] * per_omega - 1.0;
+        wall[i] = (ay * velocity.x - ax * velocity.y) / (ax * ax + ay * ay) * per_omega - 1.0;
+        slice[i] = theta[i] * per_radian;
+    }
+}
+
+}  // namespace
+
+void AngularProfile::look(const MFrameView& view) {
+    const std::size_t n = view.size();
+    for (auto* column : {&own_, &wall_, &slice_}) column->resize(n);
+    rates_of(n, view.container_radius, view.frame.omega, static_cast<double>(slices()),
+             view.centre_of_mass, view.centre_of_mass_velocity, view.x.data(), view.y.data(),
+             view.theta.data(), view.varpi.data(), own_.data(), wall_.data(), slice_.data());
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(own_[i] == own_[i])) continue;
+        const std::size_t slice = std::min(static_cast<std::size_t>(slice_[i]), slices() - 1);
+        cells_.add(slice, {own_[i], wall_[i]});
+    }
+}
+
+}  // namespace swirl
