@@ -158,56 +158,75 @@ void collisions(benchmark::State& state) {
 }
 BENCHMARK(collisions);
 
-/// Everything that follows the camera at 511 looks per swirl; the structure of the cluster, which
-/// changes slowly and costs more, at every 32nd of them.
-void everything(benchmark::State& state) {
+/// Everything at once. What follows the camera looks 511 times per swirl; the structure of the
+/// cluster, which changes slowly and costs more, at every 128th of these.
+struct Everything {
     MFrameView view;
     ClusterRotation rotation;
-    DensityMap density(R);
-    FlowMap flow(R);
+    DensityMap density{R};
+    FlowMap flow{R};
     AngularProfile profile;
-    RadialDensity radial(R);
-    GranularTemperature temperature(R);
+    RadialDensity radial{R};
+    GranularTemperature temperature{R};
     PinnedLoose pinned;
     Slip band;
     SpinFrustration frustration;
     Voronoi cells;
     HexaticOrder order;
     LocalPacking packing;
-    Diffusion diffusion(8);
+    Diffusion diffusion{8};
     int looks = 0;
+
+    void follow_the_camera(const Snapshot& s) {
+        view.look(s);
+        rotation.look_in_time(s);
+        density.look(view);
+        flow.look(view);
+        profile.look(view);
+        radial.look(view);
+        temperature.look(view);
+        pinned.look(view);
+        band.look(view, pinned.pinned());
+        frustration.look(view, pinned.pinned());
+    }
+    void look_at_the_structure(const Snapshot& s) {
+        if (++looks % 128 != 0) return;
+        cells.find(view);
+        order.look(view, cells, pinned.pinned());
+        packing.look(view, cells, pinned.pinned());
+        diffusion.look(s);
+    }
+    void close_block() {
+        rotation.close_block();
+        density.close_block();
+        flow.close_block();
+        profile.close_block();
+        radial.close_block();
+        temperature.close_block();
+        pinned.close_block();
+        band.close_block();
+        frustration.close_block();
+        order.close_block();
+        packing.close_block();
+        diffusion.close_block();
+    }
+};
+
+void camera_only(benchmark::State& state) {
+    Everything all;
+    swirls(state,
+           {[&](const Snapshot& s) { all.follow_the_camera(s); }, {}, [&] { all.close_block(); }});
+}
+BENCHMARK(camera_only);
+
+void everything(benchmark::State& state) {
+    Everything all;
     swirls(state, {[&](const Snapshot& s) {
-                       view.look(s);
-                       rotation.look_in_time(s);
-                       density.look(view);
-                       flow.look(view);
-                       profile.look(view);
-                       radial.look(view);
-                       temperature.look(view);
-                       pinned.look(view);
-                       if (++looks % 32 != 0) return;
-                       band.look(view, pinned.pinned());
-                       frustration.look(view, pinned.pinned());
-                       cells.find(view);
-                       order.look(view, cells, pinned.pinned());
-                       packing.look(view, cells, pinned.pinned());
-                       diffusion.look(s);
+                       all.follow_the_camera(s);
+                       all.look_at_the_structure(s);
                    },
                    {},
-                   [&] {
-                       rotation.close_block();
-                       density.close_block();
-                       flow.close_block();
-                       profile.close_block();
-                       radial.close_block();
-                       temperature.close_block();
-                       pinned.close_block();
-                       band.close_block();
-                       frustration.close_block();
-                       order.close_block();
-                       packing.close_block();
-                       diffusion.close_block();
-                   }});
+                   [&] { all.close_block(); }});
 }
 BENCHMARK(everything);
 

@@ -11,6 +11,9 @@
 // Limits: no looks: NaN everywhere. A centre outside the square is counted in outside() alone.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "measure/cell_averages.hpp"
 #include "measure/m_frame.hpp"
 #include "measure/square_grid.hpp"
@@ -20,17 +23,13 @@ namespace swirl {
 class DensityMap {
   public:
     explicit DensityMap(double container_radius, std::size_t side = 100)
-        : grid_{side, container_radius}, counts_(grid_.cells()) {}
+        : grid_{side, container_radius}, counts_(grid_.cells() + 1) {}
 
     void look(const MFrameView& view) {
         counts_.add_weight();
-        for (std::size_t i = 0; i < view.size(); ++i) {
-            const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
-            if (cell == SquareGrid::nowhere)
-                outside_ += 1.0;
-            else
-                counts_.add(cell);
-        }
+        cell_.resize(view.size());
+        grid_.locate(view.size(), view.x.data(), view.y.data(), cell_.data());
+        for (const std::int32_t cell : cell_) counts_.add(static_cast<std::size_t>(cell));
     }
     void close_block() { counts_.close_block(); }
 
@@ -40,22 +39,18 @@ class DensityMap {
     }
     double count(std::size_t cell) const { return counts_.sum(cell); }
     double looks() const { return counts_.weight(); }
-    double outside() const { return outside_; }
+    double outside() const { return counts_.sum(grid_.cells()); }
 
-    void merge(const DensityMap& other) {
-        counts_.merge(other.counts_);
-        outside_ += other.outside_;
-    }
+    void merge(const DensityMap& other) { counts_.merge(other.counts_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
         counts_.fields(visit);
-        visit(outside_);
     }
 
   private:
     SquareGrid grid_;
-    CellRates counts_;
-    double outside_ = 0.0;
+    CellRates counts_;                // the last one is outside
+    std::vector<std::int32_t> cell_;  // of every disc, at one look
 };
 
 }  // namespace swirl

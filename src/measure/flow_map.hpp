@@ -13,6 +13,9 @@
 // the square belongs to no cell.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "measure/cell_averages.hpp"
 #include "measure/m_frame.hpp"
 #include "measure/square_grid.hpp"
@@ -22,13 +25,13 @@ namespace swirl {
 class FlowMap {
   public:
     explicit FlowMap(double container_radius, std::size_t side = 20)
-        : grid_{side, container_radius}, cells_(grid_.cells()) {}
+        : grid_{side, container_radius}, cells_(grid_.cells() + 1) {}
 
     void look(const MFrameView& view) {
-        for (std::size_t i = 0; i < view.size(); ++i) {
-            const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
-            if (cell != SquareGrid::nowhere) cells_.add(cell, {view.ux[i], view.uy[i]});
-        }
+        cell_.resize(view.size());
+        grid_.locate(view.size(), view.x.data(), view.y.data(), cell_.data());
+        for (std::size_t i = 0; i < view.size(); ++i)
+            cells_.add(static_cast<std::size_t>(cell_[i]), {view.ux[i], view.uy[i]});
     }
     void close_block() { cells_.close_block(); }
 
@@ -46,7 +49,8 @@ class FlowMap {
 
   private:
     SquareGrid grid_;
-    CellMeans<2> cells_;
+    CellMeans<2> cells_;              // the last one is outside
+    std::vector<std::int32_t> cell_;  // of every disc, at one look
 };
 
 }  // namespace swirl

@@ -9,6 +9,9 @@
 // centre outside the container (a camera's error) is counted in no ring.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "measure/cell_averages.hpp"
 #include "measure/m_frame.hpp"
 
@@ -17,23 +20,14 @@ namespace swirl {
 class RadialDensity {
   public:
     explicit RadialDensity(double container_radius, std::size_t rings = 43)
-        : container_radius_(container_radius), counts_(rings) {}
+        : container_radius_(container_radius), counts_(rings + 1) {}
 
-    void look(const MFrameView& view) {
-        counts_.add_weight();
-        const double rings_per_length = static_cast<double>(counts_.size()) / container_radius_;
-        for (std::size_t i = 0; i < view.size(); ++i) {
-            const Vec2 p = view.position(i);
-            const double ring = square_root(dot(p, p)) * rings_per_length;
-            if (ring < static_cast<double>(counts_.size()))
-                counts_.add(static_cast<std::size_t>(ring));
-        }
-    }
+    void look(const MFrameView& view);
     void close_block() { counts_.close_block(); }
 
-    std::size_t rings() const { return counts_.size(); }
+    std::size_t rings() const { return counts_.size() - 1; }
     double inner_radius(std::size_t ring) const {
-        return container_radius_ * static_cast<double>(ring) / static_cast<double>(counts_.size());
+        return container_radius_ * static_cast<double>(ring) / static_cast<double>(rings());
     }
     double outer_radius(std::size_t ring) const { return inner_radius(ring + 1); }
     double area(std::size_t ring) const {
@@ -52,7 +46,8 @@ class RadialDensity {
 
   private:
     double container_radius_;
-    CellRates counts_;
+    CellRates counts_;                // the last one is outside
+    std::vector<std::int32_t> ring_;  // of every disc, at one look
 };
 
 }  // namespace swirl

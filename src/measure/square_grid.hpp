@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "physics/vec2.hpp"
 
@@ -29,6 +30,9 @@ struct SquareGrid {
         if (!(column >= 0.0 && column < n && row >= 0.0 && row < n)) return nowhere;
         return static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
     }
+    /// cell_at for many points at once; who is in no cell gets the number cells().
+    void locate(std::size_t points, const double* x, const double* y, std::int32_t* cell) const;
+
     Vec2 centre_of(std::size_t cell) const {
         const double column = static_cast<double>(cell % side) + 0.5;
         const double row = static_cast<double>(cell / side) + 0.5;

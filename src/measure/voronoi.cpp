@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace swirl {
 namespace {
@@ -53,15 +54,19 @@ double Voronoi::farthest(const Vec2& centre) const {
 void Voronoi::clip(const Vec2& centre, const Vec2& towards, double distance,
                    std::uint32_t neighbour) {
     next_.clear();
-    const auto depth = [&](const Corner& c) { return dot(c.at - centre, towards) - distance; };
+    const double offset = dot(centre, towards) + distance;
+    const auto depth = [&](const Corner& c) { return dot(c.at, towards) - offset; };
+    double da = depth(cell_.front());
     for (std::size_t k = 0; k < cell_.size(); ++k) {
-        const Corner &a = cell_[k], &b = cell_[(k + 1) % cell_.size()];
-        const double da = depth(a), db = depth(b);
+        const Corner &a = cell_[k], &b = cell_[k + 1 < cell_.size() ? k + 1 : 0];
+        const double db = depth(b);
         if (da <= 0.0) next_.push_back(a);
-        if ((da <= 0.0) == (db <= 0.0)) continue;
-        const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
-        // Leaving the half-plane, the new side begins; coming back, the old one goes on.
-        next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
+        if ((da <= 0.0) != (db <= 0.0)) {
+            const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
+            // Leaving the half-plane, the new side begins; coming back, the old one goes on.
+            next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
+        }
+        da = db;
     }
     cell_.swap(next_);
 }
@@ -90,17 +95,25 @@ void Voronoi::find(const MFrameView& view) {
         largest = larger(view.radius[order_[k]], largest);
     }
 
+    // Around the container: its corners are not far outside.
+    std::vector<Corner> octagon;
+    for (int k = 0; k < 8; ++k) {
+        const Vec2 p = unit_circle((k + 0.5) / 8.0);
+        octagon.push_back({(R / 0.9238795325112867) * p, nobody});  // cos 22.5°
+    }
+
     for (std::size_t i = 0; i < n; ++i) {
         first_[i] = borders_.size();
         if (rank[i] == n) continue;
         const Vec2 centre = view.position(i);
         const double r = view.radius[i];
-        cell_ = {{{-R, -R}, nobody}, {{R, -R}, nobody}, {{R, R}, nobody}, {{-R, R}, nobody}};
+        cell_ = octagon;
         // Beyond this distance no border can cut anything off the cell.
         double far = 0.0;
         const auto horizon = [&] {
             far = farthest(centre);
-            return far + square_root(larger(far * far + largest * largest - r * r, 0.0));
+            const double excess = largest * largest - r * r;
+            return excess > 0.0 ? far + square_root(far * far + excess) : 2.0 * far;
         };
         double reach = horizon();
         const auto meet = [&](std::uint32_t j) {

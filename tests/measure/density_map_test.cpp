@@ -60,6 +60,14 @@ TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
     EXPECT_EQ(grid.cell_at(2.0, 0.0), SquareGrid::nowhere);
     EXPECT_EQ(grid.cell_at(not_known, 0.0), SquareGrid::nowhere);
     EXPECT_EQ(grid.cell_at(1e300, 0.0), SquareGrid::nowhere);
+    const double x[] = {-2.0, 1.999, 2.0, not_known, 1e300, -1e300, 0.0};
+    const double y[] = {-2.0, 1.999, 0.0, 0.0, 0.0, 0.0, not_known};
+    std::int32_t cells[7];
+    grid.locate(7, x, y, cells);
+    for (int k = 0; k < 7; ++k) {
+        const std::size_t cell = grid.cell_at(x[k], y[k]);
+        EXPECT_EQ(cells[k], cell == SquareGrid::nowhere ? 16 : static_cast<int>(cell)) << k;
+    }
     DensityMap map(R);
     EXPECT_TRUE(std::isnan(map.density(0).mean));
     Snapshot s = empty_dish();
