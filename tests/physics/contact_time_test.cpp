@@ -1,0 +1,253 @@
+#include "physics/contact_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "physics/lanes.hpp"
+#include "random_cases.hpp"
+
+namespace swirl {
+namespace {
+
+// |distance² − σ²| at the time found. The positions are below 200 (10 + speed 4 × the longest wait
+// allowed below), so their squares are 4·10⁴, known to 2⁻⁵³; a dozen roundings.
+constexpr double longest_wait = 40.0;
+constexpr double rounding_of_squares = 1e-10;
+
+using Flyer = Flight<double>;
+
+Flyer draw_flyer() {
+    const Vec2 position = draw_vector(10.0), velocity = draw_vector(3.0);
+    return {position, velocity, draw(0.0, 10.0)};
+}
+
+double distance2(const Flyer& i, const Flyer& j, double t) {
+    const Vec2 s = j.position_at(t) - i.position_at(t);
+    return dot(s, s);
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Two discs that do not overlap at the moment from which they are both known.
+struct Pair {
+    Flyer i, j;
+    double sum;
+    double from;
+};
+Pair draw_pair() {
+    const Flyer i = draw_flyer(), j = draw_flyer();
+    const Pair p{i, j, draw(0.5, 4.0), std::max(i.time, j.time)};
+    RC_PRE(distance2(i, j, p.from) > p.sum * p.sum);
+    return p;
+}
+
+/// The same, with j aimed at some point of i, grazing included.
+Pair draw_meeting_pair() {
+    Pair p = draw_pair();
+    const Vec2 from = p.j.position_at(p.from), s = p.i.position_at(p.from) - from;
+    const double distance = std::sqrt(dot(s, s));
+    const Vec2 aim = s + draw(-0.999999, 0.999999) * p.sum / distance * perpendicular(s);
+    const double speed = draw(0.3, 4.0) / std::sqrt(dot(aim, aim));
+    p.j = {from, p.i.velocity + speed * aim, p.from};
+    return p;
+}
+
+RC_GTEST_PROP(TimeOfContact, AScanFindsNoEarlierContact, ()) {
+    const Pair p = *rc::gen::element(0, 1) ? draw_pair() : draw_meeting_pair();
+    const double found = time_of_contact(p.i, p.j, p.sum);
+    const double until = std::min(found, p.from + longest_wait);
+    double closest = never;
+    for (int k = 0; k <= 2000; ++k)
+        closest = std::min(closest, distance2(p.i, p.j, p.from + (until - p.from) * k / 2000));
+    RC_ASSERT(closest >= p.sum * p.sum - rounding_of_squares);
+}
+
+RC_GTEST_PROP(TimeOfContact, AtTheTimeFoundTheDiscsTouchAndApproach, ()) {
+    const Pair p = draw_meeting_pair();
+    const double t = time_of_contact(p.i, p.j, p.sum);
+    RC_PRE(t < p.from + longest_wait);
+    RC_ASSERT(t >= p.from);
+    RC_ASSERT(std::abs(distance2(p.i, p.j, t) - p.sum * p.sum) < rounding_of_squares);
+    const Vec2 s = p.j.position_at(t) - p.i.position_at(t);
+    RC_ASSERT(dot(s, p.j.velocity - p.i.velocity) < rounding_of_squares);
+}
+
+RC_GTEST_PROP(TimeOfContact, NeverMeansThatTheClosestApproachIsFarther, ()) {
+    const Pair p = draw_pair();
+    RC_PRE(time_of_contact(p.i, p.j, p.sum) == never);
+    const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
+    const Vec2 v = p.j.velocity - p.i.velocity;
+    const double closest = p.from + std::max(0.0, -dot(s, v) / dot(v, v));
+    RC_ASSERT(distance2(p.i, p.j, closest) >= p.sum * p.sum - rounding_of_squares);
+}
+
+RC_GTEST_PROP(TimeOfContact, SeparatingMeansNeverEvenWhenTheyOverlap, ()) {
+    Pair p = draw_pair();
+    const double overlap = draw(-1.0, 1.0);
+    const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
+    RC_PRE(dot(s, p.j.velocity - p.i.velocity) >= 0.0);
+    p.sum = std::sqrt(dot(s, s)) * (1.0 + overlap);
+    RC_ASSERT(time_of_contact(p.i, p.j, p.sum) == never);
+}
+
+RC_GTEST_PROP(TimeOfContact, TouchingOrOverlappingByARoundingErrorAndApproachingMeansNow, ()) {
+    Pair p = draw_pair();
+    const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
+    RC_PRE(dot(s, p.j.velocity - p.i.velocity) < 0.0);
+    p.sum = std::sqrt(dot(s, s)) * (1.0 + draw(1e-15, 1e-9));
+    RC_ASSERT(time_of_contact(p.i, p.j, p.sum) == p.from);
+}
+
+RC_GTEST_PROP(TimeOfContact, SwappingTheDiscsGivesTheSameBits, ()) {
+    const Pair p = draw_pair();
+    RC_ASSERT(same_bits(time_of_contact(p.i, p.j, p.sum), time_of_contact(p.j, p.i, p.sum)));
+}
+
+RC_GTEST_PROP(TimeOfContact, EightLanesGiveTheBitsOfEightScalars, ()) {
+    const Flyer i = draw_flyer();
+    alignas(64) double x[8], y[8], vx[8], vy[8], held[8], sum[8], found[8];
+    for (int k = 0; k < 8; ++k) {
+        const Flyer j = draw_flyer();
+        x[k] = j.position.x, y[k] = j.position.y, vx[k] = j.velocity.x, vy[k] = j.velocity.y;
+        held[k] = j.time, sum[k] = draw(0.5, 4.0);
+    }
+    using Eight = Lanes<8>;
+    const Flight<Eight> mine{{Eight(i.position.x), Eight(i.position.y)},
+                             {Eight(i.velocity.x), Eight(i.velocity.y)},
+                             Eight(i.time)};
+    const Flight<Eight> others{
+        {Eight::load(x), Eight::load(y)}, {Eight::load(vx), Eight::load(vy)}, Eight::load(held)};
+    time_of_contact(mine, others, Eight::load(sum)).store(found);
+    for (int k = 0; k < 8; ++k)
+        RC_ASSERT(same_bits(
+            found[k], time_of_contact(i, Flyer{{x[k], y[k]}, {vx[k], vy[k]}, held[k]}, sum[k])));
+}
+
+TEST(TimeOfContact, NobodyIsNeverMet) {
+    const double nan = std::nan("");
+    EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 0}, 0}, Flyer{{nan, nan}, {0, 0}, 0}, 2.0), never);
+}
+
+TEST(TimeOfContact, HeadOnIsTheGapOverTheSpeed) {
+    EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 0}, 0}, Flyer{{10, 0}, {-3, 0}, 0}, 2.0), 2.0);
+}
+
+TEST(TimeOfContact, ATinyGapLosesNoDigits) {
+    // The gap 2⁻⁴⁰ closes at speed 2⁻¹⁰: in the form (−b − √)/a it would be lost in b.
+    const Flyer i{{0, 0}, {0x1p-10, 0}, 0}, j{{2.0 + 0x1p-40, 0}, {0, 0}, 0};
+    EXPECT_NEAR(time_of_contact(i, j, 2.0), 0x1p-30, 0x1p-30 * 1e-11);
+}
+
+TEST(TimeOfContact, AtRestRelativeToEachOtherMeansNever) {
+    EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 1}, 0}, Flyer{{2, 0}, {1, 1}, 0}, 2.0), never);
+}
+
+/// A disc inside the dish at the moment from which both are known.
+struct Inside {
+    Disc disc;
+    double radius;
+};
+Inside draw_inside(const Leg& leg) {
+    Disc d{{}, {}, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
+    d.time = leg.begin + (leg.end - leg.begin) * draw(0.0, 0.9);
+    const double container_radius = draw(3.0, 9.0);
+    d.radius = draw(0.3, 1.5);
+    const double out = (container_radius - d.radius) * draw(0.0, 0.999);
+    d.position = leg.position_at(d.time) + out * unit_circle(draw(0.0, 1.0));
+    d.velocity = draw_vector(2.0);
+    return {d, container_radius};
+}
+
+double wall_distance(const Inside& in, const Leg& leg, double t) {
+    const Vec2 s = in.disc.flight().position_at(t) - leg.position_at(t);
+    return in.radius - in.disc.radius - std::hypot(s.x, s.y);
+}
+
+// The straight wall root: a wait of up to 2·9/0.01 would need a wider tolerance; waits beyond the
+// leg's end are not used by anybody.
+RC_GTEST_PROP(TimeOfWallContact, OnASideTheDiscTouchesThenAndNotBefore, ()) {
+    const ContainerPath path = polygon_path(1.892, 11.866071, *rc::gen::inRange(3, 31));
+    const Leg& leg = path.legs[*rc::gen::inRange<std::size_t>(0, path.legs.size())];
+    const Inside in = draw_inside(leg);
+    const double t = time_of_wall_contact(in.disc, leg, in.radius);
+    RC_ASSERT(t >= in.disc.time);
+    const double until = std::min(t, leg.end + 20.0);
+    for (int k = 0; k <= 1000; ++k)
+        RC_ASSERT(wall_distance(in, leg, in.disc.time + (until - in.disc.time) * k / 1000) >
+                  -1e-12);
+    if (t < leg.end + 20.0) RC_ASSERT(std::abs(wall_distance(in, leg, t)) < 1e-12);
+}
+
+RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheDiscTouchesThenAndNotBefore, ()) {
+    const ContainerPath path = circular_path(draw(0.1, 3.0), 11.866071);
+    const Leg& leg = path.legs[0];
+    const Inside in = draw_inside(leg);
+    const double t = time_of_wall_contact(in.disc, leg, in.radius);
+    RC_ASSERT(t >= in.disc.time);
+    const double until = std::min(t, leg.end);
+    for (int k = 0; k <= 2000; ++k)
+        RC_ASSERT(wall_distance(in, leg, in.disc.time + (until - in.disc.time) * k / 2000) >
+                  -1e-12);
+    if (t < leg.end) RC_ASSERT(std::abs(wall_distance(in, leg, t)) < 1e-12);
+}
+
+/// When the disc touches the wall of radius `container_radius` on any leg of the polygon.
+double contact_on_polygon(const Disc& disc, const ContainerPath& path, double container_radius) {
+    for (const Leg& leg : path.legs) {
+        if (leg.end <= disc.time) continue;
+        const double t = time_of_wall_contact(disc, leg, container_radius);
+        if (t < leg.end) return t;
+    }
+    return never;
+}
+
+RC_GTEST_PROP(TimeOfWallContact, TheCircleIsThePolygonWithManySides, ()) {
+    static const int sides = 10000;
+    static const ContainerPath circle = circular_path(1.892, 11.866071);
+    static const ContainerPath polygon = polygon_path(1.892, 11.866071, sides);
+    const Inside in = draw_inside(circle.legs[0]);
+    // The polygon's centre is never farther from the circle's than the sagitta, so the contact
+    // with the turning wall lies between those with a polygon's wall that much nearer and farther.
+    const double sagitta = 1.0001 * 1.892 * (pi / sides) * (pi / sides) / 2.0;
+    RC_PRE(wall_distance(in, circle.legs[0], in.disc.time) > 2.0 * sagitta);
+    const double t = time_of_wall_contact(in.disc, circle.legs[0], in.radius);
+    RC_ASSERT(contact_on_polygon(in.disc, polygon, in.radius - sagitta) <= t);
+    const double later = contact_on_polygon(in.disc, polygon, in.radius + sagitta);
+    RC_ASSERT(later >= t);
+}
+
+TEST(TimeOfWallContact, AcrossAStillDishIsTheChordOverTheSpeed) {
+    const Leg leg = still_path(100.0).legs[0];
+    const Disc d{{-7.6, 0}, {0.5, 0}, 0, 0, 0, 1.0, 1.0, 10.0};
+    EXPECT_NEAR(time_of_wall_contact(d, leg, 8.6), 15.2 / 0.5, 1e-13);
+}
+
+TEST(TimeOfWallContact, AtTheWallAndApproachingMeansNow) {
+    const Leg still = still_path(100.0).legs[0];
+    const Leg turning = circular_path(1.0, 10.0).legs[0];
+    Disc d{{7.6, 0}, {0.5, 0.1}, 0, 0, 0, 1.0, 1.0, 10.0};
+    EXPECT_EQ(time_of_wall_contact(d, still, 8.6), 0.0);
+    d.position.x += 1.0;
+    EXPECT_EQ(time_of_wall_contact(d, turning, 8.6), 0.0);
+}
+
+TEST(TimeOfWallContact, ADiscThatMovesWithTheDishNeverTouchesIt) {
+    const ContainerPath path = polygon_path(1.892, 11.866071, 30);
+    const Leg& leg = path.legs[0];
+    const Disc d{leg.start, leg.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
+    EXPECT_EQ(time_of_wall_contact(d, leg, 8.6), never);
+}
+
+TEST(TimeOfWallContact, ADiscSlidingAlongTheWallHitsItLater) {
+    // b = 0 at the wall exactly: it must not collide for ever at one instant.
+    const Leg leg = still_path(100.0).legs[0];
+    const Disc d{{7.6, 0}, {0, 1}, 0, 0, 0, 1.0, 1.0, 10.0};
+    const double t = time_of_wall_contact(d, leg, 8.6);
+    EXPECT_GT(t, 0.0);
+    EXPECT_LT(t, 1e-6);  // 2⁻²⁶ clearance/speed: within the rounding error of the wall
+}
+
+}  // namespace
+}  // namespace swirl
