@@ -7,9 +7,9 @@
 
 #include "app/appearance_options.hpp"
 #include "app/commands.hpp"
+#include "app/footage_options.hpp"
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
-#include "app/run_options.hpp"
 #include "app/stop_signal.hpp"
 #include "lab/failure.hpp"
 #include "lab/movie.hpp"
@@ -18,37 +18,14 @@ namespace swirl {
 namespace {
 
 struct MovieCall {
-    std::shared_ptr<ParameterTexts> parameters;
+    std::shared_ptr<FootageTexts> footage;
     std::shared_ptr<AppearanceTexts> appearance;
     std::string out, frames_folder;
-    std::optional<double> seconds, swirls, start, slip;
-    std::optional<std::int64_t> beside;
+    std::optional<double> seconds, swirls, start;
     std::optional<int> frames_per_second;
-    double pace = 0.5, ball_radius = 5.0;
+    double pace = 0.5;
     bool quiet = false;
 };
-
-std::vector<Footage> footage_of(const MovieCall& call) {
-    RunConfig config = resolve(*call.parameters);
-    if (call.slip) {
-        if (!(*call.slip >= 0.0 && *call.slip <= 1.0))
-            throw WrongCall(fmt::format(
-                "--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).", *call.slip));
-        if (!(call.ball_radius > 0.0 && call.ball_radius < config.container_radius))
-            throw WrongCall(fmt::format(
-                "--ball-radius is {}, but it must be above 0 and below the container's {}.",
-                call.ball_radius, config.container_radius));
-        return {rolling_ball(*call.slip, call.ball_radius, config)};
-    }
-    std::vector<Footage> footage{simulated(config)};
-    if (call.beside) {
-        RunConfig other = config;
-        other.discs = *call.beside;
-        if (const auto wrong = problem(other)) throw WrongCall(*wrong);
-        footage.insert(footage.begin(), simulated(other));
-    }
-    return footage;
-}
 
 MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
@@ -56,14 +33,21 @@ MovieConfig movie_config(const MovieCall& call) {
     config.frames_folder = call.frames_folder;
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
     config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
-    config.footage = footage_of(call);
+    config.footage = footage(*call.footage);
     config.pace = call.pace;
     config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
-    config.start = call.start.value_or(call.slip ? 0.0 : double(default_warmup));
+    const Footage& first = config.footage.front();
+    config.start = call.start.value_or(
+        first.from.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.swirls)
         throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
     if (call.swirls) seconds = *call.swirls / call.pace;
+    // A recording is shown to its end, both ends included.
+    if (first.to && !call.seconds && !call.swirls)
+        seconds = std::floor((*first.to - config.start) / call.pace * config.frames_per_second +
+                             1e-9 + 1.0) /
+                  config.frames_per_second;
     if (config.frames_per_second < 1)
         throw WrongCall(fmt::format("{} frames per second cannot be had: 1 or more can.",
                                     config.frames_per_second));
@@ -133,27 +117,14 @@ void add_movie_command(CLI::App& subcommand) {
     subcommand.add_option("--start", call->start, "swirls before the first frame [20]")
         ->type_name("SWIRLS")
         ->group(group);
-    subcommand
-        .add_option("--beside", call->beside,
-                    "a second dish to the left, with N discs and otherwise alike")
-        ->type_name("N")
-        ->group(group);
-    subcommand
-        .add_option("--rolling-ball", call->slip,
-                    "the paper's minimal model instead: one rigid ball, slip parameter from 0 "
-                    "(slips) to 1 (rolls)")
-        ->type_name("S")
-        ->group(group);
-    subcommand.add_option("--ball-radius", call->ball_radius, "of that ball [5]")
-        ->type_name("NUMBER")
-        ->group(group);
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
-    call->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
+    call->footage = add_footage_options(subcommand);
     set_examples(subcommand,
                  {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
                   "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
-                  "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif"});
+                  "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif",
+                  "swirl movie run.h5 --color id --out run.mp4"});
     subcommand.callback([call] { make_and_report(*call); });
 }
 

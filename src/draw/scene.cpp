@@ -48,21 +48,21 @@ void circle(cairo_t* cairo, const Vec2& centre, double radius) {
 
 /// A disc in its colour with a darker rim, and a hand that shows how it is turned.
 void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
-               double orientation, double opacity) {
+               double orientation) {
     cairo_t* cairo = canvas.cairo();
     if (radius < smallest_outlined_radius) {
         circle(cairo, centre, radius);
-        canvas.set(color, opacity);
+        canvas.set(color);
         cairo_fill(cairo);
         return;
     }
     const Color rim = mix(color, {0.0, 0.0, 0.0}, 0.45);
     const double rim_width = std::max(0.7, 0.055 * radius);
     circle(cairo, centre, radius);
-    canvas.set(rim, opacity);
+    canvas.set(rim);
     cairo_fill(cairo);
     circle(cairo, centre, radius - rim_width);
-    canvas.set(color, opacity);
+    canvas.set(color);
     cairo_fill(cairo);
     if (radius < smallest_marked_radius || std::isnan(orientation)) return;
 
@@ -76,7 +76,7 @@ void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Co
     cairo_set_line_width(cairo, std::max(1.0, 0.17 * radius));
     cairo_move_to(cairo, centre.x, centre.y);
     cairo_line_to(cairo, centre.x + reach * direction.x, centre.y + reach * direction.y);
-    canvas.set(mark, opacity);
+    canvas.set(mark);
     cairo_stroke(cairo);
 }
 
@@ -196,7 +196,62 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
             style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
         draw_disc(canvas, view.on_page(at.position(now.position(i))),
                   view.pixels_per_unit * now.radius[i], disc_color(style, content, at, i),
-                  orientation, style.discs_opacity);
+                  orientation);
+    }
+}
+
+void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    cairo_t* cairo = canvas.cairo();
+    const Snapshot& now = content.now;
+    for (std::size_t k = 0; k < content.ghosts.size(); ++k) {
+        const Snapshot& then = *content.ghosts[k];
+        if (then.size() != now.size()) continue;
+        const FrameAt at(then, view.frame);
+        const double age = double(k + 1) / double(content.ghosts.size() + 1);
+        for (std::size_t i = 0; i < then.size(); ++i) {
+            const Color color = disc_color(style, content, at, i);
+            const double radius = view.pixels_per_unit * then.radius[i];
+            circle(cairo, view.on_page(at.position(then.position(i))), 0.94 * radius);
+            canvas.set(color, 0.05 + 0.2 * age);
+            cairo_fill_preserve(cairo);
+            cairo_set_line_width(cairo, std::max(0.7, 0.045 * radius));
+            canvas.set(color, 0.15 + 0.5 * age);
+            cairo_stroke(cairo);
+        }
+    }
+}
+
+void draw_slice(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const Snapshot& now) {
+    if (!style.slice || view.frame != Frame::m) return;
+    constexpr double half_width = pi / 18.0;
+    cairo_t* cairo = canvas.cairo();
+    const double radius = view.pixels_per_unit * now.container_radius;
+    cairo_move_to(cairo, view.centre.x, view.centre.y);
+    // The page counts y downwards, so angles change their sign.
+    cairo_arc(cairo, view.centre.x, view.centre.y, radius, -*style.slice - half_width,
+              -*style.slice + half_width);
+    cairo_close_path(cairo);
+    canvas.set(distinct_colors[2], 0.35);
+    cairo_fill(cairo);
+}
+
+void draw_angles(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const Snapshot& now) {
+    if (!style.angles || view.frame != Frame::m) return;
+    const double unit = line_unit(view, now), type = 0.055 * unit;
+    if (type < 7.0) return;
+    const LabelStyle label{.size = type, .color = style.theme.ink, .align = Align::center};
+    const double away = (1.0 + wall_thickness) * unit + 0.9 * type;
+    for (int k = 0; k < 8; ++k) {
+        const double theta = k * pi / 4.0;
+        const Vec2 u{std::cos(theta), -std::sin(theta)};
+        const double reach = away + 0.5 * type * std::abs(u.x);
+        // M stands at the bottom already.
+        if (k == 6 && style.points) continue;
+        draw_label(canvas, std::to_string(45 * k) + "°",
+                   {view.centre.x + reach * u.x, view.centre.y + reach * u.y + 0.35 * type}, label);
     }
 }
 
@@ -318,6 +373,8 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
 void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     draw_dish(canvas, view, style, content.now);
+    draw_slice(canvas, view, style, content.now);
+    draw_ghosts(canvas, view, style, content);
     draw_trails(canvas, view, style, content);
     draw_discs(canvas, view, style, content);
     if (style.forces) {
@@ -326,6 +383,7 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
         draw_forces(canvas, view, style, content.now, all);
     }
     draw_points(canvas, view, style, content);
+    draw_angles(canvas, view, style, content.now);
 }
 
 }  // namespace swirl

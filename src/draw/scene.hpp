@@ -38,7 +38,9 @@ struct SceneStyle {
     bool points = true;       // S, C, M
     bool path = true;         // of C
     bool forces = false;      // centrifugal and Coriolis, per disc; M-frame only
-    double discs_opacity = 1.0;
+    bool angles = false;        // θ at the wall; M-frame only
+    /// Lights up the discs' floor around this θ; M-frame only (paper, Fig. 2a).
+    std::optional<double> slice = {};
 };
 
 /// One instant, and what else is to be seen with it. All optional but `now`.
@@ -50,6 +52,8 @@ struct SceneContent {
     std::span<const std::uint8_t> pinned = {};
     /// Earlier instants, oldest first: trails.
     std::span<const Snapshot* const> past = {};
+    /// Instants drawn faintly beneath, oldest first: a stroboscopic picture.
+    std::span<const Snapshot* const> ghosts = {};
 };
 
 /// Everything, back to front.
@@ -60,6 +64,8 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
 void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
                const Snapshot& now);
 void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content);
+void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const SceneContent& content);
 void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content);

@@ -2,9 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <utility>
 
+#include "draw/label.hpp"
+#include "files/file_error.hpp"
+#include "files/trajectory.hpp"
+#include "lab/failure.hpp"
 #include "physics/unit_circle.hpp"
 #include "simulation/simulation.hpp"
 
@@ -16,6 +23,12 @@ namespace {
 std::string plain(double value) {
     const std::string text = fmt::format("{:g}", std::abs(value));
     return value < 0.0 ? "−" + text : text;
+}
+
+/// To four digits: a caption, not a result.
+double rounded(double value) {
+    const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value) + 1e-300)));
+    return value == 0.0 ? 0.0 : std::round(value * scale) / scale;
 }
 
 /// Points along the path of C; the circle gets enough of them to look round.
@@ -70,47 +83,107 @@ Footage simulated(const RunConfig& config) {
     return footage;
 }
 
-Footage rolling_ball(double slip, double ball_radius, const RunConfig& container) {
+Footage rolling(const RollingBall& ball, double amplitude, double period) {
     Footage footage;
-    const double gamma = slip * container.container_radius / ball_radius;
     footage.open = [=]() -> Reel {
-        const ContainerPath path = circular_path(container.amplitude, container.period);
         return [=](double swirls) {
-            const double whole = std::floor(swirls);
-            const double omega = path.omega(), clock = (swirls - whole) * container.period;
-            const Vec2 outward = unit_circle(swirls - whole);
-            Snapshot s;
-            s.swirls = static_cast<std::int64_t>(whole);
-            s.clock = clock;
-            s.period = container.period;
-            s.container_centre = path.leg_at(clock).position_at(clock);
-            s.container_velocity = path.leg_at(clock).velocity_at(clock);
-            s.container_radius = container.container_radius;
-            s.resize(1);
-            const double arm = container.amplitude + container.container_radius - ball_radius;
-            Disc ball{};
-            ball.position = arm * outward;
-            ball.velocity = (arm * omega) * perpendicular(outward);
-            ball.spin = (1.0 - gamma) * omega;
-            ball.angle = ball.spin * swirls * container.period;
-            ball.time = clock;
-            ball.radius = ball_radius;
-            ball.mass = 1.0;
-            ball.inertia = solid_inertia(1.0, ball_radius);
-            s.set(0, ball);
-            return s;
+            return snapshot_at(ball, amplitude, period, swirls * period);
         };
     };
-    footage.path = outline(circular_path(container.amplitude, container.period));
-    footage.container_radius = container.container_radius;
-    footage.amplitude = container.amplitude;
-    footage.period = container.period;
-    footage.caption = slip == 0.0 ? "slip" : "no slip";
-    footage.parameters = {"$s$ = " + plain(slip),
-                          "$γ$ = $s$ $R$/$R_{ball}$ = " + fmt::format("{:.3g}", gamma),
-                          "$ϖ$/$Ω$ = 1 − $γ$ = " + (gamma > 1.0 ? "−" : std::string()) +
-                              fmt::format("{:.3g}", std::abs(1.0 - gamma))};
+    footage.path = outline(circular_path(amplitude, period));
+    footage.container_radius = ball.container_radius;
+    footage.amplitude = amplitude;
+    footage.period = period;
+    footage.caption = ball.slip == 0.0 ? "one ball that slips" : "one ball that rolls";
+    footage.parameters = {"$s$ = " + plain(ball.slip),
+                          "$γ$ = $s$ $R$/$R_{ball}$ = " + plain(rounded(ball.gamma())),
+                          "$ϖ$/$Ω$ = 1 − $γ$ = " + plain(rounded(ball.rotation()))};
     return footage;
+}
+
+namespace {
+
+double swirls_of(const Snapshot& s) {
+    return static_cast<double>(s.swirls) + (s.period > 0.0 ? s.clock / s.period : 0.0);
+}
+
+/// Between `a` and `b`, a share u of the way: straight lines.
+Snapshot between(const Snapshot& a, const Snapshot& b, double u, double swirls) {
+    Snapshot s = a;
+    const double whole = std::floor(swirls);
+    s.swirls = static_cast<std::int64_t>(whole);
+    s.clock = (swirls - whole) * s.period;
+    s.container_centre = a.container_centre + u * (b.container_centre - a.container_centre);
+    const bool same = a.size() == b.size();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec2 p = a.position(i), q = same ? b.position(i) : p;
+        s.x[i] = p.x + u * (q.x - p.x);
+        s.y[i] = p.y + u * (q.y - p.y);
+        const double from = a.orientation(i);
+        s.angle[i] = same ? from + u * (b.orientation(i) - from) : from;
+        s.held_at[i] = s.clock;
+    }
+    return s;
+}
+
+/// Two neighbouring frames of a recording, moved forwards.
+class Projector {
+  public:
+    explicit Projector(const SnapshotSeries& series) : series_(series), left_(series.frame(0)) {
+        right_ = series_.frames > 1 ? series_.frame(1) : left_;
+    }
+
+    Snapshot at(double swirls) {
+        while (swirls_of(right_) < swirls && next_ + 1 < series_.frames) {
+            left_ = std::move(right_);
+            right_ = series_.frame(++next_);
+        }
+        const double from = swirls_of(left_), step = swirls_of(right_) - from;
+        const double share = step > 0.0 ? (swirls - from) / step : 0.0;
+        // On a frame, to the last bits: exactly that frame.
+        if (share < 1e-9) return left_;
+        if (share > 1.0 - 1e-9) return right_;
+        return between(left_, right_, share, swirls);
+    }
+
+  private:
+    SnapshotSeries series_;
+    Snapshot left_, right_;
+    std::uint64_t next_ = 1;  // number of right_
+};
+
+}  // namespace
+
+Footage recorded(const SnapshotSeries& series, const std::string& caption) {
+    if (series.frames == 0) throw Failure("There is not one frame in " + caption + ".");
+    Footage footage;
+    const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
+    footage.open = [series]() -> Reel {
+        auto projector = std::make_shared<Projector>(series);
+        return [projector](double swirls) { return projector->at(swirls); };
+    };
+    footage.container_radius = first.container_radius;
+    footage.amplitude = std::max(series.reach - first.container_radius, 0.0);
+    footage.period = first.period;
+    if (footage.amplitude > 0.0) footage.path = outline(circular_path(footage.amplitude, 1.0));
+    footage.caption = caption;
+    footage.parameters = {
+        fmt::format("$N$ = {}", first.size()),
+        "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
+        "$A$ = " + plain(rounded(footage.amplitude)) + " $r$",
+        fmt::format("{} recorded frames", series.frames)};
+    footage.from = swirls_of(first);
+    footage.to = swirls_of(last);
+    return footage;
+}
+
+Footage recorded(const std::string& file) try {
+    auto reader = std::make_shared<TrajectoryReader>(file);
+    if (reader->frames() == 0) throw Failure("There is not one frame in " + file + ".");
+    const std::string name = std::filesystem::path(file).filename().string();
+    return recorded(series_of(reader), escaped(name));
+} catch (const FileError& error) {
+    throw Failure(error.what());
 }
 
 }  // namespace swirl

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "files/series.hpp"
 #include "lab/run_config.hpp"
+#include "physics/rolling_ball.hpp"
 #include "physics/snapshot.hpp"
 #include "physics/vec2.hpp"
 
@@ -23,17 +25,21 @@ struct Footage {
     double container_radius = 0.0, amplitude = 0.0, period = 0.0;
     std::string caption;                  // "48 discs"
     std::vector<std::string> parameters;  // for the parameter line (draw/label.hpp)
-    /// Swirls covered; nothing: from 0 without end.
-    std::optional<double> from, to;
+    /// Swirls covered by a recording; nothing: from 0 without end.
+    std::optional<double> from = {}, to = {};
 };
 
 /// Exact states at exact times.
 Footage simulated(const RunConfig& config);
 
-/// The paper's minimal model: one rigid ball in the steady state, γ = s γ_c with
-/// γ_c = R_container / R_ball; s = 1 rolls without slipping, s = 0 slips without turning in the
-/// M-frame. The ball rests at M there, and ϖ = (1 − γ) Ω in the lab.
-Footage rolling_ball(double slip, double ball_radius, const RunConfig& container);
+/// The paper's minimal model (physics/rolling_ball.hpp) in the paper's container or another one.
+Footage rolling(const RollingBall& ball, double amplitude, double period);
+
+/// Frames that were recorded, by us or by a camera. Between two of them discs move in straight
+/// lines. Swirls count from the beginning of the run. Throws Failure if there is not one frame.
+Footage recorded(const SnapshotSeries& series, const std::string& caption);
+/// A trajectory file of ours; throws Failure.
+Footage recorded(const std::string& file);
 
 /// "$N$ = 48", "$μ_{d}$ = 1", … in the order in which the paper names them.
 std::vector<std::string> parameter_labels(const RunConfig& config);

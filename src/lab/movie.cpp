@@ -76,15 +76,19 @@ struct Survey {
 /// One dish on its way through the movie: the moment now, and those just past.
 class Camera {
   public:
-    Camera(const Footage& footage, const Appearance& appearance)
+    Camera(const Footage& footage, const Appearance& appearance, double start)
         : reel_(footage.open()),
           from_(footage.from.value_or(0.0)),
-          length_(appearance.trails ? appearance.trail_length : 0.0) {}
+          length_(appearance.trails ? appearance.trail_length : 0.0) {
+        if (appearance.coloring == Coloring::pinned) watch_.emplace(footage, start);
+    }
 
     void advance_to(double swirls) {
         if (length_ > 0.0) remember_until(swirls);
         now_ = std::make_shared<const Snapshot>(reel_(swirls));
+        if (watch_) pinned_ = watch_->at(swirls);
     }
+    const std::vector<std::uint8_t>& pinned() const { return pinned_; }
     const Moment& now() const { return now_; }
     std::vector<Moment> past() const { return {past_.begin(), past_.end()}; }
 
@@ -105,6 +109,8 @@ class Camera {
     std::int64_t next_ = 0;
     std::deque<Moment> past_;
     Moment now_;
+    std::optional<PinnedWatch> watch_;
+    std::vector<std::uint8_t> pinned_;
 };
 
 /// What one frame needs; shared with the painters, which only read it.
@@ -112,6 +118,7 @@ struct Instant {
     double swirls = 0.0;
     std::vector<Moment> now;                // per footage
     std::vector<std::vector<Moment>> past;  // per footage
+    std::vector<std::vector<std::uint8_t>> pinned;
 };
 
 /// Where a painter works: its canvas, and what is the same in every frame, drawn once.
@@ -134,7 +141,8 @@ class Easel {
         for (std::size_t k = 0; k < config.footage.size(); ++k) {
             for (const Moment& moment : instant.past[k]) past[k].push_back(moment.get());
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
-                contents.push_back({*instant.now[k], config.footage[k].path, {}, past[k]});
+                contents.push_back(
+                    {*instant.now[k], config.footage[k].path, instant.pinned[k], past[k]});
         }
         sheet.draw_moving(canvas_, contents, curves, instant.swirls);
         return canvas_;
@@ -160,6 +168,25 @@ double time_of_frame(const MovieConfig& config, int frame) {
 }
 
 }  // namespace
+
+PinnedWatch::PinnedWatch(const Footage& footage, double first)
+    : reel_(footage.open()), to_(footage.to) {
+    // One swirl earlier, where there is one: a disc counts as pinned after eight frames at the wall.
+    const double begin = std::max(footage.from.value_or(0.0), first - 1.0);
+    next_ = static_cast<std::int64_t>(std::ceil(begin * frames_per_swirl));
+}
+
+const std::vector<std::uint8_t>& PinnedWatch::at(double swirls) {
+    const auto wanted = static_cast<std::int64_t>(std::floor(swirls * frames_per_swirl + 1e-9)) +
+                        PinnedLoose::half_width;
+    for (; next_ <= wanted; ++next_) {
+        const double moment = static_cast<double>(next_) / frames_per_swirl;
+        if (to_ && moment > *to_) break;
+        view_.look(reel_(moment));
+        pinned_.look(view_);
+    }
+    return pinned_.pinned();
+}
 
 std::optional<std::string> problem(const MovieConfig& config) {
     if (config.out.empty() && config.frames_folder.empty())
@@ -217,7 +244,9 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
     spec.style.points = appearance.points;
     spec.style.path = appearance.path;
     spec.style.forces = appearance.forces;
-    spec.clock = appearance.texts;
+    spec.style.angles = appearance.angles;
+    spec.style.slice = appearance.slice;
+    spec.clock = appearance.texts && appearance.clock;
     if (appearance.texts) {
         spec.title = escaped(appearance.title);
         if (spec.title.empty() && footage.size() == 1) spec.title = footage[0].caption;
@@ -292,7 +321,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
         });
         std::vector<Camera> cameras;
         for (const Footage& footage : config.footage)
-            cameras.emplace_back(footage, config.appearance);
+            cameras.emplace_back(footage, config.appearance, config.start);
         int frame = 0;
         for (; frame < config.frames && !stopped(); ++frame) {
             auto instant = std::make_shared<Instant>();
@@ -301,6 +330,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
                 camera.advance_to(instant->swirls);
                 instant->now.push_back(camera.now());
                 instant->past.push_back(camera.past());
+                instant->pinned.push_back(camera.pinned());
             }
             painters.submit([&, instant, frame](unsigned painter, Painters::Bytes& bytes) {
                 auto& easel = easels[painter];

@@ -11,6 +11,8 @@
 #include "draw/scene.hpp"
 #include "draw/sheet.hpp"
 #include "lab/footage.hpp"
+#include "measure/m_frame.hpp"
+#include "measure/pinned_loose.hpp"
 
 namespace swirl {
 
@@ -23,6 +25,9 @@ struct Appearance {
     bool forces = false;
     bool points = true;
     bool path = true;
+    bool angles = false;                // θ at the wall, M-frame
+    std::optional<double> slice = {};   // θ of a highlighted slice (paper, Fig. 2a)
+    bool clock = true;
     bool plot = false;
     bool texts = true;
     std::string title;
@@ -57,6 +62,25 @@ std::optional<std::string> problem(const MovieConfig& config);
 
 /// Stopped early, it leaves a movie of what was filmed. Throws Failure.
 MovieResult make_movie(const MovieConfig& config, const MovieControl& control = {});
+
+/// Which discs are pinned, moment after moment. The criterion looks seven frames ahead
+/// (measure/pinned_loose.hpp), so this runs a reel of its own, ahead of what is shown.
+class PinnedWatch {
+  public:
+    /// `first`: the first moment that will be asked for.
+    PinnedWatch(const Footage& footage, double first);
+    /// At moments that do not decrease.
+    const std::vector<std::uint8_t>& at(double swirls);
+
+  private:
+    static constexpr int frames_per_swirl = 511;  // the paper's camera
+
+    Reel reel_;
+    std::optional<double> to_;
+    PinnedLoose pinned_;
+    MFrameView view_;
+    std::int64_t next_;
+};
 
 /// The page for these dishes, with scales and plot fitted to the swirls from `start` to `end`.
 /// `curves` receives what the plot shows.

@@ -1,0 +1,147 @@
+#include "draw/frame_diagram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/label.hpp"
+#include "draw/scene.hpp"
+#include "draw/view.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+
+/// Three arrows along the wall, clockwise: which way it turns in the M-frame.
+void draw_turning(const Canvas& canvas, const View& view, double radius, double line,
+                  const Color& color) {
+    cairo_t* cairo = canvas.cairo();
+    const double along = view.pixels_per_unit * radius;
+    for (int k = 0; k < 3; ++k) {
+        const double begin = full_turn * (k / 3.0 - 1.0 / 12.0), end = begin + full_turn / 6.5;
+        cairo_new_sub_path(cairo);
+        cairo_arc(cairo, view.centre.x, view.centre.y, along, begin, end);
+        cairo_set_line_width(cairo, line);
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        canvas.set(color);
+        cairo_stroke(cairo);
+        // On the page, where y points down, growing angles run clockwise.
+        const double head = 5.0 * line / along;
+        const auto on_arc = [&](double angle) {
+            return Vec2{view.centre.x + along * std::cos(angle),
+                        view.centre.y + along * std::sin(angle)};
+        };
+        draw_arrow(canvas, on_arc(end - 0.1 * head), on_arc(end + head), line, color);
+    }
+}
+
+void draw_centrifugal_field(const Canvas& canvas, const View& view, const Theme& theme,
+                            double container_radius, double amplitude, const Vec2& spare) {
+    const Vec2 swirl_centre{0.0, amplitude};
+    const double spacing = container_radius / 3.6;
+    const double longest = container_radius + amplitude;
+    for (int row = -4; row <= 4; ++row) {
+        for (int column = -4; column <= 4; ++column) {
+            const Vec2 p{(column + (row % 2 != 0 ? 0.5 : 0.0)) * spacing, 0.87 * row * spacing};
+            if (dot(p, p) > 0.72 * container_radius * container_radius) continue;
+            const Vec2 apart = p - spare;
+            if (dot(apart, apart) < 0.09 * container_radius * container_radius) continue;
+            const Vec2 force = (1.5 * spacing / longest) * (p - swirl_centre);
+            draw_arrow(canvas, view.on_page(p), view.on_page(p + force),
+                       0.055 * spacing * view.pixels_per_unit, theme.centrifugal);
+        }
+    }
+}
+
+}  // namespace
+
+void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot& now,
+                        std::size_t disc) {
+    canvas.fill_page(theme.page);
+    const double width = canvas.size().width, height = canvas.size().height;
+    const double type = 0.062 * std::min(height, width / 3.1), gap = 0.02 * width;
+    const double side = std::min(width / 3.0 - gap, height - 3.2 * type);
+    const Vec2 centre = now.container_centre;
+    const double amplitude = std::sqrt(dot(centre, centre)), radius = now.container_radius;
+    Snapshot empty = now;
+    empty.resize(0);
+    SceneStyle style;
+    style.theme = theme;
+    const auto square = [&](int k) {
+        return Rectangle{width * (k + 0.5) / 3.0 - 0.5 * side, 2.0 * type, side,
+                         height - 2.2 * type};
+    };
+    View views[3] = {fitting_view(square(0), Frame::lab, radius, amplitude),
+                     fitting_view(square(1), Frame::m, radius, amplitude),
+                     fitting_view(square(2), Frame::m, radius, amplitude)};
+    const double scale = std::min(views[0].pixels_per_unit, views[1].pixels_per_unit);
+    const char* const titles[3] = {"lab frame", "M-frame", "forces in the M-frame"};
+    for (int k = 0; k < 3; ++k) {
+        views[k].pixels_per_unit = scale;
+        draw_label(canvas, titles[k], {width * (k + 0.5) / 3.0, 1.2 * type},
+                   {.size = type, .color = theme.ink, .align = Align::center});
+    }
+    const double line = std::max(1.0, 0.06 * type);
+    cairo_t* cairo = canvas.cairo();
+
+    // Lab: the path of C, and how far the wall reaches, as dots.
+    std::vector<Vec2> path;
+    for (int k = 0; k < 120; ++k)
+        path.push_back({amplitude * std::cos(full_turn * k / 120),
+                        amplitude * std::sin(full_turn * k / 120)});
+    draw_dish(canvas, views[0], style, empty);
+    draw_points(canvas, views[0], style, {.now = empty, .path = path});
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, views[0].centre.x, views[0].centre.y,
+              scale * (radius * (1.0 + wall_thickness) + amplitude), 0.0, full_turn);
+    const double dots[2] = {0.0, 5.0 * line};
+    cairo_set_dash(cairo, dots, 2, 0.0);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cairo, 2.0 * line);
+    canvas.set(theme.faint_ink);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, nullptr, 0, 0.0);
+
+    draw_dish(canvas, views[1], style, empty);
+    draw_points(canvas, views[1], style, {.now = empty});
+    draw_turning(canvas, views[1], 0.9 * radius, 2.4 * line, theme.ink);
+
+    draw_dish(canvas, views[2], style, empty);
+    if (disc < now.size() && now.period > 0.0) {
+        const FrameAt at(now, Frame::m);
+        const Vec2 p = at.position(now.position(disc));
+        const Vec2 v = at.velocity(now.position(disc), now.velocity(disc));
+        const double omega = full_turn / now.period;
+        draw_centrifugal_field(canvas, views[2], theme, radius, amplitude, p);
+        const Vec2 place = views[2].on_page(p);
+        const double r = scale * now.radius[disc];
+        cairo_new_sub_path(cairo);
+        cairo_arc(cairo, place.x, place.y, r, 0.0, full_turn);
+        canvas.set(distinct_colors[2]);
+        cairo_fill(cairo);
+        // Velocity and force on scales of their own; the force is 2Ω|v|, to the right of v.
+        const double speed = std::sqrt(dot(v, v));
+        const Vec2 u = (2.9 * now.radius[disc] / std::max(speed, 1e-300)) * v;
+        const Vec2 force = -0.85 * perpendicular(u);
+        const auto named = [&](const Vec2& arm, const Color& color, const char* name) {
+            const Vec2 tip = views[2].on_page(p + arm);
+            draw_arrow(canvas, place, tip, 0.17 * r, color);
+            const Vec2 away = (1.0 / std::sqrt(dot(arm, arm))) * arm;
+            draw_label(canvas, name,
+                       {tip.x + 0.75 * type * away.x, tip.y - 0.75 * type * away.y + 0.3 * type},
+                       {.size = type, .color = color, .align = Align::center, .bold = true,
+                        .halo = theme.floor});
+        };
+        named(u, theme.velocity, "$v$");
+        named(force, theme.coriolis, omega > 0.0 ? "$F_{Cor}$" : "");
+        draw_label(canvas, "$F_{cent}$",
+                   views[2].on_page({0.34 * radius, -0.86 * radius}),
+                   {.size = type, .color = theme.centrifugal, .align = Align::left, .bold = true,
+                    .halo = theme.floor});
+    }
+    draw_points(canvas, views[2], style, {.now = empty});
+}
+
+}  // namespace swirl
