@@ -56,6 +56,12 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand) {
         .add_flag("--forces", texts->forces,
                   "centrifugal and Coriolis force on each disc (M-frame)")
         ->group(group);
+    subcommand
+        .add_flag("--turned", texts->turned,
+                  "an arc round the dish: how far the cluster has turned (lab frame)")
+        ->group(group);
+    subcommand.add_flag("--angles", texts->angles, "the angle θ along the wall (M-frame)")
+        ->group(group);
     subcommand.add_flag("--plot", texts->plot, "the cluster's rotation against time")->group(group);
     subcommand.add_option("--theme", texts->theme, "dark or light [dark]")
         ->type_name("NAME")
@@ -90,10 +96,18 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     look.trails = texts.trails;
     look.forces = texts.forces;
     look.plot = texts.plot;
+    look.turned = texts.turned;
+    look.angles = texts.angles;
     look.title = texts.title;
     look.texts = !texts.bare;
     look.points = !texts.bare;
     look.path = !texts.bare;
+    if (look.turned && texts.frame == "m")
+        throw WrongCall(
+            "--turned shows the rotation in the lab: it needs --frame lab or --frame both.");
+    if (look.angles && texts.frame == "lab")
+        throw WrongCall(
+            "--angles shows the θ of the turning frame: it needs --frame m or --frame both.");
     if (look.forces && texts.frame == "lab")
         throw WrongCall(
             "--forces shows the forces of the turning frame: it needs --frame m or --frame both.");

@@ -6,6 +6,7 @@
 #include "app/progress_line.hpp"
 #include "app/stop_signal.hpp"
 #include "lab/paper.hpp"
+#include "lab/paper_movies.hpp"
 #include "lab/run_parameters.hpp"
 #include "lab/run_report.hpp"
 
@@ -16,8 +17,28 @@ struct PaperCall {
     PaperSettings settings;
     std::string out = "out", events, seed;
     std::vector<std::string> figures;
-    bool quiet = false;
+    bool quiet = false, movies = false;
 };
+
+void make_movies(const PaperCall& call) {
+    PaperMoviesSettings settings;
+    settings.out = call.out;
+    settings.quick = call.settings.quick;
+    settings.seed = call.settings.seed;
+    std::vector<std::filesystem::path> files;
+    {
+        ProgressLine line("movies", call.quiet);
+        PaperMoviesControl control;
+        control.stop = &stop_signal();
+        control.progress = [&](double fraction, const std::string& name) {
+            line.show(fraction, name);
+        };
+        files = make_paper_movies(settings, control);
+    }
+    std::string text;
+    for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
+    print_all(text);
+}
 
 void make_paper(PaperCall& call) {
     call.settings.out = call.out;
@@ -27,6 +48,10 @@ void make_paper(PaperCall& call) {
     for (const std::string& name : call.figures) figures.push_back(paper_figure(name));
     if (figures.empty()) figures = paper_figures();
     make_folder(call.out);
+    if (call.movies) {
+        make_movies(call);
+        if (call.figures.empty()) return;
+    }
 
     PaperResult result;
     {
@@ -66,6 +91,8 @@ void add_paper_command(CLI::App& subcommand) {
         ->expected(1, 100);
     subcommand.add_flag("--quick", call->settings.quick,
                         "fewer points and shorter runs: the shape in a minute");
+    subcommand.add_flag("--movies", call->movies,
+                        "the paper's numerical videos, and movies.html that plays them");
     subcommand.add_option("--events", call->events, "length of every run [1e6 as in the paper]")
         ->type_name("NUMBER");
     subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");

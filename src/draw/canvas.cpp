@@ -23,7 +23,7 @@ void set_up_text(cairo_t* cairo) {
     cairo_font_options_destroy(options);
 }
 
-std::string written_aside(const std::string& path) { return path + ".part"; }
+std::string written_aside(const std::string& path) { return path + ".partial"; }
 
 cairo_status_t append_to_file(void* file, const unsigned char* bytes, unsigned int count) {
     return std::fwrite(bytes, 1, count, static_cast<std::FILE*>(file)) == count

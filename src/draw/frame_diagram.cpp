@@ -113,7 +113,6 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
         const FrameAt at(now, Frame::m);
         const Vec2 p = at.position(now.position(disc));
         const Vec2 v = at.velocity(now.position(disc), now.velocity(disc));
-        const double omega = full_turn / now.period;
         draw_centrifugal_field(canvas, views[2], theme, radius, amplitude, p);
         const Vec2 place = views[2].on_page(p);
         const double r = scale * now.radius[disc];
@@ -125,21 +124,27 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
         const double speed = std::sqrt(dot(v, v));
         const Vec2 u = (2.9 * now.radius[disc] / std::max(speed, 1e-300)) * v;
         const Vec2 force = -0.85 * perpendicular(u);
-        const auto named = [&](const Vec2& arm, const Color& color, const char* name) {
-            const Vec2 tip = views[2].on_page(p + arm);
-            draw_arrow(canvas, place, tip, 0.17 * r, color);
-            const Vec2 away = (1.0 / std::sqrt(dot(arm, arm))) * arm;
+        const LabelStyle plain{.size = 0.8 * type, .color = theme.ink, .align = Align::center,
+                               .bold = true, .halo = theme.floor};
+        const auto named = [&](const Vec2& arm, const Vec2& beside, const Color& color,
+                               const char* name) {
+            draw_arrow(canvas, place, views[2].on_page(p + arm), 0.17 * r, color);
+            LabelStyle label = plain;
+            label.color = color;
+            const Vec2 at_label = views[2].on_page(p + 0.75 * arm);
             draw_label(canvas, name,
-                       {tip.x + 0.75 * type * away.x, tip.y - 0.75 * type * away.y + 0.3 * type},
-                       {.size = type, .color = color, .align = Align::center, .bold = true,
-                        .halo = theme.floor});
+                       {at_label.x + type * beside.x, at_label.y - type * beside.y + 0.25 * type},
+                       label);
         };
-        named(u, theme.velocity, "$v$");
-        named(force, theme.coriolis, omega > 0.0 ? "$F_{Cor}$" : "");
-        draw_label(canvas, "$F_{cent}$",
-                   views[2].on_page({0.34 * radius, -0.86 * radius}),
-                   {.size = type, .color = theme.centrifugal, .align = Align::left, .bold = true,
-                    .halo = theme.floor});
+        // Each name stands beside its arrow, away from the other one.
+        const Vec2 along = (1.0 / std::sqrt(dot(u, u))) * u;
+        const Vec2 right = -1.0 * perpendicular(along);
+        named(u, -0.75 * right, theme.velocity, "$v$");
+        named(force, -1.0 * along, theme.coriolis, "$F_{Cor}$");
+        LabelStyle field = plain;
+        field.color = theme.centrifugal;
+        field.halo = std::nullopt;
+        draw_label(canvas, "$F_{cent}$", views[2].on_page({0.72 * radius, -1.02 * radius}), field);
     }
     draw_points(canvas, views[2], style, {.now = empty});
 }

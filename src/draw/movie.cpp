@@ -118,7 +118,7 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 
 MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
                          int frames_per_second)
-    : path_(path), aside_(path + ".part") {
+    : path_(path), aside_(path + ".partial") {
     // ffmpeg would say this too, but only once the first frames have been drawn.
     const int probe = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (probe < 0)

@@ -370,6 +370,39 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
     }
 }
 
+void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    if (!content.turned || view.frame != Frame::lab) return;
+    cairo_t* cairo = canvas.cairo();
+    const Snapshot& now = content.now;
+    const Theme& theme = style.theme;
+    const double unit = line_unit(view, now), width = 0.035 * unit;
+    const double radius = unit * (1.0 + wall_thickness + 0.045);
+    const Vec2 c = view.on_page(now.container_centre);
+    const double turns = *content.turned;
+    const Color color = turns < 0.0 ? theme.pinned : theme.loose;
+    // From the top; beyond a whole turn only the rest is shown, the number tells the whole.
+    const double top = -0.5 * pi, sweep = -full_turn * (turns - std::trunc(turns));
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_width(cairo, width);
+    cairo_new_sub_path(cairo);
+    if (sweep < 0.0) cairo_arc_negative(cairo, c.x, c.y, radius, top, top + sweep);
+    else cairo_arc(cairo, c.x, c.y, radius, top, top + sweep);
+    canvas.set(color);
+    cairo_stroke(cairo);
+    // A head that points on along the arc.
+    const double sense = turns < 0.0 ? 1.0 : -1.0, end = top + sweep;
+    const Vec2 outward{std::cos(end), std::sin(end)};
+    const Vec2 along{-sense * outward.y, sense * outward.x};
+    const Vec2 base = c + radius * outward;
+    const Vec2 tip = base + 2.4 * width * along;
+    cairo_move_to(cairo, tip.x, tip.y);
+    cairo_line_to(cairo, base.x + 1.5 * width * outward.x, base.y + 1.5 * width * outward.y);
+    cairo_line_to(cairo, base.x - 1.5 * width * outward.x, base.y - 1.5 * width * outward.y);
+    cairo_close_path(cairo);
+    cairo_fill(cairo);
+}
+
 void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     draw_dish(canvas, view, style, content.now);
@@ -384,6 +417,7 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
     }
     draw_points(canvas, view, style, content);
     draw_angles(canvas, view, style, content.now);
+    draw_turned(canvas, view, style, content);
 }
 
 }  // namespace swirl

@@ -54,6 +54,9 @@ struct SceneContent {
     std::span<const Snapshot* const> past = {};
     /// Instants drawn faintly beneath, oldest first: a stroboscopic picture.
     std::span<const Snapshot* const> ghosts = {};
+    /// Whole and part turns of the cluster since some beginning, counter-clockwise: an arc round the
+    /// dish shows it. Lab frame only.
+    std::optional<double> turned = {};
 };
 
 /// Everything, back to front.
@@ -72,6 +75,9 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
 void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const Snapshot& now, std::span<const std::size_t> discs);
 void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content);
+
+void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const SceneContent& content);
 
 /// An arrow from `tail` to `tip`, on the page. Nothing if it is too short to have a head.

@@ -43,7 +43,8 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
     for (const Panel& panel : spec_.panels) {
         const Rectangle square{x, y, side, side};
         views_.push_back(
-            fitting_view(square, panel.frame, panel.container_radius, panel.amplitude));
+            fitting_view(square, panel.frame, panel.container_radius,
+                                      panel.amplitude, panel.turned ? 0.1 : 0.0));
         if (caption > 0.0)
             texts_.push_back(
                 {panel.caption,
@@ -249,10 +250,27 @@ void Sheet::draw_still(const Canvas& canvas) const {
     if (plot_area_) draw_plot_frame(canvas, *plot_area_, spec_.style.theme, *spec_.plot);
 }
 
+void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const {
+    draw_scene(canvas, views_[k], spec_.style, content);
+    const Panel& panel = spec_.panels[k];
+    if (!content.turned || !panel.turned || type_ < smallest_type) return;
+    // In the corner beside the dish, where it never comes.
+    const double reach = views_[k].pixels_per_unit * panel.container_radius;
+    const std::string number = (*content.turned < 0.0 ? "−" : "+") +
+                               fixed(std::abs(*content.turned), 2) + " turns";
+    const Theme& theme = spec_.style.theme;
+    draw_label(canvas, number,
+               {views_[k].centre.x + 0.62 * reach, views_[k].centre.y + 1.22 * reach},
+               {.size = 1.1 * type_,
+                .color = *content.turned < 0.0 ? theme.pinned : theme.loose,
+                .bold = true,
+                .even_digits = true});
+}
+
 void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
                         std::span<const Curve> curves, double swirls) const {
     for (std::size_t k = 0; k < contents.size() && k < views_.size(); ++k)
-        draw_scene(canvas, views_[k], spec_.style, contents[k]);
+        draw_panel(canvas, k, contents[k]);
     if (plot_area_)
         draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
     if (clock_place_)

@@ -22,6 +22,7 @@ struct Panel {
     Frame frame = Frame::lab;
     std::string caption;
     double container_radius = 1.0, amplitude = 0.0;
+    bool turned = false;  // room for the arc of SceneContent::turned, and its number
 };
 
 struct SheetSpec {
@@ -60,6 +61,7 @@ class Sheet {
     void lay_out_bands(const Canvas& canvas);
     void lay_out_panels(const Rectangle& area, double side, double gap);
     void draw_legend(const Canvas& canvas) const;
+    void draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const;
     double legend_height() const;
     double column_width(const Canvas& canvas) const;
 

@@ -11,11 +11,12 @@ FrameAt::FrameAt(const Snapshot& snapshot, Frame frame) {
 }
 
 View fitting_view(const Rectangle& rectangle, Frame frame, double container_radius,
-                  double amplitude) {
+                  double amplitude, double around) {
     const double wall = container_radius * (1.0 + wall_thickness);
-    const double room_for_labels = frame == Frame::m ? 0.11 * container_radius : 0.0;
-    const double reach =
-        std::max(frame == Frame::lab ? wall + amplitude : wall + room_for_labels, 1e-300);
+    // The letters at M and at the angles stand outside the wall.
+    const double lab = wall + amplitude + around * container_radius;
+    const double turning = wall + std::max(0.11, around) * container_radius;
+    const double reach = std::max(frame == Frame::lab ? lab : turning, 1e-300);
     const double half = 0.5 * std::min(rectangle.width, rectangle.height);
     return {frame,
             {rectangle.x + 0.5 * rectangle.width, rectangle.y + 0.5 * rectangle.height},

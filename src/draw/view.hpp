@@ -48,9 +48,9 @@ struct View {
 };
 
 /// The largest view of a dish of the given radius and swirl amplitude that fits the rectangle, wall
-/// and labels included.
+/// and labels included; `around` is further room round the dish, in units of its radius.
 View fitting_view(const Rectangle& rectangle, Frame frame, double container_radius,
-                  double amplitude);
+                  double amplitude, double around = 0.0);
 
 /// Thickness of the drawn wall, in units of the container's radius.
 inline constexpr double wall_thickness = 0.045;

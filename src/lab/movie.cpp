@@ -141,8 +141,13 @@ class Easel {
         for (std::size_t k = 0; k < config.footage.size(); ++k) {
             for (const Moment& moment : instant.past[k]) past[k].push_back(moment.get());
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
+{
                 contents.push_back(
                     {*instant.now[k], config.footage[k].path, instant.pinned[k], past[k]});
+                if (config.appearance.turned)
+                    contents.back().turned =
+                        turns_until(curves[k], config.start, instant.swirls);
+            }
         }
         sheet.draw_moving(canvas_, contents, curves, instant.swirls);
         return canvas_;
@@ -255,7 +260,8 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
     for (const Footage& dish : footage) {
         for (Frame frame : appearance.frames) {
             const std::string name = frame == Frame::lab ? "lab frame" : "M-frame";
-            Panel panel{frame, "", dish.container_radius, dish.amplitude};
+            Panel panel{frame, "", dish.container_radius, dish.amplitude,
+                        appearance.turned && frame == Frame::lab};
             if (appearance.texts && footage.size() > 1)
                 panel.caption =
                     appearance.frames.size() > 1 ? dish.caption + ", " + name : dish.caption;
@@ -275,13 +281,13 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
     }
     const bool scaled =
         appearance.coloring == Coloring::spin || appearance.coloring == Coloring::speed;
-    if (appearance.plot || scaled) {
+    if (appearance.plot || appearance.turned || scaled) {
         Survey survey;
         for (std::size_t k = 0; k < footage.size(); ++k) {
             Curve curve = survey.look(footage[k], appearance.frames.front(), start, end);
             curve.color = k == 0 ? appearance.theme.curve : appearance.theme.pinned;
             if (footage.size() > 1) curve.label = footage[k].caption;
-            if (appearance.plot) curves.push_back(std::move(curve));
+            curves.push_back(std::move(curve));
         }
         spec.style.full_spin = scale_end(std::move(survey.spins));
         spec.style.full_speed = scale_end(std::move(survey.speeds));
@@ -296,6 +302,18 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
         spec.plot = plot;
     }
     return Sheet(spec);
+}
+
+double turns_until(const Curve& curve, double start, double now) {
+    double turns = 0.0, last = start;
+    for (std::size_t k = 0; k < curve.time.size() && last < now; ++k) {
+        // Each sample stands for the time since the one before it.
+        if (curve.time[k] <= start) continue;
+        const double next = std::min(curve.time[k], now);
+        if (std::isfinite(curve.raw[k])) turns += (next - last) * curve.raw[k];
+        last = next;
+    }
+    return turns;
 }
 
 MovieResult make_movie(const MovieConfig& config, const MovieControl& control) try {

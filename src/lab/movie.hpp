@@ -29,6 +29,7 @@ struct Appearance {
     std::optional<double> slice = {};   // θ of a highlighted slice (paper, Fig. 2a)
     bool clock = true;
     bool plot = false;
+    bool turned = false;                // an arc: how far the cluster has turned, lab frame
     bool texts = true;
     std::string title;
     Theme theme = dark_theme();
@@ -83,8 +84,11 @@ class PinnedWatch {
 };
 
 /// The page for these dishes, with scales and plot fitted to the swirls from `start` to `end`.
-/// `curves` receives what the plot shows.
+/// `curves` receives, per dish, what plot and arcs show.
 Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearance, double start,
                  double end, std::vector<Curve>& curves);
+
+/// Turns of the cluster from `start` to `now`: the integral of ϖ/Ω over the swirls.
+double turns_until(const Curve& curve, double start, double now);
 
 }  // namespace swirl

@@ -49,29 +49,31 @@ PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& 
     return config;
 }
 
+void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
+    const Snapshot s = simulated(paper_run(28, seed)).open()(20.13);
+    // The disc nearest to a place where its arrows have room, right of C.
+    const FrameAt at(s, Frame::m);
+    std::size_t chosen = 0;
+    double nearest = never;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 away = at.position(s.position(i)) - Vec2{4.6, -1.6};
+        if (dot(away, away) >= nearest) continue;
+        nearest = dot(away, away);
+        chosen = i;
+    }
+    Canvas canvas(Size{1500, 560}, *picture_format(file), file);
+    draw_frame_diagram(canvas, light_theme(), s, chosen);
+    canvas.finish();
+} catch (const DrawFailure& failure) {
+    throw Failure(failure.what());
+}
+
 }  // namespace
 
 FigurePlan plan_figure_1c(const PaperSettings& settings) {
     return picture_plan(
         "figure_1c", "Figure 1c: drawn; the forces are those on one of 28 discs at swirl 20.13.",
-        [seed = settings.seed](const std::string& file) try {
-            const Snapshot s = simulated(paper_run(28, seed)).open()(20.13);
-            Canvas canvas(Size{1500, 560}, *picture_format(file), file);
-            // The disc nearest to a place where its arrows have room, right of C.
-            const FrameAt at(s, Frame::m);
-            std::size_t chosen = 0;
-            double nearest = never;
-            for (std::size_t i = 0; i < s.size(); ++i) {
-                const Vec2 away = at.position(s.position(i)) - Vec2{4.2, -0.5};
-                if (dot(away, away) >= nearest) continue;
-                nearest = dot(away, away);
-                chosen = i;
-            }
-            draw_frame_diagram(canvas, light_theme(), s, chosen);
-            canvas.finish();
-        } catch (const DrawFailure& failure) {
-            throw Failure(failure.what());
-        });
+        [seed = settings.seed](const std::string& file) { draw_figure_1c(seed, file); });
 }
 
 FigurePlan plan_figure_2a(const PaperSettings& settings) {

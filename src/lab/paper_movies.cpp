@@ -52,8 +52,8 @@ std::vector<Row> all_rows(std::uint64_t seed) {
     std::vector<Row> rows;
     rows.push_back(numerical(
         "All friction", 1.0, 1.0, seed, Coloring::id, Coloring::pinned,
-        "Watch one colour in the lab frame: 28 discs drift round with the swirl, 48 creep the other "
-        "way. In the M-frame discs stick to the wall, ride up with it, come off and cross over; "
+        "The arc round the dish adds up how far the cluster has turned: 28 discs drift round with the "
+        "swirl, 48 creep the other way. In the M-frame discs stick to the wall, ride up with it, come off and cross over; "
         "with 48 discs the pinned region (red) reaches much farther."));
     rows.push_back(numerical(
         "No disc friction", 0.0, 1.0, seed, Coloring::spin, Coloring::spin,
@@ -160,7 +160,9 @@ std::vector<std::filesystem::path> make_paper_movies(const PaperMoviesSettings& 
                 config.footage = {version.footage};
                 config.start = model ? 0.0 : static_cast<double>(default_warmup);
                 config.frames_per_second = settings.quick ? 30 : 60;
-                config.frames = settings.quick ? 90 : 600;
+                config.frames = settings.quick ? 90 : 900;
+                config.pace = 1.0;
+                config.appearance.turned = lab;
                 config.appearance.frames = {frame};
                 config.appearance.coloring = lab ? row.lab_coloring : row.m_coloring;
                 config.appearance.size = settings.quick ? Size{360, 360} : Size{900, 900};

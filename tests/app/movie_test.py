@@ -96,8 +96,8 @@ class MovieTest(unittest.TestCase):
              "--start", "0", "--out", out],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
         deadline = time.time() + 60
-        while time.time() < deadline and not (os.path.exists(out + ".part")
-                                              and os.path.getsize(out + ".part") > 20000):
+        while time.time() < deadline and not (os.path.exists(out + ".partial")
+                                              and os.path.getsize(out + ".partial") > 20000):
             time.sleep(0.05)
         os.killpg(process.pid, signal.SIGINT)
         _, errors = process.communicate(timeout=60)
@@ -145,6 +145,23 @@ class MovieTest(unittest.TestCase):
         self.assert_wrong_call(swirl("--out", out, "--rolling-ball", "2"), "2")
         self.assert_wrong_call(swirl("--out", self.path("x.gif"), "--seconds", "600", "--size",
                                      "1920x1080"), "memory")
+
+    def test_a_recording_is_played_to_its_end(self):
+        run = subprocess.run([SWIRL, "run", "--discs", "10", "--periods", "2", "--quiet",
+                              "--trajectory", self.path("run.h5")], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        out = self.path("x.mp4")
+        result = swirl(self.path("run.h5"), "--pace", "2", "--fps", "20", "--size", "64x64",
+                       "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Two swirls, at two per second; the last frame may fall just outside the recording.
+        self.assertIn(int(probe(out, "stream=nb_read_frames")), (20, 21))
+        wrong = swirl(self.path("run.h5"), "--discs", "3", "--out", out)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("--discs", wrong.stderr)
+        wrong = swirl(self.path("run.h5"), "--seconds", "100", "--out", out)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("ends at swirl", wrong.stderr)
 
     def test_a_full_disk_is_a_clear_error(self):
         if os.geteuid() != 0:

@@ -79,7 +79,7 @@ TEST_F(CanvasFiles, APictureThatCannotBeWrittenIsAClearErrorAndLeavesNothing) {
 
 TEST_F(CanvasFiles, AFullDiskIsAClearErrorAndLeavesNothing) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
-    fs::create_symlink("/dev/full", path("x.png.part"));
+    fs::create_symlink("/dev/full", path("x.png.partial"));
     EXPECT_THROW(draw(PictureFormat::png, path("x.png")), DrawFailure);
     EXPECT_FALSE(fs::exists(path("x.png")));
 }

@@ -154,7 +154,7 @@ TEST_F(Movie, AnFfmpegThatDiesIsAClearErrorAndLeavesNoFile) {
         EXPECT_NE(text.find("the encoder caught fire"), std::string::npos) << text;
     }
     EXPECT_FALSE(fs::exists(path("x.mp4")));
-    EXPECT_FALSE(fs::exists(path("x.mp4.part")));
+    EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
 }
 
 TEST_F(Movie, AnFfmpegThatIsKilledIsAClearError) {
@@ -173,7 +173,7 @@ TEST_F(Movie, AnFfmpegThatFailsAtTheEndIsAClearError) {
     replace_ffmpeg("cat >/dev/null; echo 'No space left on device' >&2; exit 0");
     EXPECT_THROW(make(path("x.mp4"), {64, 48}, 30, 3), DrawFailure);
     EXPECT_FALSE(fs::exists(path("x.mp4")));
-    EXPECT_FALSE(fs::exists(path("x.mp4.part")));
+    EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
 }
 
 TEST_F(Movie, AFolderThatIsNotThereIsAClearError) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "draw/frame_diagram.hpp"
 #include "draw/sheet.hpp"
 #include "pictures.hpp"
 
@@ -235,6 +236,71 @@ TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
     const double coriolis = direction(tail, patch_of(canvas, style.theme.coriolis).middle);
     EXPECT_NEAR(turned_by(page_angle(p - swirl_centre), centrifugal), 0.0, 0.05);
     EXPECT_NEAR(turned_by(page_angle(v) - 0.5 * pi, coriolis), 0.0, 0.05);
+}
+
+TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotation) {
+    const Snapshot s = dish(0.25);
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{500, 500});
+    const View view = fitting_view({0, 0, 500, 500}, Frame::lab, 8.6, 1.892, 0.1);
+    const Vec2 centre = view.on_page(s.container_centre);
+    for (const double turns : {0.2, -0.2, 1.2, -3.2}) {
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {.now = s, .turned = turns});
+        const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
+        const Patch arc = patch_of(canvas, color);
+        ASSERT_GT(arc.count, 100.0);
+        // From the top through 0.2 turns: its middle lies 0.1 turns beside the top, a bit more with
+        // the head.
+        const double expected = 0.5 * pi + (turns < 0.0 ? -1.0 : 1.0) * 0.1 * 2.0 * pi;
+        EXPECT_NEAR(turned_by(expected, direction(centre, arc.middle)), 0.0, 0.12) << turns;
+    }
+}
+
+TEST(Scene, GhostsLieBeneathTheDiscs) {
+    Snapshot now = dish(0.0), before = dish(0.0);
+    add_disc(now, {2.0, 0.0});
+    add_disc(before, {-2.0, 0.0});
+    const Snapshot* ghosts[] = {&before, &now};
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {.now = now, .ghosts = ghosts});
+    EXPECT_TRUE(is(pixel(canvas, view.on_page({2.0, 0.0})), style.theme.disc));
+    const Pixel faint = pixel(canvas, view.on_page({-2.0, 0.0}));
+    EXPECT_GT(faint.blue, 255.0 * style.theme.floor.blue + 5.0);
+    EXPECT_LT(faint.blue, 255.0 * style.theme.disc.blue - 50.0);
+}
+
+TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
+    Snapshot s = dish(0.4);
+    SceneStyle style = plain_style();
+    style.slice = 0.75 * pi;  // up and to the left
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::m);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+    const auto green_over_red = [&](double x, double y) {
+        const Pixel p = pixel(canvas, view.on_page({x, y}));
+        return p.green - p.red;
+    };
+    EXPECT_GT(green_over_red(-4.0, 4.0), 30);
+    EXPECT_LT(green_over_red(4.0, 4.0), 30);
+    EXPECT_LT(green_over_red(-4.0, -4.0), 30);
+}
+
+TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
+    Snapshot s = dish(0.13);
+    add_disc(s, {5.0, 0.0});
+    const Theme theme = light_theme();
+    Canvas canvas(Size{1200, 450});
+    draw_frame_diagram(canvas, theme, s, 0);
+    const Patch centrifugal = patch_of(canvas, theme.centrifugal);
+    EXPECT_GT(centrifugal.count, 500.0);
+    EXPECT_GT(centrifugal.middle.x, 800.0);  // all in the third part
+    EXPECT_GT(patch_of(canvas, theme.coriolis).count, 50.0);
+    EXPECT_GT(patch_of(canvas, theme.velocity).count, 50.0);
 }
 
 TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {

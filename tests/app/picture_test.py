@@ -1,0 +1,97 @@
+"""swirl picture and the drawn parts of swirl paper, tried from outside."""
+
+import os
+import struct
+import subprocess
+import tempfile
+import unittest
+
+SWIRL = os.environ["SWIRL"]
+
+
+def swirl(*arguments):
+    return subprocess.run([SWIRL, *arguments], capture_output=True, text=True, timeout=150)
+
+
+def contents(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class PictureTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_every_format_is_the_same_twice(self):
+        for ending, signature in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+            both = []
+            for name in ("one.", "two."):
+                out = self.path(name + ending)
+                result = swirl("picture", "--discs", "28", "--at", "3.3", "--frame", "both",
+                               "--color", "pinned", "--trails", "--size", "400x240", "--theme",
+                               "light", "--out", out)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                both.append(contents(out))
+            self.assertTrue(both[0].startswith(signature))
+            self.assertTrue(both[0] == both[1], ending)
+
+    def test_a_png_has_its_size(self):
+        result = swirl("picture", "--discs", "5", "--at", "0", "--size", "123x77", "--out",
+                       self.path("x.png"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(struct.unpack(">II", contents(self.path("x.png"))[16:24]), (123, 77))
+
+    def test_wrong_calls(self):
+        out = self.path("x.png")
+        for arguments, word in (
+                ((), "--out"),
+                (("--out", self.path("x.bmp")), ".svg"),
+                (("--out", out, "--at", "-1"), "-1"),
+                (("--out", out, "--at", "nan"), "nan"),
+                (("--out", out, "--strobe", "0"), "0 flashes"),
+                (("--out", out, "--strobe", "30"), "-9"),
+                (("--out", out, "--every", "0"), "0"),
+                (("--out", out, "--turned", "--frame", "m"), "--frame"),
+                (("--out", out, "--angles"), "--frame"),
+                (("--out", out, "--trail-length", "0"), "--trail-length"),
+                (("--out", out, "--rolling-ball", "1", "--beside", "3"), "--beside"),
+                (("--out", out, "--rolling-ball", "1", "--ball-radius", "9"), "9")):
+            result = swirl("picture", *arguments)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertIn(word, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_file_that_is_no_recording_is_a_clear_error(self):
+        with open(self.path("x.h5"), "w", encoding="utf-8") as file:
+            file.write("hello")
+        result = swirl("picture", self.path("x.h5"), "--out", self.path("x.png"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("x.h5", result.stderr)
+
+    def test_the_papers_movies(self):
+        result = swirl("paper", "--movies", "--quick", "--quiet", "--out", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = contents(self.path("movies.html")).decode()
+        movies = [name for name in os.listdir(self.folder) if name.endswith(".mp4")]
+        self.assertEqual(len(movies), 16)
+        for name in movies:
+            self.assertEqual(page.count(f'src="{name}"'), 1)
+        for system in ("all-friction", "no-disc-friction", "no-wall-friction"):
+            for frame in ("lab-frame", "m-frame"):
+                for case in ("rotating", "counterrotating"):
+                    self.assertIn(f"numerical-{frame}-{system}-{case}.mp4", movies)
+        frames = subprocess.run(
+            ["ffprobe", "-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries",
+             "stream=width,height,nb_read_frames,duration", self.path(movies[0])],
+            capture_output=True, text=True, check=True).stdout.strip()
+        self.assertEqual(frames, "360,360,3.000000,90")
+
+
+if __name__ == "__main__":
+    unittest.main()
