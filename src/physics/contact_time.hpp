@@ -19,20 +19,26 @@
 
 namespace swirl {
 
-/// Two discs, from outside: the smaller root, c / (√(b² − ac) − b), with b < 0.
+/// Two discs, from outside: the smaller root, c / (√(b² − ac) − b), with b < 0. Gives the time to
+/// wait from the moment at which s and v hold.
 template <class Real>
-SWIRL_INLINE Real time_of_contact(const Flight<Real>& i, const Flight<Real>& j,
-                                  const Real& sum_of_radii) {
-    const Real now = larger(i.time, j.time);
-    const BasicVec2<Real> s = j.position_at(now) - i.position_at(now);
-    const BasicVec2<Real> v = j.velocity - i.velocity;
+SWIRL_INLINE Real time_until_contact(const BasicVec2<Real>& s, const BasicVec2<Real>& v,
+                                     const Real& sum_of_radii) {
     const Real a = dot(v, v);
     const Real b = dot(s, v);
     const Real c = dot(s, s) - sum_of_radii * sum_of_radii;
     const Real discriminant = b * b - a * c;
     const auto meet = (b < Real(0.0)) & (discriminant >= Real(0.0));
     const Real wait = larger(c, Real(0.0)) / (square_root(discriminant) - b);
-    return select(meet, now + wait, Real(never));
+    return select(meet, wait, Real(never));
+}
+
+template <class Real>
+SWIRL_INLINE Real time_of_contact(const Flight<Real>& i, const Flight<Real>& j,
+                                  const Real& sum_of_radii) {
+    const Real now = larger(i.time, j.time);
+    const BasicVec2<Real> s = j.position_at(now) - i.position_at(now);
+    return now + time_until_contact(s, j.velocity - i.velocity, sum_of_radii);
 }
 
 /// A disc inside a circle that moves with it uniformly: the larger root. `s` is the disc's position

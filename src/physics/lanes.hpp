@@ -228,6 +228,52 @@ SWIRL_INLINE unsigned lanes_equal(const Lanes<W>& a, double x) {
     return bits;
 }
 
+/// Bit k is set where from[k] < x, k < 8; `from` is aligned.
+SWIRL_INLINE unsigned lanes_below(const double* from, double x) {
+    const Lanes<8> a = Lanes<8>::load(from);
+    unsigned bits = 0;
+    for (int p = 0; p < Lanes<8>::parts; ++p) {
+#if SWIRL_REGISTER_BYTES >= 64
+        bits |= _mm512_cmp_pd_mask(a.part[p], _mm512_set1_pd(x), _CMP_LT_OQ);
+#elif SWIRL_REGISTER_BYTES >= 32
+        bits |= static_cast<unsigned>(
+                    _mm256_movemask_pd(_mm256_cmp_pd(a.part[p], _mm256_set1_pd(x), _CMP_LT_OQ)))
+                << (4 * p);
+#elif defined(__SSE2__)
+        bits |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd(a.part[p], _mm_set1_pd(x))))
+                << (2 * p);
+#else
+        bits |= ((a.part[p][0] < x ? 1u : 0u) | (a.part[p][1] < x ? 2u : 0u)) << (2 * p);
+#endif
+    }
+    return bits;
+}
+
+/// Bit k is set where gap[k] − reach[k] < x, k < 8; both are aligned.
+SWIRL_INLINE unsigned lanes_closer(const double* gap, const double* reach, double x) {
+    alignas(64) double need[8];
+    (Lanes<8>::load(gap) - Lanes<8>::load(reach)).store(need);
+    return lanes_below(need, x);
+}
+
+/// Where k stands in a list of disc numbers whose room is a multiple of 4; it must be there.
+SWIRL_INLINE std::uint32_t place_in_list(const std::uint32_t* list, std::uint32_t room,
+                                         std::uint32_t k) {
+#if defined(__SSE2__)
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(k));
+    for (std::uint32_t slot = 0; slot < room; slot += 4) {
+        const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(list + slot));
+        const int bits = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, wanted)));
+        if (bits != 0) return slot + static_cast<std::uint32_t>(__builtin_ctz(unsigned(bits)));
+    }
+    return 0;
+#else
+    std::uint32_t slot = 0;
+    while (list[slot] != k && slot + 1 < room) ++slot;
+    return slot;
+#endif
+}
+
 /// The vector with lane k replaced by x.
 template <int W>
 SWIRL_INLINE Lanes<W> with_lane(const Lanes<W>& a, unsigned k, double x) {
@@ -276,6 +322,13 @@ SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, La
         }
     }
 #endif
+}
+
+/// How many of the first `count` doubles are below x. `count` is a multiple of 8, `from` aligned.
+SWIRL_INLINE unsigned count_below(const double* from, unsigned count, double x) {
+    unsigned below = 0;
+    for (unsigned k = 0; k < count; k += 8) below += __builtin_popcount(lanes_below(from + k, x));
+    return below;
 }
 
 }  // namespace SWIRL_TARGET

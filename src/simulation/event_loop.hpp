@@ -84,22 +84,23 @@ struct Leaving {
 SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) {
     const HotDisc& disc = m.discs[i];
     const Leg& leg = m.legs[m.leg];
-    const Plan& plan = m.plan(i);
+    const Neighbourhood& mine = m.neighbourhoods[i];
     const Flight<double> flight = flight_of(disc);
     const Flight<double> frame = carried_frame(leg);
     const double now = larger(flight.time, frame.time);
     const Vec2 s = flight.position_at(now) - frame.position_at(now);
     const Vec2 v = flight.velocity - frame.velocity;
-    const Vec2 offset = s + (t - now) * v - Vec2{plan.X, plan.Y};
+    const Vec2 offset = s + (t - now) * v - Vec2{mine.X, mine.Y};
     const double clearance = m.container_radius - disc.radius;
-    const double freedom = static_cast<double>(m.rest[i].freedom) * (1.0 - freedom_margin);
+    const double freedom =
+        static_cast<double>(m.neighbourhoods[i].freedom) * (1.0 - freedom_margin);
     const BasicVec2<Lanes<2>> from{two_lanes(s.x, offset.x), two_lanes(s.y, offset.y)};
     const BasicVec2<Lanes<2>> velocity{Lanes<2>(v.x), Lanes<2>(v.y)};
     const Lanes<2> wait = time_to_leave(from, velocity, two_lanes(clearance, freedom));
     const double neighbourhood = t + wait.part[0][1];
     if (leg.turning != 0.0) [[unlikely]]
         return {time_of_turning_wall_contact(flight, leg, clearance), neighbourhood};
-    return {disc.kind & far_from_wall ? never : now + wait.part[0][0], neighbourhood};
+    return {disc.far_from_wall ? never : now + wait.part[0][0], neighbourhood};
 }
 
 /// Puts disc i's earliest event on its card. At equal times a disc comes before the wall exactly if
@@ -130,14 +131,14 @@ SWIRL_INLINE FreedomRange freedom_range(const Machine& m) {
 static void start_narrow(Machine& m, double t) {
     FreedomRange narrow = freedom_range(m);
     narrow.longest = 0.02 * m.smallest_radius;
-    narrow.least = 0.0;
+    narrow.least = 0.001 * m.smallest_radius;
     make_all_neighbourhoods(m, t, narrow);
 }
 
 [[gnu::noinline]] static void renew_neighbourhood(Machine& m, std::uint32_t i, double t) {
     ++m.relists;
-    settle(m, i, t);
-    if (claim(m, i, freedom_range(m))) {
+    const double before = settle(m, i, t);
+    if (claim(m, i, before, freedom_range(m))) {
         predict(m, i, t);
         return;
     }
@@ -161,8 +162,7 @@ static void start_narrow(Machine& m, double t) {
     }
     start_narrow(m, m.clock);
     for (std::uint32_t i = 0; i < m.size; ++i) {
-        settle(m, i, m.clock);
-        if (claim(m, i, freedom_range(m))) continue;
+        if (claim(m, i, settle(m, i, m.clock), freedom_range(m))) continue;
         start_narrow(m, m.clock);
         break;
     }
@@ -199,7 +199,7 @@ SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i) {
     // short and precise however long the run.
     for (std::uint32_t i = 0; i < m.size; ++i) {
         HotDisc& disc = m.discs[i];
-        m.rest[i].angle = m.rest[i].angle + (m.clock - disc.time) * disc.spin;
+        m.plan(i).angle = m.plan(i).angle + (m.clock - disc.time) * disc.spin;
         disc.position = flight_of(disc).position_at(m.clock);
         disc.time = 0.0;
         ++disc.changes;
@@ -215,7 +215,7 @@ SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i) {
 SWIRL_INLINE void write_back(Machine& m, std::uint32_t i, const Vec2& position, double t,
                              const Body& body) {
     HotDisc& disc = m.discs[i];
-    m.rest[i].angle = m.rest[i].angle + (t - disc.time) * disc.spin;
+    m.plan(i).angle = m.plan(i).angle + (t - disc.time) * disc.spin;
     const auto store = [](double* to, double a, double b) {
         *reinterpret_cast<Double2*>(to) = Double2{a, b};
     };
@@ -227,7 +227,7 @@ SWIRL_INLINE void write_back(Machine& m, std::uint32_t i, const Vec2& position, 
 }
 
 SWIRL_INLINE Body body_of(const Machine& m, const HotDisc& d) {
-    const DiscKind& kind = m.kinds[d.kind & ~far_from_wall];
+    const DiscKind& kind = m.kinds[d.kind];
     return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
 }
 

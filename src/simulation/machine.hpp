@@ -1,6 +1,6 @@
 // All the state the event loop works on, as plain columns. The types a reader meets are Disc, Leg
 // and Event; this is how they are stored while the loop runs, in the order in which it touches
-// them: 154 bytes per disc of one kind.
+// them.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,10 @@ struct alignas(64) HotDisc {
     double time, radius;
     double spin;
     std::uint32_t changes;  // collisions so far, mod 2³²: tells that a prediction has gone stale
-    std::uint32_t kind;     // row of Machine::kinds, and whether its neighbourhood is off the wall
+    std::uint32_t kind : 24;          // row of Machine::kinds
+    std::uint32_t neighbours : 7;     // length of its list
+    std::uint32_t far_from_wall : 1;  // its neighbourhood does not reach the wall
 };
-inline constexpr std::uint32_t far_from_wall = 0x80000000u;
 static_assert(sizeof(HotDisc) == 64);
 
 /// What discs of one kind share.
@@ -37,7 +38,7 @@ struct DiscKind {
 struct Plan {
     std::uint32_t partner;          // a disc; itself for the wall; or one of the marks below
     std::uint32_t partner_changes;  // HotDisc::changes of the partner when this was predicted
-    float X, Y;                     // centre of the neighbourhood in the carried frame
+    double angle;                   // at HotDisc::time
     // followed by `capacity` disc numbers, unused ones being `Machine::size`
     std::uint32_t* neighbours() { return reinterpret_cast<std::uint32_t*>(this + 1); }
     const std::uint32_t* neighbours() const {
@@ -50,11 +51,13 @@ static_assert(sizeof(Plan) == 16);
 inline constexpr std::uint32_t leaves_neighbourhood = 0xffffffffu;  // make a new list
 inline constexpr std::uint32_t predict_again = 0xfffffffeu;  // the wall event that was here is void
 
-struct Rest {
-    double angle;                // at HotDisc::time
-    float freedom;               // h; 0 marks a disc without a neighbourhood
+struct Neighbourhood {
+    float X, Y;                  // its centre, in the carried frame
+    float freedom;               // h; 0 while it has none
     std::uint32_t next_in_cell;  // the number of a disc, or Machine::size
 };
+
+inline constexpr std::uint32_t longest_list = 64;
 
 struct Machine {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
@@ -62,7 +65,7 @@ struct Machine {
     std::uint32_t plan_bytes;
     HotDisc* discs;
     unsigned char* plans;
-    Rest* rest;
+    Neighbourhood* neighbourhoods;
     const DiscKind* kinds;
 
     // The tournament (event_queue.hpp).
@@ -72,7 +75,7 @@ struct Machine {
 
     // Square cells over the dish, in the carried frame (neighbours.hpp).
     std::uint32_t cells_per_side;
-    double cell_width, cell_origin;
+    double cells_per_length, cell_origin;
     std::uint32_t* cell_heads;
     double smallest_radius;
     double longest_freedom;  // the cells next door must hold everybody within reach

@@ -54,7 +54,7 @@ class Columns {
 std::uint32_t list_capacity(double ratio) {
     const double contacts = pi / std::asin(1.0 / (1.0 + ratio));
     const auto wanted = static_cast<std::uint32_t>(1.5 * contacts) + 3;
-    return std::min<std::uint32_t>(64, (wanted + 3) / 4 * 4);
+    return std::min<std::uint32_t>(longest_list, (wanted + 3) / 4 * 4);
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ void Simulation::Storage::allocate(std::size_t size) {
     Machine& m = machine;
     m.discs = columns.add<HotDisc>(size + 1);
     m.plans = columns.add<unsigned char>((size + 1) * m.plan_bytes);
-    m.rest = columns.add<Rest>(size);
+    m.neighbourhoods = columns.add<Neighbourhood>(size);
     std::size_t entries = size;
     do {
         const std::size_t padded = (entries + 7) / 8 * 8;
@@ -147,9 +147,11 @@ void Simulation::Storage::lay_cells(const Scene& scene, int cells_per_side) {
     width = larger(width, 2.1 * largest);
     m.cells_per_side = static_cast<std::uint32_t>(larger(1.0, smaller(side / width, 30000.0)));
     if (cells_per_side == 0 && m.size <= 100) m.cells_per_side = 1;
-    m.cell_width = side / m.cells_per_side;
+    width = side / m.cells_per_side;
+    m.cells_per_length = 1.0 / width;
     m.cell_origin = -reach;
-    m.longest_freedom = m.cells_per_side == 1 ? 4.0 * side : 0.5 * m.cell_width - largest;
+    // A hair less than the cells allow, for the rounding of positions into cells.
+    m.longest_freedom = m.cells_per_side == 1 ? 4.0 * side : (0.5 * width - largest) * (1.0 - 1e-6);
     m.cell_heads = columns.add<std::uint32_t>(m.cells_per_side * m.cells_per_side);
 }
 
@@ -161,12 +163,12 @@ void Simulation::Storage::place(const Scene& scene) {
         const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
                                                     static_cast<std::uint32_t>(kinds.size()));
         if (is_new) kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
-        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second};
-        m.rest[i].angle = d.angle;
+        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second, 0, 0};
+        m.plan(i).angle = d.angle;
     }
     m.kinds = kinds.data();
     const double nowhere = std::numeric_limits<double>::quiet_NaN();
-    m.discs[m.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0};
+    m.discs[m.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0, 0, 0};
 }
 
 Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)
@@ -211,9 +213,10 @@ LoopCounts Simulation::loop_counts() const {
 Disc Simulation::disc(std::size_t i) const {
     const Machine& m = storage_->machine;
     const HotDisc& d = m.discs[i];
-    const DiscKind& kind = m.kinds[d.kind & ~far_from_wall];
-    return {d.position, d.velocity,  m.rest[i].angle, d.spin,
-            d.time,     kind.radius, kind.mass,       kind.inertia};
+    const DiscKind& kind = m.kinds[d.kind];
+    return {d.position, d.velocity,  m.plan(static_cast<std::uint32_t>(i)).angle,
+            d.spin,     d.time,      kind.radius,
+            kind.mass,  kind.inertia};
 }
 
 Snapshot Simulation::snapshot() const {
