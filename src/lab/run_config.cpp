@@ -42,6 +42,7 @@ std::optional<std::string> number_out_of_range(const RunConfig& c) {
         outside("--mu-wall", c.mu_wall, 0.0, largest),
         outside("--restitution", c.restitution, 0.0, 1.0),
         outside("--tangential-restitution", c.tangential_restitution, 0.0, 1.0),
+        outside("--contact-duration", c.contact_duration, 0.0, c.period),
         outside("--mass", c.mass, smallest, largest),
         outside("--radius", c.radius, smallest, largest),
         outside("--inertia", c.inertia, 1e-12, 1e18),
@@ -139,8 +140,8 @@ Scene make_scene(const RunConfig& c) {
     Scene scene{{},
                 make_path(c),
                 c.container_radius,
-                {c.mu_disc, c.restitution, c.tangential_restitution},
-                {c.mu_wall, c.restitution, c.tangential_restitution}};
+                {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
+                {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration}};
     // Small against the container's speed (a tenth of it in the paper's dish), and there also when
     // the container stands still.
     const double small_speed = 0.02 * c.container_radius * c.omega();

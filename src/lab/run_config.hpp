@@ -28,6 +28,7 @@ struct RunConfig {
     double mu_disc = 1.0, mu_wall = 1.0;
     double restitution = 1.0;
     double tangential_restitution = 0.0;
+    double contact_duration = 1e-3;  // t_c of the TC model; matters only for restitution < 1
     double mass = 1.0, radius = 1.0;
     double inertia = paper_inertia;  // of one disc, not divided by m r²
     double container_radius = paper_container_radius;

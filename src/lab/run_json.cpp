@@ -17,7 +17,8 @@ Json counts_json(const EventCounts& counts) {
     return {{"total", counts.total()},
             {"disc_disc", counts.disc_disc},
             {"disc_wall", counts.disc_wall},
-            {"path_vertex", counts.path_vertex}};
+            {"path_vertex", counts.path_vertex},
+            {"lasting_contacts", counts.lasting}};
 }
 
 const char* word(SteadyState::Verdict verdict) {
@@ -44,6 +45,7 @@ Json config_json(const RunConfig& c) {
               {"mixture", nullptr},
               {"restitution", c.restitution},
               {"tangential_restitution", c.tangential_restitution},
+              {"contact_duration", c.contact_duration},
               {"container_radius", c.container_radius},
               {"amplitude", c.amplitude},
               {"period", c.period},

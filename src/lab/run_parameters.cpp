@@ -158,6 +158,10 @@ const std::vector<RunParameter>& run_parameters() {
         {"restitution", "0..1", "normal restitution e; 1 is elastic [1]", "The discs"},
         {"tangential-restitution", "0..1",
          "the fraction of its slip that a sticking contact gives back [0]", "The discs"},
+        {"contact-duration", "TIME",
+         "with --restitution below 1: a collision this soon after a disc's last one is elastic "
+         "[0.001]",
+         "The discs"},
         {"container-radius", "NUMBER", "radius of the container [8.6]", "The container"},
         {"amplitude", "NUMBER", "distance of its centre from the swirl centre [1.892]",
          "The container"},
@@ -186,6 +190,7 @@ RunConfig resolve(const ParameterTexts& given) {
     take(given, "mu-wall", config.mu_wall);
     take(given, "restitution", config.restitution);
     take(given, "tangential-restitution", config.tangential_restitution);
+    take(given, "contact-duration", config.contact_duration);
     take(given, "mass", config.mass);
     take(given, "radius", config.radius);
     take(given, "container-radius", config.container_radius);

@@ -38,12 +38,27 @@
 namespace swirl {
 
 /// How two surfaces meet: friction μ ≥ 0, normal restitution e ∈ [0, 1], tangential restitution
-/// β ∈ [0, 1].
+/// β ∈ [0, 1], and the duration t_c of a contact, which matters only for e < 1.
 struct Surface {
     double mu = 1.0;
     double restitution = 1.0;
     double tangential_restitution = 0.0;
+    double contact_duration = 0.0;
 };
+
+/// The TC model (Luding, McNamara 1998, doi:10.1007/s100350050017): with e < 1 a cluster of discs
+/// can collide infinitely often in a finite time. Real contacts last a time t_c, and discs that
+/// meet again within it never parted, so nothing more is dissipated: a collision less than t_c
+/// after the last one of either partner is elastic. `since_last` is the shorter of their two times
+/// (a disc's time is also reset when the clocks restart, once per swirl; the share of collisions
+/// concerned is t_c/T).
+SWIRL_INLINE constexpr bool is_lasting_contact(const Surface& surface, double since_last) {
+    return surface.restitution < 1.0 && since_last < surface.contact_duration;
+}
+SWIRL_INLINE constexpr Surface at_contact(Surface surface, double since_last) {
+    if (is_lasting_contact(surface, since_last)) surface.restitution = 1.0;
+    return surface;
+}
 
 /// What the law needs to know of a body at the instant of contact.
 struct Body {

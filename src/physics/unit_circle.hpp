@@ -36,10 +36,10 @@ inline constexpr Vec2 unit_circle(double u) {
     }
 }
 
-/// The angle of a vector in turns, 0 ≤ u < 1, counter-clockwise from +x: the inverse of unit_circle,
-/// within 2⁻⁵² of the truth; 0 for the null vector, NaN if a component is. With t = tan of the angle
-/// from the nearest axis or diagonal, |t| ≤ √2 − 1, it is atan t = t P(t²); P interpolates in the
-/// Chebyshev points of 0 ≤ t² ≤ (√2 − 1)².
+/// The angle of a vector in turns, 0 ≤ u < 1, counter-clockwise from +x: the inverse of
+/// unit_circle, within 2⁻⁵² of the truth; 0 for the null vector, NaN if a component is. With t =
+/// tan of the angle from the nearest axis or diagonal, |t| ≤ √2 − 1, it is atan t = t P(t²); P
+/// interpolates in the Chebyshev points of 0 ≤ t² ≤ (√2 − 1)².
 inline constexpr double turns_of(const Vec2& v) {
     const double a = v.x < 0.0 ? -v.x : v.x, b = v.y < 0.0 ? -v.y : v.y;
     const double large = a > b ? a : b, small = a > b ? b : a;

@@ -31,10 +31,14 @@ struct Prediction {
 
 SWIRL_INLINE Flight<double> flight_of(const HotDisc& d) { return {d.position, d.velocity, d.time}; }
 
-/// The earliest contact of `disc` with W discs of its list, or `soonest` if that is earlier.
+/// W discs of a list, side by side.
 template <int W>
-SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
-                                         const std::uint32_t* neighbours, Prediction soonest) {
+struct Others {
+    Flight<Lanes<W>> flight;
+    Lanes<W> radius;
+};
+template <int W>
+SWIRL_INLINE Others<W> load_others(const Machine& m, const std::uint32_t* neighbours) {
     const double *positions[W], *velocities[W], *times[W];
     for (int k = 0; k < W; ++k) {
         const HotDisc& other = m.discs[neighbours[k]];
@@ -42,19 +46,20 @@ SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
         velocities[k] = &other.velocity.x;
         times[k] = &other.time;
     }
-    Flight<Lanes<W>> others;
-    Lanes<W> radii;
-    load_pairs<W>(positions, others.position.x, others.position.y);
-    load_pairs<W>(velocities, others.velocity.x, others.velocity.y);
-    load_pairs<W>(times, others.time, radii);
-    const Flight<Lanes<W>> mine{{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)},
-                                {Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)},
-                                Lanes<W>(disc.time)};
-    const Lanes<W> contact = time_of_contact(mine, others, Lanes<W>(disc.radius) + radii);
+    Others<W> others;
+    load_pairs<W>(positions, others.flight.position.x, others.flight.position.y);
+    load_pairs<W>(velocities, others.flight.velocity.x, others.flight.velocity.y);
+    load_pairs<W>(times, others.flight.time, others.radius);
+    return others;
+}
 
+/// The earliest of W contacts, or `soonest` if that is earlier. Of several at the same instant, the
+/// one with the smallest number.
+template <int W>
+SWIRL_INLINE Prediction earlier(const std::uint32_t* neighbours, const Lanes<W>& contact,
+                                Prediction soonest) {
     const double time = smallest(contact);
     if (time > soonest.time || time == never) return soonest;
-    // Of several at the same instant, the one with the smallest number.
     unsigned equal = lanes_equal(contact, time);
     std::uint32_t partner = neighbours[__builtin_ctz(equal)];
     while (equal &= equal - 1) {
@@ -65,16 +70,42 @@ SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
     return {time, partner};
 }
 
-SWIRL_INLINE Prediction earliest_contact(const Machine& m, std::uint32_t i) {
+/// When `disc` meets W discs of its list.
+template <int W>
+SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
+                                         const std::uint32_t* neighbours, Prediction soonest) {
+    const Others<W> others = load_others<W>(m, neighbours);
+    const Flight<Lanes<W>> mine{{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)},
+                                {Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)},
+                                Lanes<W>(disc.time)};
+    return earlier<W>(neighbours,
+                      time_of_contact(mine, others.flight, Lanes<W>(disc.radius) + others.radius),
+                      soonest);
+}
+
+/// The same for a disc that holds its state at the very moment t, as none of the others holds a
+/// later one: the general formula with a term that is zero left out, and the same bits.
+template <int W>
+SWIRL_INLINE Lanes<W> contacts_from_now(const HotDisc& disc, const Others<W>& others, double t) {
+    const Lanes<W> now(t);
+    const BasicVec2<Lanes<W>> at{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)};
+    const BasicVec2<Lanes<W>> velocity{Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)};
+    return now + time_until_contact(others.flight.position_at(now) - at,
+                                    others.flight.velocity - velocity,
+                                    Lanes<W>(disc.radius) + others.radius);
+}
+
+/// The tail of a list that is longer than one vector.
+SWIRL_INLINE Prediction earliest_beyond_eight(const Machine& m, std::uint32_t i,
+                                              Prediction soonest) {
     const HotDisc& disc = m.discs[i];
     const std::uint32_t* const list = m.plan(i).neighbours();
-    Prediction soonest = earliest_contact<8>(m, disc, list, {never, leaves_neighbourhood});
-    for (std::uint32_t k = 8; k < m.capacity && list[k] != m.size; k += 4)
+    for (std::uint32_t k = 8; k < disc.neighbours; k += 4)
         soonest = earliest_contact<4>(m, disc, list + k, soonest);
     return soonest;
 }
 
-/// When disc i touches the wall, and when it leaves its neighbourhood; both are circles seen from
+/// When a disc touches the wall, and when it leaves its neighbourhood; both are circles seen from
 /// inside that move with the container. The first follows from the state the disc holds alone; the
 /// second, which decides nothing but when to make a list, is counted from the moment t of asking:
 /// the disc was perhaps outside the neighbourhood when it last changed.
@@ -92,8 +123,7 @@ SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) 
     const Vec2 v = flight.velocity - frame.velocity;
     const Vec2 offset = s + (t - now) * v - Vec2{mine.X, mine.Y};
     const double clearance = m.container_radius - disc.radius;
-    const double freedom =
-        static_cast<double>(m.neighbourhoods[i].freedom) * (1.0 - freedom_margin);
+    const double freedom = static_cast<double>(mine.freedom) * (1.0 - freedom_margin);
     const BasicVec2<Lanes<2>> from{two_lanes(s.x, offset.x), two_lanes(s.y, offset.y)};
     const BasicVec2<Lanes<2>> velocity{Lanes<2>(v.x), Lanes<2>(v.y)};
     const Lanes<2> wait = time_to_leave(from, velocity, two_lanes(clearance, freedom));
@@ -103,11 +133,10 @@ SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) 
     return {disc.far_from_wall ? never : now + wait.part[0][0], neighbourhood};
 }
 
-/// Puts disc i's earliest event on its card. At equal times a disc comes before the wall exactly if
-/// its number is smaller, as in comes_first().
-SWIRL_INLINE void predict(Machine& m, std::uint32_t i, double t) {
-    Prediction soonest = earliest_contact(m, i);
-    const Leaving leaving = leaving_times(m, i, t);
+/// Writes disc i's earliest event on its card. At equal times a disc comes before the wall exactly
+/// if its number is smaller, as in comes_first().
+SWIRL_INLINE void write_card(Machine& m, std::uint32_t i, Prediction soonest,
+                             const Leaving& leaving) {
     if (leaving.wall < soonest.time || (leaving.wall == soonest.time && i < soonest.partner))
         soonest = {leaving.wall, i};
     if (leaving.neighbourhood < soonest.time)
@@ -116,6 +145,31 @@ SWIRL_INLINE void predict(Machine& m, std::uint32_t i, double t) {
     plan.partner = soonest.partner;
     plan.partner_changes = soonest.partner < m.size ? m.discs[soonest.partner].changes : 0;
     set_pending(m, i, soonest.time);
+}
+
+/// Everything that may happen to disc i, which may have held its state for a while.
+SWIRL_INLINE void predict(Machine& m, std::uint32_t i, double t) {
+    const Prediction soonest =
+        earliest_contact<8>(m, m.discs[i], m.plan(i).neighbours(), {never, leaves_neighbourhood});
+    write_card(m, i, earliest_beyond_eight(m, i, soonest), leaving_times(m, i, t));
+}
+
+/// The same for D discs that have just changed, one step at a time for all of them, so that the
+/// processor works on one while it waits for the other.
+template <int D>
+SWIRL_INLINE void predict_changed(Machine& m, const std::uint32_t (&who)[D], double t) {
+    Others<8> others[D];
+    Lanes<8> contacts[D];
+    Leaving leaving[D];
+    for (int d = 0; d < D; ++d) others[d] = load_others<8>(m, m.plan(who[d]).neighbours());
+    for (int d = 0; d < D; ++d) contacts[d] = contacts_from_now(m.discs[who[d]], others[d], t);
+    for (int d = 0; d < D; ++d) leaving[d] = leaving_times(m, who[d], t);
+    for (int d = 0; d < D; ++d) {
+        Prediction soonest =
+            earlier<8>(m.plan(who[d]).neighbours(), contacts[d], {never, leaves_neighbourhood});
+        if (m.discs[who[d]].neighbours > 8) soonest = earliest_beyond_eight(m, who[d], soonest);
+        write_card(m, who[d], soonest, leaving[d]);
+    }
 }
 
 [[gnu::noinline]] static void predict_all(Machine& m, double t) {
@@ -237,11 +291,12 @@ SWIRL_INLINE Event collide_discs(Machine& m, std::uint32_t a, std::uint32_t b, d
     const Vec2 at_j = flight_of(m.discs[j]).position_at(t);
     Body body_i = body_of(m, m.discs[i]), body_j = body_of(m, m.discs[j]);
     const Vec2 s = at_j - at_i;
-    const Impulse impulse = collide(body_i, body_j, s, m.disc_surface);
+    const double since_last = t - larger(m.discs[i].time, m.discs[j].time);
+    m.lasting += is_lasting_contact(m.disc_surface, since_last);
+    const Impulse impulse = collide(body_i, body_j, s, at_contact(m.disc_surface, since_last));
     write_back(m, i, at_i, t, body_i);
     write_back(m, j, at_j, t, body_j);
-    predict(m, i, t);
-    predict(m, j, t);
+    predict_changed<2>(m, {i, j}, t);
     ++m.disc_disc;
     const double distance = square_root(dot(s, s));
     return {m.swirls,
@@ -259,9 +314,11 @@ SWIRL_INLINE Event collide_with_wall(Machine& m, std::uint32_t i, double t) {
     const Vec2 at = flight_of(m.discs[i]).position_at(t);
     Body body = body_of(m, m.discs[i]), wall = wall_body(leg.velocity_at(t));
     const Vec2 s = at - leg.position_at(t);
-    const Impulse impulse = collide(body, wall, s, m.wall_surface);
+    const double since_last = t - m.discs[i].time;
+    m.lasting += is_lasting_contact(m.wall_surface, since_last);
+    const Impulse impulse = collide(body, wall, s, at_contact(m.wall_surface, since_last));
     write_back(m, i, at, t, body);
-    predict(m, i, t);
+    predict_changed<1>(m, {i}, t);
     ++m.disc_wall;
     const double distance = square_root(dot(s, s));
     return {m.swirls,

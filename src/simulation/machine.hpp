@@ -88,6 +88,7 @@ struct Machine {
     std::int64_t swirls;
     double clock;
     std::uint64_t disc_disc, disc_wall, path_vertex;
+    std::uint64_t lasting;  // collisions made elastic by the TC model
     std::uint64_t stale, relists, crowded,
         overcrowded;  // bookkeeping of the loop, for docs/performance.md
 

@@ -98,6 +98,7 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
     m.disc_disc = progress.events.disc_disc;
     m.disc_wall = progress.events.disc_wall;
     m.path_vertex = progress.events.path_vertex;
+    m.lasting = progress.events.lasting;
 
     double smallest = never, largest = 0.0;
     for (const Disc& d : scene.discs) {
@@ -163,7 +164,8 @@ void Simulation::Storage::place(const Scene& scene) {
         const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
                                                     static_cast<std::uint32_t>(kinds.size()));
         if (is_new) kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
-        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second, 0, 0};
+        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second & 0xffffffu,
+                      0,          0};
         m.plan(i).angle = d.angle;
     }
     m.kinds = kinds.data();
@@ -194,7 +196,7 @@ double Simulation::clock() const { return storage_->machine.clock; }
 std::size_t Simulation::size() const { return storage_->machine.size; }
 EventCounts Simulation::events() const {
     const Machine& m = storage_->machine;
-    return {m.disc_disc, m.disc_wall, m.path_vertex};
+    return {m.disc_disc, m.disc_wall, m.path_vertex, m.lasting};
 }
 Progress Simulation::progress() const {
     const Machine& m = storage_->machine;

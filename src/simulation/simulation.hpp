@@ -24,6 +24,7 @@ struct Scene {
 
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
+    std::uint64_t lasting = 0;  // of the collisions, those made elastic by the TC model
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex; }
 };
 

@@ -34,7 +34,7 @@ class Json(InFolder):
         config = result_of("--events", 10)["config"]
         expected = dict(mu_disc=1, mu_wall=1, inertia=10, mass=1, radius=1, container_radius=8.6,
                         amplitude=1.892, sides=30, path="polygon", period=11.866071,
-                        restitution=1, tangential_restitution=0)
+                        restitution=1, tangential_restitution=0, contact_duration=0.001)
         for name, value in expected.items():
             self.assertEqual(config[name], value, name)
         self.assertAlmostEqual(config["speed"], 1, places=7)
@@ -44,10 +44,10 @@ class Json(InFolder):
                            "--mass", 2, "--radius", 0.5, "--container-radius", 7, "--amplitude", 1,
                            "--sides", 12, "--period", 9, "--seed", 77, "--periods", 3,
                            "--warmup", 1, "--restitution", 0.9, "--mixture", "3:0.7:1.5",
-                           "--tangential-restitution", 0.5)["config"]
+                           "--tangential-restitution", 0.5, "--contact-duration", 0.01)["config"]
         expected = dict(discs=9, mu_disc=0.3, mu_wall=0.2, inertia=0.25, mass=2, radius=0.5,
                         container_radius=7, amplitude=1, sides=12, period=9, seed=77, periods=3,
-                        warmup=1, restitution=0.9, tangential_restitution=0.5,
+                        warmup=1, restitution=0.9, tangential_restitution=0.5, contact_duration=0.01,
                         mixture=dict(count=3, radius=0.7, mass=1.5))
         for name, value in expected.items():
             self.assertEqual(config[name], value, name)

@@ -42,19 +42,21 @@ class ReferenceLoop {
     }
     Event hit_disc(std::size_t i, std::size_t j, double t) {
         Disc &a = scene_.discs[i], &b = scene_.discs[j];
+        const Surface surface = at_contact(scene_.disc_surface, t - larger(a.time, b.time));
         a = a.at(t);
         b = b.at(t);
         Body left = body(a), right = body(b);
-        const Impulse J = collide(left, right, b.position - a.position, scene_.disc_surface);
+        const Impulse J = collide(left, right, b.position - a.position, surface);
         a.velocity = left.velocity, a.spin = left.spin;
         b.velocity = right.velocity, b.spin = right.spin;
         return event(EventKind::disc_disc, t, i, j, J);
     }
     Event hit_wall(std::size_t i, const Leg& leg, double t) {
         Disc& a = scene_.discs[i];
+        const Surface surface = at_contact(scene_.wall_surface, t - a.time);
         a = a.at(t);
         Body left = body(a), wall = wall_body(leg.velocity_at(t));
-        const Impulse J = collide(left, wall, a.position - leg.position_at(t), scene_.wall_surface);
+        const Impulse J = collide(left, wall, a.position - leg.position_at(t), surface);
         a.velocity = left.velocity, a.spin = left.spin;
         return event(EventKind::disc_wall, t, i, i, J);
     }

@@ -65,6 +65,12 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     scene.path = circular_path(paper_amplitude, paper_period);
     expect_same_trajectory(scene, 10000, tuning());
 }
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
+    Scene scene = paper_scene(40);
+    scene.disc_surface = {0.5, 0.9, 0.4, 1e-3};
+    scene.wall_surface = {0.8, 0.8, 0.2, 1e-3};
+    expect_same_trajectory(scene, 30000, tuning());
+}
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
     expect_same_trajectory(gas_scene(200, 0.6), 8000, tuning());
     expect_same_trajectory(gas_scene(200, 0.05), 4000, tuning());
