@@ -2,10 +2,10 @@
 // Fig. 3.
 //
 //   plain (3a)       ⟨ϖ_M,i⟩ over the discs found in a slice of θ, ϖ_M,i = ϖ_i − Ω, in units of Ω
-//   of the wall      ⟨ϖ_wall(θ_i)⟩ over the same discs: the wall's point p = R (cos θ, sin θ)
-//   passes the
-//                    centre of mass at the rate (p − r_cm) × (v_wall − v_cm) / |p − r_cm|²,
-//                    everything in the M-frame, v_wall = −Ω ẑ × p; in units of Ω
+//   of the wall      ⟨ϖ_wall(θ_i)⟩ over the same discs: at θ the wall's point p = R (cos θ, sin θ)
+//                    passes the centre of mass at the rate
+//                    (p − r_cm) × (v_wall − v_cm) / |p − r_cm|², everything in the M-frame,
+//                    v_wall = −Ω ẑ × p; in units of Ω
 //   normalised (3b)  the first divided by the second: 1 where the discs move with the wall
 //
 // A cluster that moves rigidly with the wall has −1, −1 and 1 in every slice. The paper normalises

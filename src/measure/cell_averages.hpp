@@ -1,8 +1,7 @@
 // Averages over the cells of a map or the bins of a profile, with errors from blocks of periods.
 //
 //   CellMeans   what an average visitor of the cell carries: m = Σ s_b / Σ w_b, with the sum s_b
-//   and
-//               the number of visits w_b of block b, both of that cell
+//               and the number of visits w_b of block b, both of that cell
 //   CellRates   how much there is of it per look: m = Σ s_b / Σ w_b, with w_b the looks of block b,
 //               common to all cells
 //

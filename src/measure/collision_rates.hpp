@@ -1,8 +1,7 @@
 // How often the discs collide.
 //
 //   disc–disc rate   2 n_dd / (N t): collisions with other discs that a disc has per unit time
-//   (every
-//                    collision is one for both partners)
+//                    (every collision is one for both partners)
 //   wall rate        n_dw / (N t)
 //   mean free time   N t / (2 n_dd + n_dw): from one collision of a disc to its next, on average
 //

@@ -5,10 +5,10 @@
 //   W = −J·V              work of the moving wall, J = J_n n + J_t r the impulse on the wall, V its
 //                         velocity (it does not turn, so every point of it has this velocity)
 //   L = L_n + L_t         loss inside the contact: minus the impulse times the mean of the
-//   contact's
-//                         relative velocity g before and after, for the normal and the tangential
-//                         part: L_n = −J_n (g_n + g'_n)/2 = (1 − e²) · ½ m* u²,  L_t = −J_t (g_t +
-//                         g'_t)/2
+//                         contact's relative velocity g before and after, for the normal and for
+//                         the tangential part:
+//                         L_n = −J_n (g_n + g'_n)/2 = (1 − e²) · ½ m* u²
+//                         L_t = −J_t (g_t + g'_t)/2
 //
 // (the change of ½ m* g² under an impulse J with m* = J/(g' − g)). Velocities after the collision
 // are those of the snapshot; those before follow from the impulse and the effective masses of

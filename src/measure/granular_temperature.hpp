@@ -1,8 +1,8 @@
 // How strongly the discs jiggle: the random motion that is left when the mean flow is taken away.
 //
-//   of a cell    T = ½ (⟨m u²⟩ − ⟨m u⟩²/⟨m⟩) over the discs found in it, u the velocity relative to
-//   the
-//                container in the M-frame: energy per degree of freedom (a disc has two), kT
+//   of a cell    T = ½ (⟨m u²⟩ − ⟨m u⟩²/⟨m⟩) over the discs found in it, u the velocity relative
+//                to the container in the M-frame: twice the energy per degree of freedom (a disc
+//                has two), the kT of a gas
 //   granular     the average of T over all discs
 //   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom)
 //

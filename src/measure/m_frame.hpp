@@ -2,7 +2,7 @@
 // the container's centre C, and it turns with the swirl so that the direction from the swirl centre
 // S to C points down, to −y; the point M, the wall's farthest from S, is at the bottom.
 //
-//     down d = (C − S)/|C − S|,  S = 0           x_M =  (r − C) · d^⊥
+//     down d = (C − S)/|C − S|,  S = 0              x_M =  (r − C) · d^⊥
 //     (a still container: d turns with the clock)   y_M = −(r − C) · d
 //
 // Velocities. With V the container's velocity and Ω = 2π/T the mean rate of the swirl (on a polygon
@@ -10,8 +10,7 @@
 //
 //     relative   u   = (v − V), turned            the "deviation from the container" of Figs 2, 5d
 //     M-frame    v_M = u − Ω ẑ × r_M              so the wall moves with −Ω ẑ × p, clockwise
-//     spin       ω_M = ω − Ω                      and ϖ_M = ϖ − Ω, for any motion (main text, Eq.
-//     1)
+//     spin       ω_M = ω − Ω                      and ϖ_M = ϖ − Ω, for any motion (Eq. 1)
 //
 // θ is the angular position about C in the M-frame, counter-clockwise from +x; M is at 3π/2.
 //

@@ -8,16 +8,13 @@
 //   path direction   straight-line fit of x and of y against the frame number over the frame, the 7
 //                    before and the 7 after: s = Σ_k k r_{t+k}, in the M-frame
 //   parallel         s deviates from the azimuthal direction about C by at most 10°, in the sense
-//   of
-//                    the wall (clockwise): |s·p| ≤ sin 10° |s||p| and p × s < 0
+//                    of the wall (clockwise): |s·p| ≤ sin 10° |s||p| and p × s < 0
 //   pinned           parallel for 8 frames in a row, until it no longer is
 //   becoming free    the position where a pinned disc is parallel no more
-//   sharp turn       second difference |r_{t+1} − 2 r_t + r_{t−1}| ≥ ½ ΩR Δt: the velocity jumps by
-//   at
-//                    least half the wall's speed in the M-frame (the SI gives no threshold)
+//   sharp turn       second difference |r_{t+1} − 2 r_t + r_{t−1}| ≥ ½ ΩR Δt: the velocity jumps
+//                    by at least half the wall's speed in the M-frame (the SI gives no threshold)
 //   becoming pinned  the positions where loose discs turn sharply: "the average angle at which
-//   these
-//                    collisions occur"
+//                    these collisions occur"
 //
 // The state of a disc is known 7 frames late. From collisions, which a simulation knows exactly: a
 // disc that flies for longer than T/20 without any collision was free when the flight began and is

@@ -7,15 +7,14 @@
 //                round the cluster. With discs of several sizes r is their mean radius
 //   P_container  2π R
 //   ϖ_M          for the whole cluster the mean of ϖ_i − Ω over all discs; for the pinned region
-//   the
-//                mean over the pinned discs (pinned_loose.hpp), about the centre of mass and with
-//                the perimeter of the whole cluster, which is what rolls
+//                the mean over the pinned discs (pinned_loose.hpp), about the centre of mass and
+//                with the perimeter of the whole cluster, which is what rolls
 //
 // The average is that of the product, over looks; −ϖ_M stands for |ϖ_M|, so that noise about zero
 // does not add up (ϖ_M is negative wherever the wall drives).
 //
-//   pancake line: a single body with the cluster's perimeter, s = 1: ϖ/Ω = 1 −
-//   P_container/P_cluster
+//   pancake line: a single body with the cluster's perimeter, s = 1,
+//   ϖ/Ω = 1 − P_container/P_cluster
 //
 // Only every 32nd look is looked at, unless told otherwise: the hull costs more than most
 // measurements, and the cluster changes little between two frames of a camera.

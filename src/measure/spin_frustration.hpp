@@ -2,18 +2,16 @@
 // roll on each other like gears spin in opposite senses; three that touch mutually cannot all do
 // so.
 //
-//   wall spin         ⟨|ω_i|⟩/Ω over the discs at the wall, and over those of them that are pinned,
-//   in
-//                     the lab: 0 for a disc stuck to the wall, for the container does not turn
+//   wall spin         ⟨|ω_i|⟩/Ω in the lab, over the discs at the wall, and over those of them
+//                     that are pinned: 0 for a disc stuck to the wall, as the container does not
+//                     turn
 //   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
-//   independent
-//                     spins, 1 for a body that turns as a whole
+//                     independent spins, 1 for a body that turns as a whole
 //   triangles         share of the touching pairs that have a common neighbour touching both: the
 //                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
 //                     packing
-//   sticking          share of the collisions in which friction stopped the slip, for disc–disc and
-//   for
-//                     disc–wall separately (needs the collisions themselves)
+//   sticking          share of the collisions in which friction stopped the slip, for disc–disc
+//                     and for disc–wall separately (needs the collisions themselves)
 //
 // Only every 32nd look at the discs is looked at, unless told otherwise: a search for neighbours
 // costs more than most measurements. Every collision counts.

@@ -5,8 +5,7 @@
 // point of the wall and turns there about its own centre at the constant rate ϖ_M. Between no slip
 // (it rolls like a gear inside a ring) and perfect slip (nothing turns it) there is one number, s:
 //
-//     γ = |ϖ_M|/Ω = s γ_c,     γ_c = R_container/R_ball,     ϖ_M = −γ Ω,     ϖ = ϖ_M + Ω = (1 − γ)
-//     Ω
+//     γ = |ϖ_M|/Ω = s γ_c,   γ_c = R_container/R_ball,   ϖ_M = −γ Ω,   ϖ = ϖ_M + Ω = (1 − γ) Ω
 //
 // The wall passes the contact with −ΩR, the ball's surface with ϖ_M R_ball = −s ΩR: for s = 1 they
 // move together. γ < 1 is rotation in the lab, γ > 1 counterrotation; they meet at s =
