@@ -29,7 +29,9 @@ SWIRL_WIDE void judge_all(std::size_t n, double sine_square, double jump_square,
                           const double* __restrict ax, const double* __restrict ay,
                           const double* __restrict sx, const double* __restrict sy,
                           double* __restrict parallel_for, double* __restrict pinned,
-                          double* __restrict freed, double* __restrict turned) {
+                          double* __restrict loose_for, double* __restrict left_x,
+                          double* __restrict left_y, double* __restrict freed,
+                          double* __restrict turned) {
     for (std::size_t i = 0; i < n; ++i) {
         const double radial = sx[i] * x[i] + sy[i] * y[i];
         const double sense = x[i] * sy[i] - y[i] * sx[i];
@@ -43,7 +45,14 @@ SWIRL_WIDE void judge_all(std::size_t n, double sine_square, double jump_square,
         const double now = settled > held ? settled : held;
         const double dx = ax[i] - 2.0 * x[i] + bx[i], dy = ay[i] - 2.0 * y[i] + by[i];
         const double sharp = dx * dx + dy * dy >= jump_square ? 1.0 : 0.0;
-        freed[i] = pinned[i] * (1.0 - parallel);
+        // Counts from 1 at the frame where it leaves; parallel again in time, it had not left.
+        const double leaving = pinned[i] * (1.0 - parallel);
+        const double since = leaving > 0.0 ? 1.0 : loose_for[i] > 0.0 ? loose_for[i] + 1.0 : 0.0;
+        const double loose = parallel > 0.0 ? 0.0 : since;
+        freed[i] = loose > PinnedLoose::half_width ? 1.0 : 0.0;
+        loose_for[i] = freed[i] > 0.0 ? 0.0 : loose;
+        left_x[i] = leaving > 0.0 ? x[i] : left_x[i];
+        left_y[i] = leaving > 0.0 ? y[i] : left_y[i];
         turned[i] = sharp * (1.0 - now);
         parallel_for[i] = frames;
         pinned[i] = now;
@@ -61,7 +70,9 @@ void PinnedLoose::begin_tracks(std::size_t n) {
     past_x_.assign(n * width, 0.0);
     past_y_.assign(n * width, 0.0);
     for (auto* column : {&sum_x_, &sum_y_, &slope_x_, &slope_y_}) column->assign(n, 0.0);
-    for (auto* column : {&parallel_for_, &is_pinned_, &freed_, &turned_}) column->assign(n, 0.0);
+    for (auto* column :
+         {&parallel_for_, &is_pinned_, &freed_, &turned_, &loose_for_, &left_x_, &left_y_})
+        column->assign(n, 0.0);
     pinned_.assign(n, 0);
 }
 
@@ -125,13 +136,14 @@ void PinnedLoose::judge(const MFrameView& view) {
     const double *const ax = slot(past_x_, centre + 1), *const ay = slot(past_y_, centre + 1);
     const double jump = sharp_turn_ * view.frame.omega * view.container_radius * step_;
     judge_all(n, sine_square_, jump * jump, x, y, bx, by, ax, ay, slope_x_.data(), slope_y_.data(),
-              parallel_for_.data(), is_pinned_.data(), freed_.data(), turned_.data());
+              parallel_for_.data(), is_pinned_.data(), loose_for_.data(), left_x_.data(),
+              left_y_.data(), freed_.data(), turned_.data());
     double pinned_now = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         pinned_[i] = is_pinned_[i] != 0.0 ? 1 : 0;
         pinned_now += is_pinned_[i];
         if (freed_[i] + turned_[i] == 0.0) continue;
-        if (freed_[i] != 0.0) becoming_free_.add({x[i], y[i]});
+        if (freed_[i] != 0.0) becoming_free_.add({left_x_[i], left_y_[i]});
         if (turned_[i] != 0.0) becoming_pinned_.add({x[i], y[i]});
     }
     share_.add(pinned_now / static_cast<double>(n));
@@ -152,22 +164,34 @@ void PinnedLoose::merge(const PinnedLoose& other) {
 
 void PinnedByCollisions::look(const Event& event, const Snapshot& after) {
     if (event.kind == EventKind::path_vertex) return;
-    if (last_.size() != after.size()) last_.assign(after.size(), {});
+    if (last_.size() != after.size()) {
+        last_.assign(after.size(), {});
+        longest_.assign(after.size(), {});
+    }
     const MFrame frame = m_frame(after);
     const double time = after.time();
-    collide(event.i, time, after.period, frame.position(after.position(event.i)));
+    collide(event.i, time, frame.position(after.position(event.i)));
     if (event.kind == EventKind::disc_disc)
-        collide(event.j, time, after.period, frame.position(after.position(event.j)));
+        collide(event.j, time, frame.position(after.position(event.j)));
 }
 
-void PinnedByCollisions::collide(std::size_t disc, double time, double period,
-                                 const Vec2& position) {
+void PinnedByCollisions::collide(std::size_t disc, double time, const Vec2& position) {
     Collision& last = last_[disc];
-    if (time - last.time > flight_ * period) {
-        becoming_free_.add(last.position);
-        becoming_pinned_.add(position);
-    }
+    if (time - last.time > longest_[disc].duration)
+        longest_[disc] = {time - last.time, last.position, position};
     last = {time, position};
+}
+
+void PinnedByCollisions::close_block() {
+    for (Flight& flight : longest_) {
+        if (flight.duration > 0.0) {
+            becoming_free_.add(flight.begin);
+            becoming_pinned_.add(flight.end);
+        }
+        flight = {};
+    }
+    becoming_pinned_.close_block();
+    becoming_free_.close_block();
 }
 
 }  // namespace swirl

@@ -10,18 +10,19 @@
 //   parallel         s deviates from the azimuthal direction about C by at most 10°, in the sense
 //                    of the wall (clockwise): |s·p| ≤ sin 10° |s||p| and p × s < 0
 //   pinned           parallel for 8 frames in a row, until it no longer is
-//   becoming free    the position where a pinned disc is parallel no more
+//   becoming free    the position where a pinned disc is parallel no more, and stays so for 8
+//                    frames in a row (discs that jostle are off by 10° for a moment now and then)
 //   sharp turn       second difference |r_{t+1} − 2 r_t + r_{t−1}| ≥ ½ ΩR Δt: the velocity jumps
 //                    by at least half the wall's speed in the M-frame (the SI gives no threshold)
 //   becoming pinned  the positions where loose discs turn sharply: "the average angle at which
 //                    these collisions occur"
 //
-// The state of a disc is known 7 frames late. From collisions, which a simulation knows exactly: a
-// disc that flies for longer than T/20 without any collision was free when the flight began and is
-// on its way to be pinned when it ends:
+// The state of a disc is known 7 frames late. From collisions, which a simulation knows exactly and
+// without a threshold: in every swirl a disc goes round the dish once, about, and is freest in the
+// longest of its flights from one collision to the next:
 //
-//   becoming free    the positions where such flights begin
-//   becoming pinned  the positions where they end
+//   becoming free    the position where a disc's longest flight of a swirl begins
+//   becoming pinned  the position where it ends
 //
 // The angles θ about C in the M-frame are averaged as directions (circular_mean.hpp).
 // Units: radians. Limits: frames whose times do not ascend, or not in equal steps (to 1 %), begin
@@ -75,7 +76,7 @@ class PinnedLoose {
         visit(breaks_);
         for (auto* column : {&past_x_, &past_y_, &sum_x_, &sum_y_, &slope_x_, &slope_y_})
             visit(*column);
-        visit(parallel_for_);
+        for (auto* column : {&loose_for_, &left_x_, &left_y_, &parallel_for_}) visit(*column);
         visit(is_pinned_);
         visit(pinned_);
         becoming_pinned_.fields(visit);
@@ -96,9 +97,11 @@ class PinnedLoose {
     std::vector<double> past_x_, past_y_;
     // Over those: Σ r and Σ k r.
     std::vector<double> sum_x_, sum_y_, slope_x_, slope_y_;
-    std::vector<double> parallel_for_;    // frames in a row
-    std::vector<double> is_pinned_;       // 0 or 1
-    std::vector<double> freed_, turned_;  // 0 or 1, at this frame
+    std::vector<double> loose_for_;        // frames since it was pinned; 0: not, or told already
+    std::vector<double> left_x_, left_y_;  // where it was parallel no more
+    std::vector<double> parallel_for_;     // frames in a row
+    std::vector<double> is_pinned_;        // 0 or 1
+    std::vector<double> freed_, turned_;   // 0 or 1, at this frame
     std::vector<std::uint8_t> pinned_;
     CircularMean becoming_pinned_, becoming_free_;
     BlockMean share_;
@@ -106,15 +109,10 @@ class PinnedLoose {
 
 class PinnedByCollisions {
   public:
-    /// `flight`: how long a flight must be, in periods.
-    explicit PinnedByCollisions(double flight = 0.05) : flight_(flight) {}
-
     /// After every event, with the state after it.
     void look(const Event& event, const Snapshot& after);
-    void close_block() {
-        becoming_pinned_.close_block();
-        becoming_free_.close_block();
-    }
+    /// At the end of every swirl: now the longest flights are known.
+    void close_block();
     const CircularMean& becoming_pinned() const { return becoming_pinned_; }
     const CircularMean& becoming_free() const { return becoming_free_; }
 
@@ -125,6 +123,7 @@ class PinnedByCollisions {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(last_);
+        visit(longest_);
         becoming_pinned_.fields(visit);
         becoming_free_.fields(visit);
     }
@@ -133,12 +132,16 @@ class PinnedByCollisions {
         double time = never;  // none yet
         Vec2 position{};      // M-frame
     };
+    struct Flight {
+        double duration = 0.0;  // none yet
+        Vec2 begin{}, end{};
+    };
 
   private:
-    void collide(std::size_t disc, double time, double period, const Vec2& position);
+    void collide(std::size_t disc, double time, const Vec2& position);
 
-    double flight_;
     std::vector<Collision> last_;  // of every disc
+    std::vector<Flight> longest_;  // of every disc in this swirl
     CircularMean becoming_pinned_, becoming_free_;
 };
 

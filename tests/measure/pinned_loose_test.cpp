@@ -99,6 +99,26 @@ TEST(PinnedLoose, TheRunningFitIsTheFitAddedUpAfresh) {
     }
 }
 
+TEST(PinnedLoose, AMomentaryWobbleIsNotBecomingFree) {
+    // Along the wall, with a short kink: the fit leaves the azimuthal direction for a few frames
+    // only.
+    const auto wobble = [](std::size_t, int t) {
+        const double kink = t >= 100 && t < 103   ? 0.12 * (t - 99)
+                            : t >= 103 && t < 106 ? 0.12 * (106 - t)
+                                                  : 0.0;
+        return (6.0 - kink) * unit_circle(1.0 - static_cast<double>(t) / 511);
+    };
+    PinnedLoose pinning;
+    bool ever_loose = false;
+    for (int k = 0; k < 300; ++k) {
+        pinning.look(frame_of(k, 1, wobble));
+        if (k > 30) ever_loose = ever_loose || pinning.pinned().at(0) == 0;
+    }
+    pinning.close_block();
+    EXPECT_TRUE(ever_loose);
+    EXPECT_EQ(pinning.becoming_free().count(), 0.0);
+}
+
 TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
     PinnedLoose pinning;
     const auto circle = [](std::size_t, int t) {
@@ -141,8 +161,8 @@ Event collision_at(EventKind kind, std::uint32_t i, std::uint32_t j) {
     return {0, 0.0, kind, i, j, {1.0, 0.0}, {1.0, 0.0, false}, 0.0};
 }
 
-TEST(PinnedByCollisions, OnlyLongFlightsCount) {
-    PinnedByCollisions pinning;  // flights of more than T/20
+TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
+    PinnedByCollisions pinning;
     const auto at = [&](double u, double theta) {
         Snapshot s = empty_dish(u);
         const MFrame f = m_frame(s);
@@ -155,13 +175,15 @@ TEST(PinnedByCollisions, OnlyLongFlightsCount) {
     hit(0.10, 0.30);  // the first has no flight before it
     hit(0.12, 0.28);
     hit(0.16, 0.25);
-    hit(0.30, 0.70);  // 0.14 T in the air, from 0.25 to 0.70 turns
+    hit(0.30, 0.70);  // 0.14 T in the air, from 0.25 to 0.70 turns: the longest
     pinning.look(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
     hit(0.34, 0.65);
     pinning.close_block();
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
     EXPECT_NEAR(pinning.becoming_free().angle().mean, 0.25 * 2.0 * pi, 1e-14);
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.70 * 2.0 * pi, 1e-14);
+    pinning.close_block();  // a swirl without a collision adds nothing
+    EXPECT_EQ(pinning.becoming_free().count(), 1.0);
 }
 
 TEST(PinnedByCollisions, BothPartnersCollideAndFlightsCrossTheEndOfTheSwirl) {
