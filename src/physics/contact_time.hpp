@@ -78,8 +78,9 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
 /// Disc and wall on a turning leg, where f(τ) = |s|² − clearance² is no polynomial. Its curvature
 /// f''/2 = |v|² − s·C'' is at most M = (|v_disc| + |V|)² + clearance |V| turning, so
 /// c + 2bτ + Mτ² ≥ f(τ) touches zero no later than f does. Stepping to its root, again and again,
-/// never oversteps the contact and converges quadratically onto it.
-inline double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
+/// never oversteps the contact and converges quadratically onto it. Static: each width's event loop
+/// must have a copy of its own (simulation/event_loop.hpp).
+static inline double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
                                            double clearance) {
     const double container_speed = square_root(dot(leg.velocity, leg.velocity));
     const double speed = square_root(dot(disc.velocity, disc.velocity)) + container_speed;

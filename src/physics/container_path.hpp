@@ -20,14 +20,14 @@ struct Leg {
     Vec2 start, velocity;  // at `begin`
     double turning;        // rad per unit time; 0 for a straight leg
 
-    Vec2 position_at(double t) const {
+    SWIRL_INLINE Vec2 position_at(double t) const {
         const double elapsed = t - begin;
         if (turning == 0.0) return start + elapsed * velocity;
         // ∫ of the turning velocity: (sin φ v + (1 − cos φ) v^⊥) / turning, φ = turning·elapsed.
         const Vec2 u = unit_circle(elapsed * turning / (2.0 * pi));
         return start + (1.0 / turning) * (u.y * velocity + (1.0 - u.x) * perpendicular(velocity));
     }
-    Vec2 velocity_at(double t) const {
+    SWIRL_INLINE Vec2 velocity_at(double t) const {
         if (turning == 0.0) return velocity;
         const Vec2 u = unit_circle((t - begin) * turning / (2.0 * pi));
         return u.x * velocity + u.y * perpendicular(velocity);

@@ -27,6 +27,7 @@ double deepest_overlap(const Snapshot& s) {
 }
 
 void expect_no_overlap(const Scene& scene, int events) {
+    if (sanitized) events /= 50;
     Simulation simulation(scene);
     double deepest = -1.0;
     for (int k = 1; k <= events; ++k) {

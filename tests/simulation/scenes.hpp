@@ -12,6 +12,14 @@
 
 namespace swirl {
 
+/// Under the sanitizers, which look at every access and take twenty times as long, the statistics
+/// are left to the release build.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 inline Scene scene_of(const std::vector<Disc>& kinds, std::size_t n, double container_radius,
                       ContainerPath path, double mu_disc, double mu_wall, double speed = 0.1,
                       std::uint64_t seed = 1) {
