@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "files/file_error.hpp"
 
@@ -90,14 +91,14 @@ void WholeFile::replace(std::uint64_t offset, std::string_view bytes) {
 
 void WholeFile::finish() {
     empty_buffer();
-    if (::fsync(file_) != 0 || ::close(file_) != 0) fail();
-    file_ = -1;
-    try {
-        give_final_name(aside_, path_);
-    } catch (const FileError&) {
-        ::unlink(aside_.c_str());
-        throw;
-    }
+    if (::fsync(file_) != 0) fail();
+    give_name();
+    sync_folder_of(path_);
+}
+
+void WholeFile::give_name() {
+    if (::rename(aside_.c_str(), path_.c_str()) != 0) fail();
+    ::close(std::exchange(file_, -1));
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {

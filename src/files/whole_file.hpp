@@ -26,8 +26,11 @@ class WholeFile {
     /// Onto the disk, and under its name.
     void finish();
 
-  private:
+    /// The two halves of finish(), for who brings many files onto the disk at once in between.
     void empty_buffer();
+    void give_name();
+
+  private:
     [[noreturn]] void fail();
 
     std::filesystem::path path_, aside_;

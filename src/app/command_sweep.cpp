@@ -1,0 +1,251 @@
+// swirl sweep: many runs, on all cores or on a cluster. swirl collect: the table of what they
+// found.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/run_options.hpp"
+#include "app/stop_signal.hpp"
+#include "files/config.hpp"
+#include "files/file_error.hpp"
+#include "files/whole_file.hpp"
+#include "lab/failure.hpp"
+#include "lab/slurm.hpp"
+#include "lab/sweep.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepCall {
+    std::shared_ptr<ParameterTexts> parameters;
+    std::string config_file, out, seeds, part, threads, nodes, cpus;
+    SlurmJob job;
+    bool status = false, slurm = false, rest = false, dry_run = false, quiet = false;
+};
+
+std::int64_t whole(const char* name, const std::string& text, std::int64_t otherwise,
+                   std::int64_t to) {
+    if (text.empty()) return otherwise;
+    const auto value = read_whole_number(text);
+    if (!value || *value < 1 || *value > to)
+        throw WrongCall(fmt::format("--{} is '{}', but it must be a whole number from 1 to {}.",
+                                    name, text, to));
+    return *value;
+}
+
+void take_config_file(SweepCall& call) {
+    std::error_code ignored;
+    if (!fs::exists(call.config_file, ignored))
+        throw WrongCall(fmt::format(
+            "There is no plan '{}'; lists can be given as options too, as in --discs 5:48.",
+            call.config_file));
+    std::vector<std::string> names{"seeds"};
+    for (const RunParameter& p : run_parameters()) names.push_back(p.name);
+    Config config;
+    try {
+        config = parse_config(read_whole_file(call.config_file), call.config_file);
+    } catch (const FileError& wrong) {
+        throw WrongCall(wrong.what());
+    }
+    for (const auto& [name, entry] : config.entries) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            const auto meant = nearest_name(name, names);
+            throw WrongCall(fmt::format("'{}', line {}: there is no parameter '{}'{}",
+                                        call.config_file, entry.line, name,
+                                        meant ? fmt::format("; did you mean '{}'?", *meant)
+                                              : "; `swirl sweep --help` lists them."));
+        }
+        if (entry.values.empty())
+            throw WrongCall(fmt::format("'{}', line {}: the list of {} is empty.", call.config_file,
+                                        entry.line, name));
+        std::string text;
+        for (const std::string& value : entry.values) {
+            if (!text.empty()) text += ',';
+            text += value;
+        }
+        if (name != "seeds")
+            call.parameters->try_emplace(name, text);
+        else if (call.seeds.empty())
+            call.seeds = text;
+    }
+}
+
+SweepPlan plan_of(SweepCall& call) {
+    if (!call.config_file.empty()) take_config_file(call);
+    // Without a plan: the one that is there.
+    if (call.parameters->empty() && call.seeds.empty()) {
+        std::error_code ignored;
+        if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
+            throw WrongCall(
+                "There is nothing to sweep over: give a plan (plan.toml), or lists, as in --discs "
+                "5:48 --mu 0.1,0.5,1.");
+        return read_plan(call.out);
+    }
+    return make_plan(*call.parameters, whole("seeds", call.seeds, 1, 1'000'000));
+}
+
+SweepShare share_of(const SweepCall& call) {
+    SweepShare share;
+    share.rest = call.rest;
+    share.threads = static_cast<unsigned>(whole("threads", call.threads, 0, 4096));
+    if (call.part.empty()) return share;
+    const std::size_t slash = call.part.find('/');
+    const auto part = read_whole_number(std::string_view(call.part).substr(0, slash));
+    const auto parts = slash == std::string::npos
+                           ? std::nullopt
+                           : read_whole_number(std::string_view(call.part).substr(slash + 1));
+    if (!part || !parts || *part < 1 || *parts < *part || *parts > 1'000'000)
+        throw WrongCall(fmt::format(
+            "--part is '{}', but it must be PART/PARTS, for example 2/10 for the second of ten.",
+            call.part));
+    share.part = static_cast<std::size_t>(*part);
+    share.parts = static_cast<std::size_t>(*parts);
+    return share;
+}
+
+void print_status(const SweepCall& call, const SweepPlan& plan) {
+    const SweepStatus s = sweep_status(call.out, plan);
+    std::string text =
+        fmt::format("{} of {} runs done, {} running, {} failed, {} to do\n", s.done, s.points,
+                    s.running, s.failed, s.points - s.done - s.running - s.failed);
+    if (const auto job = slurm_status(call.out)) text += *job + "\n";
+    print_all(text);
+}
+
+void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutcome& outcome) {
+    const SweepStatus s = sweep_status(call.out, plan);
+    if (!call.quiet) {
+        std::string text =
+            fmt::format("{} of {} runs done ({} by this call)", s.done, s.points, outcome.done);
+        if (s.running > 0) text += fmt::format(", {} running elsewhere", s.running);
+        print_all(text + fmt::format("; table: swirl collect {}\n", call.out));
+    }
+    if (outcome.stopped)
+        throw Interrupted(fmt::format(
+            "Stopped before the end; `swirl sweep --out {}` goes on with what is missing.",
+            call.out));
+    if (outcome.failed > 0)
+        throw Failure(fmt::format(
+            "{} of the runs could not be done, the first is {} All of them are "
+            "in '{}'.",
+            outcome.failed, outcome.first_failure, (fs::path(call.out) / "failures").string()));
+}
+
+void sweep(SweepCall& call) {
+    if (call.status) return print_status(call, read_plan(call.out));
+    const SweepPlan plan = plan_of(call);
+    const SweepShare share = share_of(call);
+    call.job.nodes = static_cast<int>(whole("nodes", call.nodes, 1, 100'000));
+    call.job.cpus = static_cast<int>(whole("cpus", call.cpus, 0, 4096));
+    if (call.dry_run) {
+        std::string text = fmt::format("{} runs:\n", plan.points());
+        for (const SweepAxis& axis : plan.axes) {
+            text += fmt::format("  {}:", axis.name);
+            for (const std::string& value : axis.values) text += " " + value;
+            text += "\n";
+        }
+        return print_all(text + fmt::format("  replicas: {}\n", plan.replicas));
+    }
+    make_folder(call.out);
+    write_plan(call.out, plan);
+    if (call.slurm) {
+        const std::string number = submit(call.job, call.out);
+        return print_all(fmt::format(
+            "Submitted as job {}; `swirl sweep --out {} --status` tells how far it is.\n", number,
+            call.out));
+    }
+    ProgressLine line(fmt::format("{} runs", plan.points()), call.quiet);
+    const auto begin = std::chrono::steady_clock::now();
+    SweepControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](double done, double all, std::uint64_t events) {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+        line.show(all > 0.0 ? done / all : 1.0,
+                  short_number(double(events) / elapsed.count()) + " events/s");
+    };
+    const SweepOutcome outcome = run_sweep(call.out, plan, share, control);
+    line.clear();
+    print_outcome(call, plan, outcome);
+}
+
+void add_sweep_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<SweepCall>();
+    subcommand
+        .add_option("plan", call->config_file, "a TOML file with parameters and lists of them")
+        ->type_name("PLAN.toml");
+    call->parameters = add_run_options(subcommand);
+    const auto text = [&](const char* name, std::string& into, const char* type,
+                          const char* description, const char* group) {
+        return subcommand.add_option(name, into, description)->type_name(type)->group(group);
+    };
+    const char* const sweep_group =
+        "The sweep (every parameter may be a list: 5:48, 0:0.25:1, "
+        "0.1,0.5,1)";
+    text("--out", call->out, "DIR", "folder of the sweep; called again, it does what is missing",
+         sweep_group)
+        ->required();
+    text("--seeds", call->seeds, "N", "replicas of each point, with seeds of their own [1]",
+         sweep_group);
+    text("--threads", call->threads, "N", "runs at the same time [one for each core]", sweep_group);
+    subcommand.add_flag("--status", call->status, "only say what is done, running, failed")
+        ->group(sweep_group);
+    subcommand.add_flag("--dry-run", call->dry_run, "only say what would be run")
+        ->group(sweep_group);
+    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(sweep_group);
+    const char* const cluster = "On a cluster";
+    text("--part", call->part, "PART/PARTS", "do only this part, for example 2/10", cluster);
+    subcommand.add_flag("--rest", call->rest, "after the part, go on with what nobody works on")
+        ->group(cluster);
+    subcommand.add_flag("--slurm", call->slurm, "submit a job array instead of running here")
+        ->group(cluster);
+    text("--nodes", call->nodes, "N", "tasks of the array, one node each [1]", cluster);
+    text("--cpus", call->cpus, "N", "processors of each task [the whole node]", cluster);
+    text("--time", call->job.time, "TIME", "limit for each task, as sbatch takes it", cluster);
+    text("--partition", call->job.partition, "NAME", "of the cluster", cluster);
+    set_examples(subcommand, {"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
+                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
+                              "swirl sweep --out study --status", "swirl collect study"});
+    subcommand.callback([call] { sweep(*call); });
+}
+
+void add_collect_command(CLI::App& subcommand) {
+    struct Collect {
+        std::string folder, table;
+    };
+    const auto call = std::make_shared<Collect>();
+    subcommand.add_option("folder", call->folder, "folder of a sweep")
+        ->type_name("DIR")
+        ->required();
+    subcommand
+        .add_option("--csv", call->table,
+                    "where to write the table, or - for stdout "
+                    "[DIR/table.csv]")
+        ->type_name("FILE|-");
+    set_examples(subcommand, {"swirl collect study", "swirl collect study --csv -"});
+    subcommand.callback([call] {
+        const SweepPlan plan = read_plan(call->folder);
+        const Table table = collect_sweep(call->folder, plan);
+        const SweepStatus s = sweep_status(call->folder, plan);
+        const std::string file =
+            call->table.empty() ? (fs::path(call->folder) / "table.csv").string() : call->table;
+        if (s.done < s.points)
+            fmt::print(stderr, "swirl: {} of {} runs are not done yet; the table holds the rest.\n",
+                       s.points - s.done, s.points);
+        if (file == "-") return print_all(table.csv());
+        write_output(file, table.csv());
+        print_all(fmt::format("{} of {} runs in {}\n", s.done, s.points, file));
+    });
+}
+
+const Command sweep_command(30, "sweep", "Many runs: lists of parameters, all cores, clusters.",
+                            add_sweep_command);
+const Command collect_command(31, "collect", "The table of what a sweep has found.",
+                              add_collect_command);
+
+}  // namespace
+}  // namespace swirl
