@@ -51,24 +51,30 @@ double Voronoi::farthest(const Vec2& centre) const {
     return square_root(square);
 }
 
-void Voronoi::clip(const Vec2& centre, const Vec2& towards, double distance,
+bool Voronoi::clip(const Vec2& centre, const Vec2& towards, double distance,
                    std::uint32_t neighbour) {
-    next_.clear();
     const double offset = dot(centre, towards) + distance;
-    const auto depth = [&](const Corner& c) { return dot(c.at, towards) - offset; };
-    double da = depth(cell_.front());
+    depth_.resize(cell_.size());
+    double deepest = -never;
     for (std::size_t k = 0; k < cell_.size(); ++k) {
-        const Corner &a = cell_[k], &b = cell_[k + 1 < cell_.size() ? k + 1 : 0];
-        const double db = depth(b);
+        depth_[k] = dot(cell_[k].at, towards) - offset;
+        deepest = larger(depth_[k], deepest);
+    }
+    if (deepest <= 0.0) return false;
+
+    next_.clear();
+    for (std::size_t k = 0; k < cell_.size(); ++k) {
+        const std::size_t l = k + 1 < cell_.size() ? k + 1 : 0;
+        const Corner &a = cell_[k], &b = cell_[l];
+        const double da = depth_[k], db = depth_[l];
         if (da <= 0.0) next_.push_back(a);
-        if ((da <= 0.0) != (db <= 0.0)) {
-            const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
-            // Leaving the half-plane, the new side begins; coming back, the old one goes on.
-            next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
-        }
-        da = db;
+        if ((da <= 0.0) == (db <= 0.0)) continue;
+        const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
+        // Leaving the half-plane, the new side begins; coming back, the old one goes on.
+        next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
     }
     cell_.swap(next_);
+    return true;
 }
 
 void Voronoi::find(const MFrameView& view) {
@@ -124,21 +130,27 @@ void Voronoi::find(const MFrameView& view) {
             const double border =
                 (square + r * r - view.radius[j] * view.radius[j]) / (2.0 * distance);
             if (border >= far) return;
-            clip(centre, (1.0 / distance) * d, border, j);
-            reach = horizon();
+            if (clip(centre, (1.0 / distance) * d, border, j)) reach = horizon();
         };
-        // Outwards from the disc in the order of x, to both sides in turn: first those that are
-        // near, which cut off nearly everything, then whoever is still within reach.
+        // Outwards from the disc in the order of x, to both sides: first those that are near, the
+        // nearest first, which cut off nearly everything; then whoever is still within reach.
         const double near = 2.5 * (r + largest), near_square = near * near;
         const auto distance_square = [&](std::uint32_t j) {
             const Vec2 d = view.position(j) - centre;
             return dot(d, d);
         };
+        near_.clear();
+        const auto note = [&](std::uint32_t j) {
+            const double square = distance_square(j);
+            if (square < near_square) near_.push_back({square, j});
+        };
         for (std::size_t k = rank[i]; k-- > 0 && centre.x - view.x[order_[k]] < near;)
-            if (distance_square(order_[k]) < near_square) meet(order_[k]);
+            note(order_[k]);
         for (std::size_t k = rank[i] + 1; k < order_.size() && view.x[order_[k]] - centre.x < near;
              ++k)
-            if (distance_square(order_[k]) < near_square) meet(order_[k]);
+            note(order_[k]);
+        std::sort(near_.begin(), near_.end());
+        for (const auto& [square, j] : near_) meet(j);
         std::size_t left = rank[i], right = rank[i] + 1;
         bool more_left = true, more_right = true;
         while (more_left || more_right) {

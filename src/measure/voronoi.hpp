@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "measure/m_frame.hpp"
@@ -46,7 +47,8 @@ class Voronoi {
         Vec2 at;               // from the container's centre
         std::uint32_t beyond;  // who is behind the side that begins here
     };
-    void clip(const Vec2& centre, const Vec2& towards, double distance, std::uint32_t neighbour);
+    /// Cuts off what lies beyond the border; false if nothing does.
+    bool clip(const Vec2& centre, const Vec2& towards, double distance, std::uint32_t neighbour);
     double farthest(const Vec2& centre) const;
 
     std::vector<double> areas_;
@@ -54,6 +56,8 @@ class Voronoi {
     std::vector<Border> borders_;
     std::vector<std::uint32_t> order_;
     std::vector<Corner> cell_, next_;
+    std::vector<double> depth_;
+    std::vector<std::pair<double, std::uint32_t>> near_;  // distance squared, and who
 };
 
 }  // namespace swirl
