@@ -16,7 +16,7 @@
 //   pancake line: a single body with the cluster's perimeter, s = 1,
 //   ϖ/Ω = 1 − P_container/P_cluster
 //
-// Only every 32nd look is looked at, unless told otherwise: the hull costs more than most
+// Only every 64th look is looked at, unless told otherwise: the hull costs more than most
 // measurements, and the cluster changes little between two frames of a camera.
 //
 // Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
@@ -41,7 +41,7 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
 
 class Slip {
   public:
-    explicit Slip(int every = 32) : every_(every) {}
+    explicit Slip(int every = 64) : every_(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});

@@ -13,7 +13,7 @@
 //   sticking          share of the collisions in which friction stopped the slip, for disc–disc
 //                     and for disc–wall separately (needs the collisions themselves)
 //
-// Only every 32nd look at the discs is looked at, unless told otherwise: a search for neighbours
+// Only every 64th look at the discs is looked at, unless told otherwise: a search for neighbours
 // costs more than most measurements. Every collision counts.
 //
 // At the wall: gap below 0.1 r. Touching: gap below 0.1 of the mean radius. Units: none. The ratios
@@ -34,7 +34,7 @@ namespace swirl {
 
 class SpinFrustration {
   public:
-    explicit SpinFrustration(double gap = 0.1, int every = 32) : gap_(gap), every_(every) {}
+    explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});

@@ -24,6 +24,9 @@ struct InCircle {
 /// < R.
 InCircle in_circle(const Vec2& a, const Vec2& b, double R) {
     const Vec2 side = b - a;
+    const double square = R * R;
+    if (dot(a, a) <= square && dot(b, b) <= square)
+        return {0.5 * cross(a, b), square_root(dot(side, side))};
     const double A = dot(side, side), B = dot(a, side), C = dot(a, a) - R * R;
     const double discriminant = B * B - A * C;
     const double sector = 0.5 * R * R;

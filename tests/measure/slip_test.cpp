@@ -95,9 +95,9 @@ TEST(Slip, NobodyAndOneDiscAndNonsense) {
     EXPECT_NEAR(slip.cluster_perimeter().mean, 2.0 * pi, 1e-15);
 }
 
-TEST(Slip, LooksAtEvery32ndLookOnly) {
+TEST(Slip, LooksAtEvery64thLookOnly) {
     Slip slip;
-    for (int k = 0; k < 64; ++k) slip.look(rim(0.1, k % 32 == 0 ? 1.0 : 0.3));
+    for (int k = 0; k < 128; ++k) slip.look(rim(0.1, k % 64 == 0 ? 1.0 : 0.3));
     slip.close_block();
     EXPECT_NEAR(slip.cluster().mean, 1.0, 0.003);
 }

@@ -108,9 +108,9 @@ TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
     EXPECT_EQ(frustration.triangles().mean, 1.0);
 }
 
-TEST(SpinFrustration, LooksAtEvery32ndLookOnly) {
+TEST(SpinFrustration, LooksAtEvery64thLookOnly) {
     SpinFrustration frustration;
-    for (int k = 0; k < 64; ++k) frustration.look(k % 32 == 0 ? gears() : hexagon(0.3));
+    for (int k = 0; k < 128; ++k) frustration.look(k % 64 == 0 ? gears() : hexagon(0.3));
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
 }
