@@ -1,6 +1,6 @@
-// SWIRL_WIDE before a function: compiled twice, for AVX2 and for whatever processor there is, and
-// chosen when the program starts. For loops over columns whose iterations do not depend on each
-// other: the same operations on each element, never fused, so both give the same bits. Where the
+// SWIRL_WIDE before a function: compiled for AVX-512, for AVX2 and for whatever processor there is,
+// and chosen when the program starts. For loops over columns whose iterations do not depend on each
+// other: the same operations on each element, never fused, so all give the same bits. Where the
 // compiler or a sanitizer does not go along, it is compiled once.
 #pragma once
 
