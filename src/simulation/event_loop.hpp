@@ -226,8 +226,7 @@ static void start_narrow(Machine& m, double t) {
 /// The container takes its next leg. Only what depends on the container's motion is renewed: wall
 /// and neighbourhood. A wall event that now comes later leaves its disc to predict again at the
 /// time it held, which is early enough for whatever comes next.
-SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i) {
-    const Leaving leaving = leaving_times(m, i, m.clock);
+SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i, const Leaving& leaving) {
     Plan& plan = m.plan(i);
     const double pending = pending_time(m, i);
     const bool wall_first = leaving.wall <= leaving.neighbourhood;
@@ -241,12 +240,49 @@ SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i) {
     }
 }
 
+/// leaving_times() of the eight discs from `first` on, on a straight leg; all of them hold states
+/// from before the leg, so that now is t.
+SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
+    const std::uint32_t count = m.size - first < 8 ? m.size - first : 8;
+    std::uint32_t who[8];
+    alignas(64) double X[8], Y[8], freedom[8];
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        who[k] = k < count ? first + k : m.size;
+        const Neighbourhood& mine = m.neighbourhoods[k < count ? first + k : first];
+        X[k] = mine.X;
+        Y[k] = mine.Y;
+        freedom[k] = static_cast<double>(mine.freedom) * (1.0 - freedom_margin);
+    }
+    const Others<8> discs = load_others<8>(m, who);
+    const Flight<double> frame = carried_frame(m.legs[m.leg]);
+    const Vec2 centre = frame.position_at(t);
+    const Lanes<8> now(t);
+    const BasicVec2<Lanes<8>> s =
+        discs.flight.position_at(now) - BasicVec2<Lanes<8>>{Lanes<8>(centre.x), Lanes<8>(centre.y)};
+    const BasicVec2<Lanes<8>> v =
+        discs.flight.velocity -
+        BasicVec2<Lanes<8>>{Lanes<8>(frame.velocity.x), Lanes<8>(frame.velocity.y)};
+    const BasicVec2<Lanes<8>> offset =
+        s - BasicVec2<Lanes<8>>{Lanes<8>::load(X), Lanes<8>::load(Y)};
+    alignas(64) double wall[8], neighbourhood[8];
+    (now + time_to_leave(s, v, Lanes<8>(m.container_radius) - discs.radius)).store(wall);
+    (now + time_to_leave(offset, v, Lanes<8>::load(freedom))).store(neighbourhood);
+    for (std::uint32_t k = 0; k < count; ++k)
+        renew_leaving(m, first + k,
+                      {m.discs[first + k].far_from_wall ? never : wall[k], neighbourhood[k]});
+}
+
 [[gnu::noinline]] static Event end_leg(Machine& m) {
     m.clock = m.legs[m.leg].end;
     ++m.path_vertex;
     const Event event{m.swirls, m.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
     if (++m.leg < m.leg_count) {
-        for (std::uint32_t i = 0; i < m.size; ++i) renew_leaving(m, i);
+        if (m.legs[m.leg].turning == 0.0) {
+            for (std::uint32_t i = 0; i < m.size; i += 8) renew_eight(m, i, m.clock);
+        } else {
+            for (std::uint32_t i = 0; i < m.size; ++i)
+                renew_leaving(m, i, leaving_times(m, i, m.clock));
+        }
         return event;
     }
     // A new swirl: everybody is brought up to date and all clocks restart, so that times stay
@@ -286,6 +322,7 @@ SWIRL_INLINE Body body_of(const Machine& m, const HotDisc& d) {
 }
 
 SWIRL_INLINE Event collide_discs(Machine& m, std::uint32_t a, std::uint32_t b, double t) {
+    if (m.prefetches) prefetch_neighbours(m, b);
     const std::uint32_t i = a < b ? a : b, j = a < b ? b : a;
     const Vec2 at_i = flight_of(m.discs[i]).position_at(t);
     const Vec2 at_j = flight_of(m.discs[j]).position_at(t);

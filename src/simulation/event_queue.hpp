@@ -24,12 +24,38 @@ struct Next {
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
+/// Fetches what a prediction for disc i will read.
+SWIRL_INLINE void prefetch_neighbours(const Machine& m, std::uint32_t i) {
+    const std::uint32_t* const list = m.plan(i).neighbours();
+    for (int k = 0; k < 8; ++k) prefetch(&m.discs[list[k]]);
+}
+
+/// In a large dish most of what an event needs is far away in memory. Who has won all rows but the
+/// last is soon to come: its own lines are fetched then, and its partner and neighbours when it is
+/// among the last eight.
+SWIRL_INLINE void prefetch_winner(const Machine& m, std::uint32_t level, std::uint32_t winner) {
+    if (level + 2 == m.levels) {
+        prefetch(&m.discs[winner]);
+        prefetch(&m.plan(winner));
+        prefetch(&m.neighbourhoods[winner]);
+    } else if (level + 1 == m.levels) {
+        prefetch_neighbours(m, winner);
+        const std::uint32_t partner = m.plan(winner).partner;
+        if (partner >= m.size) return;
+        prefetch(&m.discs[partner]);
+        prefetch(&m.plan(partner));
+        prefetch(&m.neighbourhoods[partner]);
+        prefetch(m.level_times[0] + (partner & ~7u));
+    }
+}
+
 /// Lets the row's winner be known one level up, as far as anything changes.
 SWIRL_INLINE void promote(Machine& m, std::uint32_t row, double time, std::uint32_t winner) {
     for (std::uint32_t level = 1; level < m.levels; ++level) {
         double* const times = m.level_times[level] + (row & ~7u);
         std::uint32_t* const winners = m.level_winners[level] + (row & ~7u);
         if (times[row & 7u] == time && winners[row & 7u] == winner) return;
+        if (m.prefetches) prefetch_winner(m, level, winner);
         const Lanes<8> card = with_lane(Lanes<8>::load(times), row & 7u, time);
         card.store(times);
         winners[row & 7u] = winner;

@@ -70,6 +70,7 @@ struct Machine {
 
     // The tournament (event_queue.hpp).
     std::uint32_t levels;
+    bool prefetches;  // the discs do not all fit into the nearest cache
     double* level_times[12];
     std::uint32_t* level_winners[12];
 

@@ -109,6 +109,7 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
     m.capacity = list_capacity(largest / smallest);
     m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
     m.longest_freedom = largest;  // until lay_cells
+    m.prefetches = m.size > 4000;
     allocate(scene.discs.size());
     lay_cells(scene, tuning.cells_per_side);
     place(scene);
