@@ -1,5 +1,7 @@
 #include "files/event_log.hpp"
 
+#include <ctime>
+
 #include "files/checkpoint.hpp"
 #include "files/file_error.hpp"
 #include "files/scratch.hpp"
@@ -169,14 +171,15 @@ TEST(Checkpoint, ForeignAndOlderFilesAreNamedAsSuch) {
 TEST(Checkpoint, OfAMillionDiscsTakesLessThanTwoSeconds) {
     const Scratch scratch;
     std::vector<Disc> discs(1'000'000, Disc{{1, 2}, {3, 4}, 5, 6, 7, 8, 9, 10});
-    const auto begin = std::chrono::steady_clock::now();
+    // Processor time: other tests run beside this one and take their share of the cores.
+    const std::clock_t begin = std::clock();
     StateWriter state;
     state(discs);
     write_checkpoint(scratch / "c", {"", state.bytes()});
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    const double taken = double(std::clock() - begin) / CLOCKS_PER_SEC;
     EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 80'000'000u + 8 + 19 + 24);
-    EXPECT_LT(taken.count(), 2.0);
-    RecordProperty("seconds", std::to_string(taken.count()));
+    EXPECT_LT(taken, 2.0);
+    RecordProperty("seconds", std::to_string(taken));
 }
 
 }  // namespace

@@ -107,14 +107,18 @@ TEST(Trajectory, KilledAtRandomMomentsItLosesAtMostTheLastSecond) {
     const Scratch scratch;
     for (int round = 0; round < 6; ++round) {
         const auto path = scratch / "t.h5", partial = scratch / "t.h5.partial";
+        const auto begun = scratch / ("begun" + std::to_string(round));
         const pid_t child = ::fork();
         if (child == 0) {
             TrajectoryWriter writer(path, known_frame(48, 0), {});
             for (std::uint64_t k = 0;; ++k) {
                 writer.write(known_frame(48, k), k);
                 if (k % 50 == 49) writer.flush();  // far more often than each second
+                if (k == 49) write_whole_file(begun, "flushed once");
             }
         }
+        // On a busy machine the child may not even have begun after any fixed time.
+        for (int k = 0; k < 20'000 && !std::filesystem::exists(begun); ++k) ::usleep(1000);
         ::usleep(unsigned(60'000 + 7'001 * round));
         ::kill(child, SIGKILL);
         ::waitpid(child, nullptr, 0);
