@@ -40,6 +40,7 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
                                       [](const Panel& p) { return !p.caption.empty(); });
     const double caption = captions && type_ >= smallest_type ? 1.7 * type_ : 0.0;
     const double y = area.y + 0.5 * (area.height - side - caption) + caption;
+    number_line_ = y - 0.55 * type_;
     for (const Panel& panel : spec_.panels) {
         const Rectangle square{x, y, side, side};
         views_.push_back(
@@ -68,7 +69,8 @@ void Sheet::lay_out(const Canvas& canvas) {
     const double width = spec_.size.width, height = spec_.size.height;
     const double shorter = std::min(width, height);
     margin_ = 0.026 * shorter;
-    type_ = 0.0235 * shorter;
+    // Small pictures have larger letters in proportion, as long as they leave room for the dish.
+    type_ = std::max(0.0235 * shorter, std::min(11.0, 0.038 * shorter));
     const auto count = static_cast<double>(spec_.panels.size());
     const double side = height - 2.0 * margin_;
     const double left_over = width - count * side - (count + 2.0) * margin_;
@@ -254,13 +256,13 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
     draw_scene(canvas, views_[k], spec_.style, content);
     const Panel& panel = spec_.panels[k];
     if (!content.turned || !panel.turned || type_ < smallest_type) return;
-    // In the corner beside the dish, where it never comes.
+    // On the line of the captions, where the dish never comes.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
     const std::string number = (*content.turned < 0.0 ? "−" : "+") +
                                fixed(std::abs(*content.turned), 2) + " turns";
     const Theme& theme = spec_.style.theme;
     draw_label(canvas, number,
-               {views_[k].centre.x + 0.62 * reach, views_[k].centre.y + 1.22 * reach},
+               {views_[k].centre.x - 1.24 * reach, number_line_},
                {.size = 1.1 * type_,
                 .color = *content.turned < 0.0 ? theme.pinned : theme.loose,
                 .bold = true,
