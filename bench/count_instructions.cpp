@@ -1,0 +1,17 @@
+// count_instructions SCENE EVENTS: runs so many events and nothing else, for
+// instructions_test.py to count under valgrind. Baseline vectors, which valgrind and every
+// processor know.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "simulation/scenes.hpp"
+
+int main(int argc, char** argv) {
+    if (argc != 3) return 2;
+    const bool dish = std::strcmp(argv[1], "dish") == 0;
+    const swirl::Scene scene = dish ? swirl::paper_scene(48) : swirl::gas_scene(1000, 0.7);
+    swirl::Simulation simulation(scene, {}, {0, swirl::Width::baseline});
+    simulation.run(std::strtoull(argv[2], nullptr, 10));
+    std::printf("%016llx\n", static_cast<unsigned long long>(simulation.state_hash()));
+}

@@ -1,0 +1,43 @@
+"""Instructions per event, counted by callgrind: a measure of work that is the same on a busy machine
+and an idle one, to a fraction of a per cent. Who makes the loop longer must raise the allowance
+here, and say why.
+
+The count is that of a long run less that of a shorter one, so starting up does not enter. Allowed is
+what was found when the number was written down, and a tenth for other compilers' choices."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+PROGRAM = os.environ["SWIRL_COUNT_INSTRUCTIONS"]
+
+# Scene: events of the shorter and of the longer run, instructions per event allowed (g++ 12, -O3).
+ALLOWED = {
+    "dish": (20000, 40000, 2800),  # N = 48, mu = 1, corners included
+    "gas": (10000, 20000, 3050),   # N = 1000, packing 0.7
+}
+
+
+def instructions(scene, events):
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
+                           PROGRAM, scene, str(events)], check=True, capture_output=True, text=True)
+    return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+
+
+class Instructions(unittest.TestCase):
+    def test_per_event_stay_within_the_allowance(self):
+        for scene, (short, long, allowed) in ALLOWED.items():
+            with self.subTest(scene=scene):
+                found = (instructions(scene, long) - instructions(scene, short)) / (long - short)
+                print(f"{scene}: {found:.0f} instructions per event, {allowed} allowed")
+                self.assertLess(found, allowed)
+
+
+if __name__ == "__main__":
+    if not shutil.which("valgrind"):
+        print("skipped: this test needs valgrind (Debian package valgrind)")
+        sys.exit(77)
+    unittest.main()

@@ -1,0 +1,95 @@
+// swirl bench: how fast the engine is on this machine.
+#include <fmt/format.h>
+
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/stop_signal.hpp"
+#include "lab/bench.hpp"
+#include "lab/failure.hpp"
+#include "lab/run_parameters.hpp"
+
+namespace swirl {
+namespace {
+
+struct BenchCall {
+    bool full = false, quiet = false;
+    std::string width = "best", seconds = "1", json, csv;
+};
+
+std::vector<Width> read_widths(const std::string& text) {
+    const std::vector<std::pair<std::string, Width>> known = {
+        {"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}};
+    if (text == "best") return {Width::best};
+    std::vector<Width> found;
+    for (const auto& [name, width] : known)
+        if ((text == "all" && has_width(width)) || text == name) found.push_back(width);
+    if (found.empty())
+        throw WrongCall(
+            fmt::format("The width of the vectors cannot be '{}'; it must be best, all, baseline, "
+                        "avx2 or avx512.",
+                        text));
+    for (const Width width : found)
+        if (!has_width(width))
+            throw Failure(
+                fmt::format("This processor has no vectors of the width {}; "
+                            "--width all takes those that it has.",
+                            text));
+    return found;
+}
+
+void make_bench(const BenchCall& call) {
+    BenchSettings settings;
+    settings.full = call.full;
+    settings.widths = read_widths(call.width);
+    const auto seconds = read_number(call.seconds);
+    if (!seconds || !(*seconds > 0.0 && *seconds <= 3600.0))
+        throw WrongCall(
+            fmt::format("The time for each rate cannot be '{}'; it must be a number of "
+                        "seconds, above 0 and at most 3600.",
+                        call.seconds));
+    settings.seconds = *seconds;
+    for (const std::string& file : {call.json, call.csv})
+        if (!file.empty() && file != "-") refuse_unwritable(file);
+
+    BenchResult result;
+    {
+        ProgressLine line("bench", call.quiet);
+        settings.stop = &stop_signal();
+        settings.progress = [&](double fraction, const std::string& scene) {
+            line.show(fraction, scene);
+        };
+        result = bench(settings);
+    }
+    const auto write = [](const std::string& file, const std::string& text) {
+        file == "-" ? print_all(text) : write_output(file, text);
+    };
+    if (!call.json.empty()) write(call.json, bench_json(result, command_line()));
+    if (!call.csv.empty()) write(call.csv, bench_csv(result, command_line()));
+    if (call.json != "-" && call.csv != "-") print_all(bench_report(result));
+}
+
+void add_bench_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<BenchCall>();
+    subcommand.add_flag("--full", call->full, "a million discs, too");
+    subcommand
+        .add_option("--width", call->width,
+                    "of the vectors: best, all, baseline, avx2 or avx512 [best]")
+        ->type_name("NAME");
+    subcommand.add_option("--seconds", call->seconds, "of processor time for each rate [1]")
+        ->type_name("NUMBER");
+    subcommand.add_option("--json", call->json, "write the result as JSON (- prints it)")
+        ->type_name("FILE");
+    subcommand.add_option("--csv", call->csv, "write the result as a table (- prints it)")
+        ->type_name("FILE");
+    subcommand.add_flag("--quiet", call->quiet, "no progress");
+    set_examples(subcommand, {"swirl bench", "swirl bench --width all --json bench.json",
+                              "swirl bench --full --seconds 5"});
+    subcommand.callback([call] { make_bench(*call); });
+}
+
+const Command command(90, "bench", "How fast the engine is on this machine.", add_bench_command);
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,41 @@
+"""swirl bench: what it prints, what it writes, and what it refuses. How fast it is, is not asked."""
+
+import json
+import unittest
+
+from program import InFolder, swirl
+
+
+class Bench(InFolder):
+    def test_measures_every_scene_and_writes_json_and_csv(self):
+        done = swirl("bench", "--seconds", "0.02", "--quiet", "--json", self.path("b.json"), "--csv",
+                     self.path("b.csv"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("dish, mu = 1", done.stdout)
+        self.assertIn("gas, packing 0.2", done.stdout)
+        with open(self.path("b.json")) as f:
+            result = json.load(f)
+        rows = {(row["scene"], row["discs"]): row for row in result["rows"]}
+        self.assertEqual(len(rows), 8)
+        for row in rows.values():
+            self.assertGreater(row["rate"], 0)
+            self.assertLess(row["bytes_per_disc"], 300)
+        dish = rows["dish, mu = 1", 48]
+        self.assertGreater(dish["ratio"], 1)  # the plain loop never wins at N = 48
+        self.assertAlmostEqual(dish["ratio"], dish["rate"] / dish["plain_rate"])
+        self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_rate"])
+        with open(self.path("b.csv")) as f:
+            self.assertEqual(len(f.readlines()), 9)
+
+    def test_refuses_what_it_cannot_do_in_a_sentence(self):
+        for call, words in ((("--width", "wide"), "'wide'"), (("--seconds", "-1"), "'-1'"),
+                            (("--seconds", "nan"), "'nan'"), (("--json", "/no/such/b.json"), "/no")):
+            with self.subTest(call=call):
+                done = swirl("bench", *call)
+                self.assertIn(done.returncode, (1, 2))
+                self.assertIn(words, done.stderr)
+                self.assertEqual(done.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
