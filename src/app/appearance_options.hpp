@@ -14,8 +14,7 @@ namespace swirl {
 struct AppearanceTexts {
     std::string frame, color = "none", theme = "dark", title, size;
     double trail_length = 0.3;
-    bool trails = false, forces = false, plot = false, turned = false, angles = false,
-         bare = false;
+    bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
 };
 
 std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand);

@@ -37,8 +37,8 @@ MovieConfig movie_config(const MovieCall& call) {
     config.pace = call.pace;
     config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
     const Footage& first = config.footage.front();
-    config.start = call.start.value_or(
-        first.from.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
+    config.start =
+        call.start.value_or(first.from.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.swirls)
         throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);

@@ -47,7 +47,8 @@ void add_picture_command(CLI::App& subcommand) {
         ->type_name("FILE")
         ->group(group);
     subcommand
-        .add_option("--at", call->at, "the instant, in swirls from the start [20; the last of FILE]")
+        .add_option("--at", call->at,
+                    "the instant, in swirls from the start [20; the last of FILE]")
         ->type_name("SWIRLS")
         ->group(group);
     subcommand
@@ -68,8 +69,7 @@ void add_picture_command(CLI::App& subcommand) {
     subcommand.callback([call] { draw_and_report(*call); });
 }
 
-const Command command(61, "picture", "A picture of the dish at one instant.",
-                      add_picture_command);
+const Command command(61, "picture", "A picture of the dish at one instant.", add_picture_command);
 
 }  // namespace
 }  // namespace swirl

@@ -10,8 +10,8 @@ namespace {
 
 RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
     if (!(*texts.slip >= 0.0 && *texts.slip <= 1.0))
-        throw WrongCall(fmt::format("--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).",
-                                    *texts.slip));
+        throw WrongCall(fmt::format(
+            "--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).", *texts.slip));
     if (!(texts.ball_radius > 0.0 && texts.ball_radius < container.container_radius))
         throw WrongCall(
             fmt::format("--ball-radius is {}, but it must be above 0 and below the container's {}.",
@@ -28,8 +28,7 @@ RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
 std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
     auto texts = std::make_shared<FootageTexts>();
     const auto group = "What is shown";
-    subcommand
-        .add_option("FILE", texts->file, "a recorded trajectory (.h5) instead of a new run")
+    subcommand.add_option("FILE", texts->file, "a recorded trajectory (.h5) instead of a new run")
         ->group(group);
     subcommand
         .add_option("--beside", texts->beside,
@@ -52,9 +51,10 @@ std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
 std::vector<Footage> footage(const FootageTexts& texts) {
     if (!texts.file.empty()) {
         if (!texts.parameters->empty())
-            throw WrongCall(fmt::format("{} was recorded with parameters of its own: --{} cannot "
-                                        "change them.",
-                                        texts.file, texts.parameters->begin()->first));
+            throw WrongCall(
+                fmt::format("{} was recorded with parameters of its own: --{} cannot "
+                            "change them.",
+                            texts.file, texts.parameters->begin()->first));
         if (texts.beside || texts.slip)
             throw WrongCall("A recording stands alone: --beside and --rolling-ball need a run.");
         return {recorded(texts.file)};
@@ -62,8 +62,7 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     const RunConfig config = resolve(*texts.parameters);
     if (texts.slip && texts.beside)
         throw WrongCall("--rolling-ball and --beside show different things: give one.");
-    if (texts.slip)
-        return {rolling(ball_of(texts, config), config.amplitude, config.period)};
+    if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
     std::vector<Footage> dishes{simulated(config)};
     if (texts.beside) {
         RunConfig other = config;

@@ -89,8 +89,8 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     // Lab: the path of C, and how far the wall reaches, as dots.
     std::vector<Vec2> path;
     for (int k = 0; k < 120; ++k)
-        path.push_back({amplitude * std::cos(full_turn * k / 120),
-                        amplitude * std::sin(full_turn * k / 120)});
+        path.push_back(
+            {amplitude * std::cos(full_turn * k / 120), amplitude * std::sin(full_turn * k / 120)});
     draw_dish(canvas, views[0], style, empty);
     draw_points(canvas, views[0], style, {.now = empty, .path = path});
     cairo_new_sub_path(cairo);
@@ -124,8 +124,11 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
         const double speed = std::sqrt(dot(v, v));
         const Vec2 u = (2.9 * now.radius[disc] / std::max(speed, 1e-300)) * v;
         const Vec2 force = -0.85 * perpendicular(u);
-        const LabelStyle plain{.size = 0.8 * type, .color = theme.ink, .align = Align::center,
-                               .bold = true, .halo = theme.floor};
+        const LabelStyle plain{.size = 0.8 * type,
+                               .color = theme.ink,
+                               .align = Align::center,
+                               .bold = true,
+                               .halo = theme.floor};
         const auto named = [&](const Vec2& arm, const Vec2& beside, const Color& color,
                                const char* name) {
             draw_arrow(canvas, place, views[2].on_page(p + arm), 0.17 * r, color);

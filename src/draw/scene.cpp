@@ -386,8 +386,10 @@ void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_width(cairo, width);
     cairo_new_sub_path(cairo);
-    if (sweep < 0.0) cairo_arc_negative(cairo, c.x, c.y, radius, top, top + sweep);
-    else cairo_arc(cairo, c.x, c.y, radius, top, top + sweep);
+    if (sweep < 0.0)
+        cairo_arc_negative(cairo, c.x, c.y, radius, top, top + sweep);
+    else
+        cairo_arc(cairo, c.x, c.y, radius, top, top + sweep);
     canvas.set(color);
     cairo_stroke(cairo);
     // A head that points on along the arc.

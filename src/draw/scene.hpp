@@ -38,7 +38,7 @@ struct SceneStyle {
     bool points = true;       // S, C, M
     bool path = true;         // of C
     bool forces = false;      // centrifugal and Coriolis, per disc; M-frame only
-    bool angles = false;        // θ at the wall; M-frame only
+    bool angles = false;      // θ at the wall; M-frame only
     /// Lights up the discs' floor around this θ; M-frame only (paper, Fig. 2a).
     std::optional<double> slice = {};
 };
@@ -54,8 +54,8 @@ struct SceneContent {
     std::span<const Snapshot* const> past = {};
     /// Instants drawn faintly beneath, oldest first: a stroboscopic picture.
     std::span<const Snapshot* const> ghosts = {};
-    /// Whole and part turns of the cluster since some beginning, counter-clockwise: an arc round the
-    /// dish shows it. Lab frame only.
+    /// Whole and part turns of the cluster since some beginning, counter-clockwise: an arc round
+    /// the dish shows it. Lab frame only.
     std::optional<double> turned = {};
 };
 

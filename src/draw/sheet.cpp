@@ -43,9 +43,8 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
     number_line_ = y - 0.55 * type_;
     for (const Panel& panel : spec_.panels) {
         const Rectangle square{x, y, side, side};
-        views_.push_back(
-            fitting_view(square, panel.frame, panel.container_radius,
-                                      panel.amplitude, panel.turned ? 0.1 : 0.0));
+        views_.push_back(fitting_view(square, panel.frame, panel.container_radius, panel.amplitude,
+                                      panel.turned ? 0.1 : 0.0));
         if (caption > 0.0)
             texts_.push_back(
                 {panel.caption,
@@ -258,11 +257,10 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
     if (!content.turned || !panel.turned || type_ < smallest_type) return;
     // On the line of the captions, where the dish never comes.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
-    const std::string number = (*content.turned < 0.0 ? "−" : "+") +
-                               fixed(std::abs(*content.turned), 2) + " turns";
+    const std::string number =
+        (*content.turned < 0.0 ? "−" : "+") + fixed(std::abs(*content.turned), 2) + " turns";
     const Theme& theme = spec_.style.theme;
-    draw_label(canvas, number,
-               {views_[k].centre.x - 1.24 * reach, number_line_},
+    draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, number_line_},
                {.size = 1.1 * type_,
                 .color = *content.turned < 0.0 ? theme.pinned : theme.loose,
                 .bold = true,

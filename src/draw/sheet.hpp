@@ -68,7 +68,7 @@ class Sheet {
     SheetSpec spec_;
     double type_ = 0.0;  // size of the ordinary type
     double margin_ = 0.0;
-    double number_line_ = 0.0;  // baseline of the captions
+    double number_line_ = 0.0;                                // baseline of the captions
     double scale_ = std::numeric_limits<double>::infinity();  // pixels per unit of length
     std::vector<View> views_;
     std::vector<Text> texts_;

@@ -86,9 +86,7 @@ Footage simulated(const RunConfig& config) {
 Footage rolling(const RollingBall& ball, double amplitude, double period) {
     Footage footage;
     footage.open = [=]() -> Reel {
-        return [=](double swirls) {
-            return snapshot_at(ball, amplitude, period, swirls * period);
-        };
+        return [=](double swirls) { return snapshot_at(ball, amplitude, period, swirls * period); };
     };
     footage.path = outline(circular_path(amplitude, period));
     footage.container_radius = ball.container_radius;
@@ -167,11 +165,10 @@ Footage recorded(const SnapshotSeries& series, const std::string& caption) {
     footage.period = first.period;
     if (footage.amplitude > 0.0) footage.path = outline(circular_path(footage.amplitude, 1.0));
     footage.caption = caption;
-    footage.parameters = {
-        fmt::format("$N$ = {}", first.size()),
-        "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
-        "$A$ = " + plain(rounded(footage.amplitude)) + " $r$",
-        fmt::format("{} recorded frames", series.frames)};
+    footage.parameters = {fmt::format("$N$ = {}", first.size()),
+                          "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
+                          "$A$ = " + plain(rounded(footage.amplitude)) + " $r$",
+                          fmt::format("{} recorded frames", series.frames)};
     footage.from = swirls_of(first);
     footage.to = swirls_of(last);
     return footage;

@@ -140,13 +140,11 @@ class Easel {
         std::vector<SceneContent> contents;
         for (std::size_t k = 0; k < config.footage.size(); ++k) {
             for (const Moment& moment : instant.past[k]) past[k].push_back(moment.get());
-            for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
-{
+            for (std::size_t f = 0; f < config.appearance.frames.size(); ++f) {
                 contents.push_back(
                     {*instant.now[k], config.footage[k].path, instant.pinned[k], past[k]});
                 if (config.appearance.turned)
-                    contents.back().turned =
-                        turns_until(curves[k], config.start, instant.swirls);
+                    contents.back().turned = turns_until(curves[k], config.start, instant.swirls);
             }
         }
         sheet.draw_moving(canvas_, contents, curves, instant.swirls);
@@ -176,7 +174,8 @@ double time_of_frame(const MovieConfig& config, int frame) {
 
 PinnedWatch::PinnedWatch(const Footage& footage, double first)
     : reel_(footage.open()), to_(footage.to) {
-    // One swirl earlier, where there is one: a disc counts as pinned after eight frames at the wall.
+    // One swirl earlier, where there is one: a disc counts as pinned after eight frames at the
+    // wall.
     const double begin = std::max(footage.from.value_or(0.0), first - 1.0);
     next_ = static_cast<std::int64_t>(std::ceil(begin * frames_per_swirl));
 }

@@ -25,11 +25,11 @@ struct Appearance {
     bool forces = false;
     bool points = true;
     bool path = true;
-    bool angles = false;                // θ at the wall, M-frame
-    std::optional<double> slice = {};   // θ of a highlighted slice (paper, Fig. 2a)
+    bool angles = false;               // θ at the wall, M-frame
+    std::optional<double> slice = {};  // θ of a highlighted slice (paper, Fig. 2a)
     bool clock = true;
     bool plot = false;
-    bool turned = false;                // an arc: how far the cluster has turned, lab frame
+    bool turned = false;  // an arc: how far the cluster has turned, lab frame
     bool texts = true;
     std::string title;
     Theme theme = dark_theme();

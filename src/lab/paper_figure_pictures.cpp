@@ -1,4 +1,5 @@
-// The paper's drawn figures: 1c (what the M-frame is), 2a (pinned and loose discs), 5a (a snapshot).
+// The paper's drawn figures: 1c (what the M-frame is), 2a (pinned and loose discs), 5a (a
+// snapshot).
 #include <filesystem>
 
 #include "draw/frame_diagram.hpp"

@@ -50,14 +50,16 @@ Row numerical(const std::string& title, double mu_disc, double mu_wall, std::uin
 
 std::vector<Row> all_rows(std::uint64_t seed) {
     std::vector<Row> rows;
-    rows.push_back(numerical(
-        "All friction", 1.0, 1.0, seed, Coloring::id, Coloring::pinned,
-        "The arc round the dish adds up how far the cluster has turned: 28 discs drift round with the "
-        "swirl, 48 creep the other way. In the M-frame discs stick to the wall, ride up with it, come off and cross over; "
-        "with 48 discs the pinned region (red) reaches much farther."));
+    rows.push_back(numerical("All friction", 1.0, 1.0, seed, Coloring::id, Coloring::pinned,
+                             "The arc round the dish adds up how far the cluster has turned: 28 "
+                             "discs drift round with the "
+                             "swirl, 48 creep the other way. In the M-frame discs stick to the "
+                             "wall, ride up with it, come off and cross over; "
+                             "with 48 discs the pinned region (red) reaches much farther."));
     rows.push_back(numerical(
         "No disc friction", 0.0, 1.0, seed, Coloring::spin, Coloring::spin,
-        "The wall spins up the discs that touch it, and without friction between them nothing slows "
+        "The wall spins up the discs that touch it, and without friction between them nothing "
+        "slows "
         "them down: colours show the spin. The cluster is loose, like a gas, and turns with the "
         "swirl."));
     rows.push_back(numerical(
@@ -65,11 +67,15 @@ std::vector<Row> all_rows(std::uint64_t seed) {
         "Nothing drags the discs along the wall: in the lab frame the cluster sloshes round as one "
         "body, at the rate of the swirl; in the M-frame it hardly moves inside."));
 
-    Row ball{"Minimal model", "minimal-model",
-             "One rigid ball. Rolling on the wall without slip it counterrotates, like a gear inside "
-             "a ring; where it slips freely it does not turn in the M-frame, so in the lab it turns "
-             "with the swirl.",
-             Coloring::none, Coloring::none, {}};
+    Row ball{
+        "Minimal model",
+        "minimal-model",
+        "One rigid ball. Rolling on the wall without slip it counterrotates, like a gear inside "
+        "a ring; where it slips freely it does not turn in the M-frame, so in the lab it turns "
+        "with the swirl.",
+        Coloring::none,
+        Coloring::none,
+        {}};
     for (const double slip : {1.0, 0.0}) {
         RollingBall model;
         model.slip = slip;
@@ -166,9 +172,8 @@ std::vector<std::filesystem::path> make_paper_movies(const PaperMoviesSettings& 
                 config.appearance.frames = {frame};
                 config.appearance.coloring = lab ? row.lab_coloring : row.m_coloring;
                 config.appearance.size = settings.quick ? Size{360, 360} : Size{900, 900};
-                config.appearance.title =
-                    fmt::format("{}, {}", row.title, model ? version.footage.caption
-                                                           : version.caption);
+                config.appearance.title = fmt::format(
+                    "{}, {}", row.title, model ? version.footage.caption : version.caption);
                 const std::string name =
                     fmt::format("{}{}-{}-{}.mp4", model ? "" : "numerical-",
                                 model ? row.name : (lab ? "lab-frame" : "m-frame"),
@@ -185,8 +190,8 @@ std::vector<std::filesystem::path> make_paper_movies(const PaperMoviesSettings& 
                 const MovieResult result = make_movie(config, movie_control);
                 if (!result.complete) {
                     if (result.frames > 0) std::filesystem::remove(config.out);
-                    throw Interrupted(fmt::format("Stopped after {} of {:.0f} movies.",
-                                                  files.size(), total));
+                    throw Interrupted(
+                        fmt::format("Stopped after {} of {:.0f} movies.", files.size(), total));
                 }
                 files.emplace_back(config.out);
                 const double swirls = config.frames * config.pace / config.frames_per_second;

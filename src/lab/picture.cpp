@@ -88,12 +88,11 @@ void make_picture(const PictureConfig& config) try {
         for (const Snapshot& s : e.past) e.past_pointers.push_back(&s);
         for (const Snapshot& s : e.ghosts) e.ghost_pointers.push_back(&s);
         for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
-            contents.push_back({e.now, config.footage[k].path, e.pinned, e.past_pointers,
-                                e.ghost_pointers});
+            contents.push_back(
+                {e.now, config.footage[k].path, e.pinned, e.past_pointers, e.ghost_pointers});
         if (config.appearance.turned)
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
-                contents[contents.size() - 1 - f].turned =
-                    turns_until(curves[k], begin, config.at);
+                contents[contents.size() - 1 - f].turned = turns_until(curves[k], begin, config.at);
     }
     Canvas canvas(config.appearance.size, *picture_format(config.out), config.out);
     sheet.draw_still(canvas);

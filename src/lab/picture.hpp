@@ -13,10 +13,10 @@ namespace swirl {
 struct PictureConfig {
     std::vector<Footage> footage;  // side by side
     Appearance appearance;
-    double at = 20.0;              // swirls
-    int flashes = 1;               // of the stroboscope; the last one is at `at`
-    double every = 1.0;            // swirls between two flashes
-    std::string out;               // .png, .svg or .pdf
+    double at = 20.0;    // swirls
+    int flashes = 1;     // of the stroboscope; the last one is at `at`
+    double every = 1.0;  // swirls between two flashes
+    std::string out;     // .png, .svg or .pdf
 };
 
 /// By the ending of the name; nothing for any other ending.

@@ -87,7 +87,8 @@ TEST_F(Recording, PlaysTheFramesThatWereRecorded) {
     const Footage footage = recorded(path("run.h5"));
     EXPECT_NEAR(*footage.from, 1.0, 1e-12);
     EXPECT_NEAR(*footage.to, 3.0, 1e-12);
-    EXPECT_NEAR(footage.amplitude, paper_amplitude, 0.01);  // the polygon's corners may fall between
+    EXPECT_NEAR(footage.amplitude, paper_amplitude,
+                0.01);  // the polygon's corners may fall between
     const Reel reel = footage.open();
     for (int k = 0; k <= 40; ++k) expect_same_places(reel(1.0 + k / 20.0), frames_[k], 1e-12);
 }
@@ -146,7 +147,8 @@ TEST(PinnedWatch, SaysWhatTheMeasurementSaysSevenFramesLater) {
 }
 
 TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
-    // In the lab the wall's points do not turn: a disc that keeps its place in the dish rides along.
+    // In the lab the wall's points do not turn: a disc that keeps its place in the dish rides
+    // along.
     Footage footage;
     footage.period = 10.0;
     footage.container_radius = 8.6;
@@ -164,8 +166,9 @@ TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
             s.set(0, {s.container_centre + Vec2{7.6, 0.0}, s.container_velocity, 0.0, 0.0, s.clock,
                       1.0, 1.0, 10.0});
             // At rest in the M-frame: turns with the swirl.
-            s.set(1, {4.0 * unit_circle(phase), (4.0 * 2.0 * pi / 10.0) *
-                      perpendicular(unit_circle(phase)), 0.0, 0.0, s.clock, 1.0, 1.0, 10.0});
+            s.set(1, {4.0 * unit_circle(phase),
+                      (4.0 * 2.0 * pi / 10.0) * perpendicular(unit_circle(phase)), 0.0, 0.0,
+                      s.clock, 1.0, 1.0, 10.0});
             return s;
         };
     };
