@@ -400,7 +400,7 @@ std::vector<fs::path> write_measured_tables(const Json& measured, const fs::path
         Table table(heads);
         for (std::size_t r = 0; r < columns.begin()->size(); ++r) {
             std::vector<Table::Cell> row;
-            for (const std::string& head : heads) row.push_back(number(columns[head][r]));
+            for (const std::string& head : heads) row.emplace_back(number(columns[head][r]));
             table.add(std::move(row));
         }
         files.push_back(folder / (name + ".csv"));

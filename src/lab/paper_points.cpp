@@ -88,16 +88,16 @@ std::vector<std::string> rotation_columns() {
 
 void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     for (const char* which : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"}) {
-        row.push_back(number(r["rotation"][which]["mean"]));
-        row.push_back(number(r["rotation"][which]["error"]));
+        row.emplace_back(number(r["rotation"][which]["mean"]));
+        row.emplace_back(number(r["rotation"][which]["error"]));
     }
-    row.push_back(number(r["rotation"]["by_event"]["effective_samples"]));
-    row.push_back(r["events"]["total"].get<std::int64_t>());
-    row.push_back(number(r["periods"]));
-    row.push_back(r["warmup"]["periods"].get<std::int64_t>());
-    row.push_back(r["steady_state"]["verdict"].get<std::string>());
-    row.push_back(r["config"]["seed"].get<std::int64_t>());
-    row.push_back(r["state_hash"].get<std::string>());
+    row.emplace_back(number(r["rotation"]["by_event"]["effective_samples"]));
+    row.emplace_back(r["events"]["total"].get<std::int64_t>());
+    row.emplace_back(number(r["periods"]));
+    row.emplace_back(r["warmup"]["periods"].get<std::int64_t>());
+    row.emplace_back(r["steady_state"]["verdict"].get<std::string>());
+    row.emplace_back(r["config"]["seed"].get<std::int64_t>());
+    row.emplace_back(r["state_hash"].get<std::string>());
 }
 
 RotationPoint rotation_point(double x, const Json& r, const char* average) {

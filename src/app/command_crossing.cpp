@@ -1,0 +1,122 @@
+// swirl crossing: at how many discs rotation turns into counterrotation.
+#include <fmt/format.h>
+
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/run_options.hpp"
+#include "app/stop_signal.hpp"
+#include "lab/crossing_search.hpp"
+#include "lab/run_json.hpp"
+#include "lab/run_report.hpp"
+#include "lab/version.hpp"
+
+namespace swirl {
+namespace {
+
+struct CrossingCall {
+    std::shared_ptr<ParameterTexts> parameters;
+    CrossingSettings settings;
+    std::string json;
+    bool quiet = false;
+};
+
+const char* word(Crossing::Verdict verdict) {
+    switch (verdict) {
+        case Crossing::Verdict::crosses: return "crosses";
+        case Crossing::Verdict::always_rotates: return "always rotates";
+        case Crossing::Verdict::always_counterrotates: return "always counterrotates";
+        case Crossing::Verdict::undecided: break;
+    }
+    return "undecided";
+}
+
+nlohmann::ordered_json search_json(const CrossingSettings& settings, const CrossingSearch& s) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < s.points.size(); ++k)
+        points.push_back({{"discs", s.points[k].discs},
+                          {"mean", s.points[k].mean},
+                          {"error", s.points[k].error},
+                          {"runs", s.runs_made[k]}});
+    return {{"verdict", word(s.crossing.verdict)},
+            {"discs", s.crossing.discs},
+            {"error", s.crossing.error},
+            {"lower", s.crossing.lower},
+            {"upper", s.crossing.upper},
+            {"within_tolerance", s.within_tolerance},
+            {"tolerance", settings.tolerance},
+            {"points", points},
+            {"runs", s.runs},
+            {"events", s.events},
+            {"seconds", s.seconds},
+            {"config", config_json(settings.config)},
+            {"command", command_line()},
+            {"version", version()}};
+}
+
+std::string table_text(const CrossingSearch& search) {
+    std::string text;
+    for (std::size_t k = 0; k < search.points.size(); ++k)
+        text += fmt::format("  N = {:<4.0f} ϖ/Ω = {:<20} {} run{}\n", search.points[k].discs,
+                            with_error(search.points[k].mean, search.points[k].error),
+                            search.runs_made[k], search.runs_made[k] == 1 ? "" : "s");
+    return text;
+}
+
+void find(CrossingCall& call) {
+    const bool json_to_stdout = call.json == "-";
+    call.settings.config = resolve(*call.parameters);
+    if (!call.parameters->contains("events")) call.settings.config.events = 200'000;
+    if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+
+    CrossingSearch search;
+    {
+        ProgressLine line("crossing", call.quiet);
+        CrossingControl control;
+        control.stop = &stop_signal();
+        int done = 0;
+        control.progress = [&](const std::string& stage, double rate) {
+            // How many runs it takes is not known beforehand: half of what is left, ever again.
+            const double fraction = 1.0 - 20.0 / (20.0 + ++done);
+            line.show(fraction, fmt::format("{}, {} events/s", stage, short_number(rate)));
+        };
+        search = search_crossing(call.settings, control);
+    }
+    std::string text = crossing_report(call.settings, search) + "\n";
+    if (!call.quiet)
+        text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
+                                                 with_commas(search.events),
+                                                 short_duration(search.seconds));
+    const std::string json = search_json(call.settings, search).dump(2) + "\n";
+    if (json_to_stdout) {
+        print_all(json);
+        if (!call.quiet) fmt::print(stderr, "{}", text);
+        return;
+    }
+    if (!call.json.empty()) write_output(call.json, json);
+    print_all(text);
+}
+
+void add_crossing_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<CrossingCall>();
+    call->parameters = add_run_options(subcommand, {"discs", "periods"});
+    subcommand
+        .add_option("--tolerance", call->settings.tolerance, "wanted standard error of N_c [0.3]")
+        ->type_name("NUMBER");
+    subcommand.add_option("--from", call->settings.from, "fewest discs [5]")->type_name("N");
+    subcommand.add_option("--to", call->settings.to, "most discs [48]")->type_name("N");
+    subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
+        ->type_name("FILE|-")
+        ->group("Output");
+    subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
+    set_examples(subcommand, {"swirl crossing --mu 1", "swirl crossing --mu 0.5 --tolerance 0.1",
+                              "swirl crossing --mu-wall 0 --from 20 --json -"});
+    subcommand.callback([call] { find(*call); });
+}
+
+const Command command(15, "crossing", "The number of discs at which the rotation changes sign.",
+                      add_crossing_command);
+
+}  // namespace
+}  // namespace swirl
