@@ -4,7 +4,6 @@ Colours are those of Okabe and Ito (2008), which people with any kind of colour 
 apart; every curve has a marker of its own besides.
 """
 
-import csv
 import os
 import sys
 
@@ -12,6 +11,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+
+from tables import column, read, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
@@ -69,27 +70,63 @@ def figure(width=COLUMN, height=None, **subplots):
     return plt.subplots(figsize=(width, height), constrained_layout=True, **subplots)
 
 
-def read(table):
-    """The rows of a CSV table: numbers as floats, an empty cell as NaN, anything else as text."""
-
-    def value(cell):
-        if cell == "":
-            return float("nan")
-        try:
-            return float(cell)
-        except ValueError:
-            return cell
-
-    with open(table, newline="") as file:
-        return [{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+def curve(axes, rows, x, y, **look):
+    """One line with its errors."""
+    axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"),
+                  elinewidth=0.7, **look)
 
 
-def select(rows, **wanted):
-    return [row for row in rows if all(row[name] == value for name, value in wanted.items())]
+def zero_line(axes):
+    axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
 
 
-def column(rows, name):
-    return [row[name] for row in rows]
+def middle(values, margin=0.08):
+    """Limits that hold all values but the most extreme hundredth on either side."""
+    ordered = sorted(v for v in values if v == v)
+    low, high = ordered[len(ordered) // 100], ordered[-1 - len(ordered) // 100]
+    room = margin * (high - low) or 1.0
+    return low - room, high + room
+
+
+def scale(values, colors):
+    """What a colour bar needs."""
+    span = matplotlib.colors.Normalize(min(values), max(values))
+    return matplotlib.cm.ScalarMappable(norm=span, cmap=colors)
+
+
+def bare(axes):
+    """No axes: a picture of things, not of numbers."""
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def dish(axes, radius, centre=(0, 0)):
+    """The container's wall."""
+    bare(axes)
+    axes.add_patch(plt.Circle(centre, radius, fill=False, color=BLACK, linewidth=0.8))
+    axes.set_xlim(centre[0] - 1.04 * radius, centre[0] + 1.04 * radius)
+    axes.set_ylim(centre[1] - 1.04 * radius, centre[1] + 1.04 * radius)
+
+
+def cells(axes, rows, name, radius):
+    """A map of equal cells over the square of the container, white outside of it."""
+    side = round(len(rows) ** 0.5)
+    image = [column(rows[k * side:(k + 1) * side], name) for k in range(side)]
+    shown = axes.imshow(image, origin="lower", extent=[-radius, radius, -radius, radius],
+                        interpolation="nearest", vmin=0)
+    shown.set_clip_path(plt.Circle((0, 0), radius, transform=axes.transData))
+    return shown
+
+
+def arrows(axes, rows, radius, color, least=0):
+    """Velocities in units of the container's speed; cells seldom visited are left out."""
+    rows = [row for row in rows if row["visits"] > least]
+    drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
+                        column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
+                        scale=1.0, width=0.006, headwidth=3.5, headlength=4)
+    axes.quiverkey(drawn, 0.86, 0.03, 1.0, "speed 1", labelpos="N", coordinates="axes",
+                   color=BLACK if color == "white" else color, fontproperties={"size": 6},
+                   labelsep=0.03)
 
 
 def save(drawing, table):

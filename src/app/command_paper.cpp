@@ -1,6 +1,7 @@
 // swirl paper: the paper's figures.
 #include <fmt/format.h>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
@@ -66,13 +67,22 @@ void make_paper(PaperCall& call) {
         result = make_figures(figures, call.settings, control);
     }
     std::string text;
-    for (const std::string& finding : result.findings) text += finding + "\n";
+    std::vector<std::filesystem::path> files;
+    for (const MadeFigure& figure : result.figures) {
+        for (const std::string& finding : figure.outcome.findings)
+            text += result.figures.size() == 1 ? finding + "\n"
+                                               : fmt::format("{:<11}{}\n", figure.name, finding);
+        files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
+    }
+    if (call.figures.empty())
+        for (const auto& file : write_report(result, call.settings, command_line()))
+            files.push_back(file);
     text += fmt::format("{} runs{} in {}.\n", result.tasks,
                         result.remembered > 0
                             ? fmt::format(", {} of them from an earlier call,", result.remembered)
                             : "",
                         short_duration(result.seconds));
-    for (const auto& file : result.files) text += fmt::format("wrote {}\n", file.string());
+    for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
 }
 

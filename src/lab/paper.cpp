@@ -43,13 +43,16 @@ class Parts {
             return part.contains(name) && part[name] == text;
         };
         if (!part.is_object() || !says("key", key) || !says("version", version()) ||
-            !part.contains("result"))
+            !part.contains("result") || !part.contains("seconds") ||
+            !part["seconds"].is_number())
             return {};
-        return part["result"];
+        return part;
     }
-    void remember(const std::string& key, const Json& result) const {
-        const Json part{{"key", key}, {"version", version()}, {"result", result}};
-        write_whole_file(file(key), part.dump(1) + "\n");
+    Json remember(const std::string& key, const Json& result, double seconds) const {
+        const Json part{
+            {"key", key}, {"version", version()}, {"seconds", seconds}, {"result", result}};
+        write_whole_file(file(key), part.dump() + "\n");
+        return part;
     }
 
   private:
@@ -96,6 +99,18 @@ Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& 
 
 /// Of a whole set of measurements, in events.
 constexpr double cost_of_a_look = 6.0;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// What every run has unless its figure says otherwise.
+RunConfig paper_run(const PaperSettings& settings) {
+    RunConfig config;
+    config.events = settings.events_of_a_run();
+    config.seed = settings.seed;
+    return config;
+}
 
 [[noreturn]] void throw_interrupted(const PaperSettings& settings) {
     throw Interrupted(fmt::format(
@@ -178,31 +193,73 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
             left.size(),
             [&](std::size_t k) {
                 if (stopped(control)) throw_interrupted(settings);
-                Json result = work_on(*left[k], control, progress);
-                parts.remember(left[k]->key, result);
+                const auto started = std::chrono::steady_clock::now();
+                const Json result = work_on(*left[k], control, progress);
+                Json part = parts.remember(left[k]->key, result, seconds_since(started));
                 const std::lock_guard lock(results_mutex);
-                results[left[k]->key] = std::move(result);
+                results[left[k]->key] = std::move(part);
             },
             control.threads);
     } catch (const Interrupted&) {
         throw_interrupted(settings);
     }
 
+    for (const auto& [key, part] : results) all.task_seconds += part["seconds"].get<double>();
     for (const auto& [key, larger] : served) results[key] = results.at(larger);
 
-    for (const FigurePlan& plan : plans) {
+    for (std::size_t f = 0; f < plans.size(); ++f) {
         std::vector<Json> in_order;
-        for (const PaperTask& task : plan.tasks) in_order.push_back(results.at(task.key));
-        FigureOutcome outcome = plan.finish(in_order, settings.out);
-        if (!plan.script.empty()) {
-            const auto drawn = draw_figure(plan.script, outcome.files.front());
-            outcome.files.insert(outcome.files.end(), drawn.begin(), drawn.end());
-        }
-        all.findings.insert(all.findings.end(), outcome.findings.begin(), outcome.findings.end());
-        all.files.insert(all.files.end(), outcome.files.begin(), outcome.files.end());
+        for (const PaperTask& task : plans[f].tasks)
+            in_order.push_back(results.at(task.key)["result"]);
+        all.figures.push_back({figures[f].name, figures[f].description,
+                               plans[f].finish(in_order, settings.out)});
     }
-    all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    // The drawings are independent too, and take a second each.
+    std::vector<std::vector<fs::path>> drawn(plans.size());
+    on_all_cores(
+        plans.size(),
+        [&](std::size_t f) {
+            if (stopped(control)) throw_interrupted(settings);
+            if (!plans[f].script.empty())
+                drawn[f] = draw_figure(plans[f].script, all.figures[f].outcome.files.front());
+        },
+        control.threads);
+    for (std::size_t f = 0; f < plans.size(); ++f) {
+        auto& files = all.figures[f].outcome.files;
+        files.insert(files.end(), drawn[f].begin(), drawn[f].end());
+    }
+    all.seconds = seconds_since(begin);
     return all;
+}
+
+std::vector<fs::path> write_report(const PaperResult& result, const PaperSettings& settings,
+                                   const std::string& command) {
+    Json figures = Json::array();
+    for (const MadeFigure& figure : result.figures) {
+        Json files = Json::array();
+        for (const fs::path& file : figure.outcome.files)
+            files.push_back(file.filename().string());
+        figures.push_back({{"name", figure.name},
+                           {"description", figure.description},
+                           {"findings", figure.outcome.findings},
+                           {"files", files}});
+    }
+    const Json about{{"command", command},
+                     {"version", version()},
+                     {"build", build_description()},
+                     {"quick", settings.quick},
+                     {"seed", settings.seed},
+                     {"events_of_a_run", settings.events_of_a_run()},
+                     {"defaults", config_json(paper_run(settings))},
+                     {"runs", result.tasks},
+                     {"runs_of_earlier_calls", result.remembered},
+                     {"seconds", result.seconds},
+                     {"seconds_on_one_core", result.task_seconds},
+                     {"figures", figures}};
+    const fs::path file = settings.out / "paper.json";
+    write_whole_file(file, about.dump(2) + "\n");
+    run_python_script("report.py", {settings.out.string()});
+    return {file, settings.out / "report.md", settings.out / "report.html"};
 }
 
 std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table) {

@@ -70,17 +70,28 @@ struct PaperControl {
     unsigned threads = 0;  // 0: all cores
 };
 
+struct MadeFigure {
+    std::string name, description;
+    FigureOutcome outcome;
+};
+
 struct PaperResult {
-    std::vector<std::string> findings;
-    std::vector<std::filesystem::path> files;
+    std::vector<MadeFigure> figures;
     std::size_t tasks = 0, remembered = 0;
     double seconds = 0.0;
+    double task_seconds = 0.0;  // of all pieces, each on one core, those remembered included
 };
 
 /// Makes the figures: tasks on all cores, tables, drawings. Throws Interrupted when stopped; what
 /// was done until then is remembered.
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control);
+
+/// The report of all that was made: OUT/paper.json, and from it and the tables OUT/report.md and
+/// OUT/report.html. Returns the files.
+std::vector<std::filesystem::path> write_report(const PaperResult& result,
+                                                const PaperSettings& settings,
+                                                const std::string& command);
 
 /// Events in a swirl, a fair guess for the progress and the order of work.
 double expected_events_per_swirl(const RunConfig& config);

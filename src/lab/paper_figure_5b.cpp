@@ -34,6 +34,7 @@ FigureOutcome finish(const std::string& name, const std::vector<Point>& points,
     outcome.files.push_back(out / ("figure_" + name + ".csv"));
     table.write(outcome.files.back());
 
+    std::vector<NamedCurve> curves;
     for (const Friction& friction : frictions_of_5b) {
         std::vector<RotationPoint> curve;
         for (std::size_t k = 0; k < points.size(); ++k)
@@ -43,7 +44,10 @@ FigureOutcome finish(const std::string& name, const std::vector<Point>& points,
         outcome.findings.push_back(fmt::format("{} (μ_d = {}, μ_w = {}): {}.", friction.words,
                                                friction.mu_disc, friction.mu_wall,
                                                crossing_sentence(curve)));
+        curves.push_back({friction.name, curve});
     }
+    outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+    write_crossings(curves, outcome.files.back());
     return outcome;
 }
 

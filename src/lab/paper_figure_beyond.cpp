@@ -56,6 +56,7 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"curve", parameter, "discs"}, rotation_columns()));
         FigureOutcome outcome;
+        std::vector<NamedCurve> named;
         for (std::size_t c = 0; c < curves.size(); ++c) {
             std::vector<RotationPoint> curve;
             for (std::size_t k = 0; k < points.size(); ++k) {
@@ -68,9 +69,12 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
             }
             outcome.findings.push_back(
                 fmt::format("{} {}: {}.", parameter, curves[c].name, crossing_sentence(curve)));
+            named.push_back({curves[c].name, curve});
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
+        outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+        write_crossings(named, outcome.files.back());
         return outcome;
     };
     return plan;

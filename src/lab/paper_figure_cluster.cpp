@@ -75,6 +75,15 @@ FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
         outcome.findings = sentences(points, results);
+        std::vector<NamedCurve> curves;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (k == 0 || points[k].friction.name != points[k - 1].friction.name)
+                curves.push_back({points[k].friction.name, {}});
+            curves.back().points.push_back(
+                rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+        }
+        outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+        write_crossings(curves, outcome.files.back());
         return outcome;
     };
     return plan;

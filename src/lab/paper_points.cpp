@@ -122,6 +122,25 @@ std::string crossing_sentence(std::span<const RotationPoint> curve) {
                        with_error(lowest->mean, lowest->error), lowest->discs);
 }
 
+void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file) {
+    Table table({"curve", "verdict", "crossing", "crossing_error", "lower", "upper", "lowest",
+                 "lowest_error", "lowest_discs"});
+    for (const NamedCurve& curve : curves) {
+        const Crossing c = find_crossing(curve.points);
+        RotationPoint lowest{not_known, not_known, not_known};
+        for (const RotationPoint& p : curve.points)
+            if (!(p.mean >= lowest.mean)) lowest = p;
+        const char* const verdict =
+            c.verdict == Crossing::Verdict::crosses                 ? "crosses"
+            : c.verdict == Crossing::Verdict::always_rotates        ? "always rotates"
+            : c.verdict == Crossing::Verdict::always_counterrotates ? "always counterrotates"
+                                                                    : "undecided";
+        table.add({curve.name, std::string(verdict), c.discs, c.error, c.lower, c.upper,
+                   lowest.mean, lowest.error, lowest.discs});
+    }
+    table.write(file);
+}
+
 std::vector<std::string> joined(std::vector<std::string> front,
                                 const std::vector<std::string>& back) {
     front.insert(front.end(), back.begin(), back.end());

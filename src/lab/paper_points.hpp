@@ -62,6 +62,15 @@ RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, con
 /// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or that it does not, and why.
 std::string crossing_sentence(std::span<const RotationPoint> curve);
 
+/// A curve by name, for the table of the crossings.
+struct NamedCurve {
+    std::string name;
+    std::vector<RotationPoint> points;
+};
+
+/// Where each of the curves crosses zero, or its lowest point if it does not.
+void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file);
+
 /// Columns of `front` before those of `back`.
 std::vector<std::string> joined(std::vector<std::string> front,
                                 const std::vector<std::string>& back);

@@ -1,0 +1,25 @@
+"""Figure 4c: rotation of the cluster against the number of discs, smooth and rough.
+
+    /usr/bin/python3 figures/figure_4c.py out/figure_4c.csv
+"""
+
+import style
+
+
+def main():
+    table = style.table_from_arguments("figure_4c")
+    rows = style.read(table)
+    drawing, axes = style.figure()
+    style.zero_line(axes)
+    for setting, label, color, marker in (("low", r"smooth ($\mu = 0.1$)", style.SKY, "D"),
+                                          ("high", r"rough ($\mu = 1$)", style.RED, "o")):
+        style.curve(axes, style.select(rows, setting=setting), "discs", "by_time", color=color,
+                    marker=marker, label=label)
+    axes.set_xlabel(r"number of discs $N$")
+    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+    axes.legend(loc="upper right")
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,33 @@
+"""Beyond the paper: the average over events minus that over time, for the five frictions of 5b.
+
+    /usr/bin/python3 figures/figure_averages.py out/figure_averages.csv
+"""
+
+import style
+from figure_5b import CURVES
+
+
+def main():
+    table = style.table_from_arguments("figure_averages")
+    rows = style.read(table)
+    drawing, (both, difference) = style.figure(height=3.9, nrows=2, sharex=True)
+    for axes in (both, difference):
+        style.zero_line(axes)
+    for name, label, color, marker in CURVES:
+        curve = style.select(rows, setting=name)
+        both.plot(style.column(curve, "discs"), style.column(curve, "by_event"), color=color,
+                  marker=marker, label=label)
+        both.plot(style.column(curve, "discs"), style.column(curve, "by_time"), color=color,
+                  marker=marker, fillstyle="none", linestyle=":")
+        difference.plot(style.column(curve, "discs"),
+                        [row["by_event"] - row["by_time"] for row in curve], color=color,
+                        marker=marker)
+    both.set_ylabel(r"$\varpi/\Omega$ (filled: by event, open: by time)")
+    both.legend(loc="best", fontsize=6)
+    difference.set_ylabel(r"by event $-$ by time")
+    difference.set_xlabel(r"number of discs $N$")
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,26 @@
+"""Beyond the paper: the energy without any friction, on polygons and on the true circle.
+
+    /usr/bin/python3 figures/figure_energy.py out/figure_energy.csv
+"""
+
+import style
+
+
+def main():
+    table = style.table_from_arguments("figure_energy")
+    rows = style.read(table)
+    drawing, axes = style.figure()
+    for k, sides in enumerate(sorted({row["sides"] for row in rows}, key=lambda m: m or 1e9)):
+        curve = style.select(rows, sides=sides)
+        axes.plot(style.column(curve, "swirl"), style.column(curve, "energy"),
+                  color=style.CYCLE[k], marker=style.MARKERS[k], markevery=max(len(curve) // 8, 1),
+                  label=f"{sides:.0f} sides" if sides else "true circle")
+    axes.set_yscale("log")
+    axes.set_xlabel("swirls")
+    axes.set_ylabel("kinetic energy ($m v_c^2$)")
+    axes.legend(loc="best")
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

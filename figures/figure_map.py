@@ -1,0 +1,39 @@
+"""Beyond the paper: rotation of 48 discs against both frictions.
+
+    /usr/bin/python3 figures/figure_map.py out/figure_map.csv
+"""
+
+import style
+
+
+def main():
+    table = style.table_from_arguments("figure_map")
+    rows = style.read(table)
+    steps = sorted({row["mu_wall"] for row in rows})
+    drawing, axes = style.figure(height=2.9)
+    values = [[float("nan")] * len(steps) for _ in steps]
+    for row in rows:
+        values[steps.index(row["mu_wall"])][steps.index(row["mu_disc"])] = row["by_time"]
+    colors = style.plt.get_cmap("PuOr_r").copy()
+    colors.set_bad("0.85")
+    shown = axes.imshow(values, origin="lower", cmap=colors, vmin=-1, vmax=1)
+    for y, line in enumerate(values):
+        for x, value in enumerate(line):
+            if value == value:
+                axes.text(x, y, f"{value:.2f}".replace("-", "−"), ha="center", va="center",
+                          fontsize=5 if len(steps) > 6 else 7,
+                          color="white" if abs(value) > 0.7 else "black")
+    axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps])
+    axes.set_yticks(range(len(steps)), [f"{s:g}" for s in steps])
+    axes.set_xlabel(r"disc friction $\mu_d$")
+    axes.set_ylabel(r"wall friction $\mu_w$")
+    for side in axes.spines.values():
+        side.set_visible(False)
+    axes.tick_params(length=0)
+    bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
+    bar.set_label(r"$\varpi/\Omega$ at $N = 48$")
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+"""Beyond the paper: rotation against the number of sides of the container's path.
+
+    /usr/bin/python3 figures/figure_polygon.py out/figure_polygon.csv
+"""
+
+import style
+
+
+def main():
+    table = style.table_from_arguments("figure_polygon")
+    rows = style.read(table)
+    numbers = sorted({row["discs"] for row in rows})
+    drawing, axes = style.figure(height=3.4, nrows=len(numbers), sharex=True, squeeze=False)
+    for k, (place, discs) in enumerate(zip(axes[:, 0], numbers)):
+        here = style.select(rows, discs=discs)
+        polygons = [row for row in here if row["sides"] > 0]
+        style.curve(place, polygons, "sides", "by_time", color=style.CYCLE[k],
+                    marker=style.MARKERS[k], label="polygon")
+        for circle in style.select(here, sides=0.0):
+            place.axhline(circle["by_time"], color=style.BLACK, linewidth=0.7, label="true circle")
+            place.axhspan(circle["by_time"] - circle["by_time_error"],
+                          circle["by_time"] + circle["by_time_error"], color=style.GREY,
+                          alpha=0.3, linewidth=0)
+        place.set_xscale("log")
+        place.set_ylabel(rf"$\varpi/\Omega$,  $N = {discs:.0f}$")
+        place.legend(loc="best")
+    axes[-1][0].set_xticks([6, 10, 30, 100, 300])
+    axes[-1][0].set_xticklabels(["6", "10", "30", "100", "300"])
+    axes[-1][0].minorticks_off()
+    axes[-1][0].set_xlabel("sides of the polygon $M$")
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()
