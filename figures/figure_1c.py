@@ -34,7 +34,7 @@ def main():
         lab.plot(*point, "o", color=style.BLACK, markersize=3)
         lab.text(point[0] + side[0], point[1] + side[1], name, ha="center", va="center")
     arrow(lab, (C[0], C[1]), (C[0] - 3 * math.sin(at), C[1] + 3 * math.cos(at)), style.BLUE,
-          "velocity of\nthe container", (-2.6, 1.6))
+          "velocity of\nthe container", (0.2, 1.5))
     lab.set_title("lab: the container does not turn", fontsize=7)
     lab.set_xlim(-R - 1, R + A + 2.5)
     lab.set_ylim(-R - 1.2, R + A + 2.5)

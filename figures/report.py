@@ -1,0 +1,250 @@
+"""The report: report.md and report.html (one self-contained file) from what `swirl paper` left in a
+folder.
+
+    /usr/bin/python3 figures/report.py out
+"""
+
+import base64
+import html
+import json
+import os
+import sys
+
+import claims
+
+ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNTESTABLE, claims.MISSING]
+MARK = {claims.HOLDS: "✓", claims.IN_PART: "◐", claims.FAILS: "✗", claims.UNTESTABLE: "–",
+        claims.MISSING: "?"}
+
+CONTRADICTIONS = [
+    ("Amplitude of the path", "The main text says A = 0.96, the SI 1.892 with A/R = 0.22.",
+     "The first is in disc diameters, the second in radii. The SI's value is used: with it the "
+     "container moves at the speed 1 that the SI states."),
+    ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 "
+     "(a ring); a solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows what "
+     "1 and ½ do."),
+    ("Minimal time between collisions", "Predicted contacts within 10⁻¹³ are discarded, since some "
+     "were found to be false.", "Not done. Discs that touch and separate are never predicted to "
+     "meet; discs that touch and approach meet now."),
+    ("Period of the swirl", "The table calls 11.866071 the value of ω⁻¹.",
+     "It is the period T; Ω = 2π/T. With 30 sides of A = 1.892 it gives the speed 1."),
+    ("Slope against angle", "The SI's formula for becoming free compares a slope with an angle, "
+     "and adds up where it means an average.", "Directions are compared with directions, and "
+     "angles are averaged as directions."),
+    ("“Strong slip (s ≪ 1)”", "In the conclusion s ≪ 1 is strong slip and s ≈ 1 minimal slip; the "
+     "text before has s = 1 as no slip.", "Both agree: s = 1 rolls, s = 0 slips."),
+    ("Steady state", "No warm-up is mentioned; the first events seem to count.",
+     "The first 20 swirls are left out (a fifth of the run if that is less). Where spins take "
+     "longer (no disc friction), figures “transient” and “5b-steady” show both."),
+    ("Collisions with the wall", "The SI says that no sign changes need care because the wall does "
+     "not spin.", "The disc's own spin enters the slip at the wall with the sign of the outward "
+     "normal."),
+    ("Which average", "Figure 5b averages over events, the experiment over time.",
+     "Both are given everywhere; figure “averages” compares them."),
+]
+
+CSS = """
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #1b1b1b; background: #fff;
+       max-width: 62rem; margin: 2.5rem auto; padding: 0 1.2rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; margin-bottom: .3rem; }
+h2 { font-size: 1.25rem; margin-top: 2.4rem; border-bottom: 1px solid #ccc; }
+h3 { font-size: 1rem; margin: 1.4rem 0 .3rem; }
+table { border-collapse: collapse; width: 100%; font-size: .88rem; }
+th, td { text-align: left; vertical-align: top; padding: .45rem .6rem .45rem 0;
+         border-bottom: 1px solid #ddd; }
+td.verdict { white-space: nowrap; font-weight: 600; }
+.holds { color: #00694e; } .part { color: #8a5a00; } .fails { color: #a63c00; }
+.other { color: #666; }
+code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
+figure { margin: 0; break-inside: avoid; }
+figure img { width: 100%; height: auto; }
+figcaption { font-size: .85rem; color: #333; }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr));
+           gap: 1.6rem 1.4rem; }
+.small { color: #555; font-size: .88rem; }
+@media print {
+  body { font-size: 10pt; max-width: none; margin: 0; }
+  .figures { grid-template-columns: 1fr 1fr; }
+  tr, figure { break-inside: avoid; }
+  h2 { break-after: avoid; }
+}
+"""
+CLASS = {claims.HOLDS: "holds", claims.IN_PART: "part", claims.FAILS: "fails"}
+
+
+def duration(seconds):
+    seconds = round(seconds)
+    if seconds < 100:
+        return f"{seconds} s"
+    return f"{seconds // 60} min {seconds % 60} s"
+
+
+def judge(folder):
+    return [(claim, *claim.verdict(folder)) for claim in claims.CLAIMS]
+
+
+def counts(judged):
+    found = [verdict for _, verdict, _ in judged]
+    return ", ".join(f"{found.count(v)} {v}" for v in ORDER if v in found)
+
+
+def parameter_rows(about):
+    c = about["defaults"]
+    return [("moment of inertia", c["inertia"]), ("container radius", c["container_radius"]),
+            ("amplitude", c["amplitude"]), ("sides of the path", c["sides"]),
+            ("period", c["period"]), ("restitution", c["restitution"]),
+            ("events of a run", f"{about['events_of_a_run']:,}"), ("first seed", about["seed"]),
+            ("version", about["version"]), ("built with", about["build"]),
+            ("command", about["command"]),
+            ("runs", f"{about['runs']}, {about['runs_of_earlier_calls']} of them from an earlier "
+                     "call"),
+            ("time", f"{duration(about['seconds'])} for this call; all runs together "
+                     f"{duration(about['seconds_on_one_core'])} of one core each")]
+
+
+def quick_sentence(about):
+    if not about["quick"]:
+        return ""
+    return ("This is the quick version: shorter runs and fewer points than the paper's, so errors "
+            "are larger and verdicts may differ from those of the whole study.")
+
+
+def intro(about):
+    return ("Each claim of L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, "
+            "“Geometric frustration induces the transition between rotation and counterrotation in "
+            "swirled granular media” (Phys. Rev. E 100, 012903, 2019), beside what an exact "
+            "event-driven simulation finds. Errors are standard errors from blocks of whole "
+            "periods; verdicts are computed from the tables by figures/claims.py, where every "
+            "threshold stands. ± is one standard error; “certain” means three. "
+            + quick_sentence(about)).strip()
+
+
+def split(figures):
+    """Those of the paper, and those that are new."""
+    beyond = [f for f in figures if f["description"].startswith("beyond the paper")]
+    return [f for f in figures if f not in beyond], beyond
+
+
+def title_of(figure):
+    text = figure["description"].removeprefix("beyond the paper: ")
+    name = figure["name"]
+    return f"Figure {name}: {text}" if name[0].isdigit() else text[0].upper() + text[1:]
+
+
+def picture_of(figure):
+    return next((f for f in figure["files"] if f.endswith(".png")), None)
+
+
+# --- Markdown ---------------------------------------------------------------------------------
+
+def cell(text):
+    return str(text).replace("|", "\\|").replace("\n", " ")
+
+
+def markdown(about, judged):
+    lines = ["# The paper, claim by claim", "", intro(about), "", f"**{counts(judged)}.**", "",
+             "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
+    for k, (claim, verdict, found) in enumerate(judged, 1):
+        command = f"`{claim.command}`" if claim.command else ""
+        lines.append(f"| {k} | {cell(claim.says)} ({claim.where}) | {cell(found)} | "
+                     f"{MARK[verdict]} {verdict} | {command} |")
+    of_the_paper, new = split(about["figures"])
+    for heading, figures in (("The paper's figures", of_the_paper),
+                             ("What is new", new)):
+        lines += ["", f"## {heading}"]
+        for figure in figures:
+            lines += ["", f"### {title_of(figure)}", ""]
+            if picture_of(figure):
+                lines += [f"![{title_of(figure)}]({picture_of(figure)})", ""]
+            lines += [f"- {finding}" for finding in figure["findings"]]
+            lines += ["", f"`swirl paper --figure {figure['name']}`"]
+    lines += ["", "## Where the paper contradicts itself, and what was assumed", "",
+              "| matter | the paper | here |", "|---|---|---|"]
+    lines += [f"| {cell(a)} | {cell(b)} | {cell(c)} |" for a, b, c in CONTRADICTIONS]
+    lines += ["", "## Parameters, versions, time", "", "| | |", "|---|---|"]
+    lines += [f"| {cell(a)} | {cell(b)} |" for a, b in parameter_rows(about)]
+    return "\n".join(lines) + "\n"
+
+
+# --- HTML -------------------------------------------------------------------------------------
+
+def inline(path):
+    with open(path, "rb") as file:
+        return "data:image/png;base64," + base64.b64encode(file.read()).decode()
+
+
+def table(head, rows):
+    top = "".join(f"<th>{html.escape(h)}</th>" for h in head)
+    body = "".join("<tr>" + "".join(row) + "</tr>\n" for row in rows)
+    return f"<table><thead><tr>{top}</tr></thead><tbody>\n{body}</tbody></table>\n"
+
+
+def td(text, kind=""):
+    kind = f' class="{kind}"' if kind else ""
+    return f"<td{kind}>{html.escape(str(text))}</td>"
+
+
+def figure_html(folder, figure):
+    title = html.escape(title_of(figure))
+    picture = picture_of(figure)
+    image = (f'<img alt="{title}" src="{inline(os.path.join(folder, picture))}">'
+             if picture else "")
+    findings = " ".join(html.escape(finding) for finding in figure["findings"])
+    return (f"<figure>{image}<figcaption><b>{title}.</b> {findings} "
+            f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption>"
+            "</figure>\n")
+
+
+def page(folder, about, judged):
+    rows = [(td(k), f"<td>{html.escape(claim.says)} <span class=small>({html.escape(claim.where)})"
+             "</span></td>", td(found),
+             td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
+             f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
+            for k, (claim, verdict, found) in enumerate(judged, 1)]
+    of_the_paper, new = split(about["figures"])
+    parts = ["<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
+             '<meta name=viewport content="width=device-width, initial-scale=1">',
+             "<title>The paper, claim by claim</title>", f"<style>{CSS}</style></head><body>\n",
+             "<h1>The paper, claim by claim</h1>", f"<p>{html.escape(intro(about))}</p>\n",
+             f"<p><b>{html.escape(counts(judged))}.</b></p>\n",
+             table(["", "the paper says", "found", "verdict", "command"], rows)]
+    for heading, figures in (("The paper’s figures", of_the_paper), ("What is new", new)):
+        parts += [f"<h2>{heading}</h2>\n<div class=figures>\n"]
+        parts += [figure_html(folder, figure) for figure in figures]
+        parts += ["</div>\n"]
+    parts += ["<h2>Where the paper contradicts itself, and what was assumed</h2>\n",
+              table(["matter", "the paper", "here"],
+                    [(td(a), td(b), td(c)) for a, b, c in CONTRADICTIONS]),
+              "<h2>Parameters, versions, time</h2>\n",
+              table(["", ""], [(td(a), td(b)) for a, b in parameter_rows(about)]),
+              "</body></html>\n"]
+    return "".join(parts)
+
+
+def write(path, text):
+    aside = f"{path}.{os.getpid()}.partial"
+    with open(aside, "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(aside, path)
+
+
+def main():
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
+              "writes report.md and report.html from what `swirl paper --out FOLDER` left there",
+              file=sys.stderr)
+        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
+    folder = sys.argv[1]
+    try:
+        with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
+            about = json.load(file)
+    except FileNotFoundError:
+        sys.exit(f"There is no '{folder}/paper.json'; `swirl paper` writes it.")
+    judged = judge(folder)
+    write(os.path.join(folder, "report.md"), markdown(about, judged))
+    write(os.path.join(folder, "report.html"), page(folder, about, judged))
+
+
+if __name__ == "__main__":
+    main()
