@@ -1,0 +1,51 @@
+"""Every figure's table has its columns, and its script draws from the table alone."""
+
+import csv
+import os
+import shutil
+import subprocess
+import unittest
+
+from program import SOURCE, InFolder, swirl
+
+# Those that share their runs or need none; with 3000 events each it takes seconds.
+FIGURES = {
+    "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error"},
+    "2b": {"map", "x", "y", "density", "density_error", "u_x", "u_y", "visits"},
+    "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free"},
+    "3b": {"discs", "theta", "normalised", "normalised_error", "wall"},
+    "4a": {"setting", "discs", "pinned_region", "pinned_region_error", "cluster"},
+    "4b": {"discs", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking"},
+    "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},
+    "5c": {"discs", "x", "y", "by_event", "by_event_error", "by_time"},
+    "5d": {"discs", "x", "y", "u_x", "u_x_error", "u_y", "u_y_error", "visits"},
+    "ball": {"ball_radius", "slip", "gamma", "varpi"},
+}
+
+
+class Figures(InFolder):
+    def test_tables_and_drawings(self):
+        out = self.path("out")
+        done = swirl("paper", "--figure", *FIGURES, "--quick", "--events", 3000, "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, columns in FIGURES.items():
+            with open(os.path.join(out, f"figure_{name}.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertLessEqual(columns, set(rows[0]), name)
+            self.assertGreater(len(rows), 1)
+            for kind in ("png", "pdf"):
+                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")),
+                                   5000)
+        # Alone, elsewhere, from nothing but the table: the same picture.
+        alone = self.path("alone")
+        os.mkdir(alone)
+        shutil.copy(os.path.join(out, "figure_4c.csv"), alone)
+        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "figure_4c.py"),
+                        os.path.join(alone, "figure_4c.csv")], check=True, cwd="/")
+        with open(os.path.join(out, "figure_4c.png"), "rb") as one:
+            with open(os.path.join(alone, "figure_4c.png"), "rb") as other:
+                self.assertEqual(one.read(), other.read())
+
+
+if __name__ == "__main__":
+    unittest.main()
