@@ -24,10 +24,14 @@ struct CrossingCall {
 
 const char* word(Crossing::Verdict verdict) {
     switch (verdict) {
-        case Crossing::Verdict::crosses: return "crosses";
-        case Crossing::Verdict::always_rotates: return "always rotates";
-        case Crossing::Verdict::always_counterrotates: return "always counterrotates";
-        case Crossing::Verdict::undecided: break;
+        case Crossing::Verdict::crosses:
+            return "crosses";
+        case Crossing::Verdict::always_rotates:
+            return "always rotates";
+        case Crossing::Verdict::always_counterrotates:
+            return "always counterrotates";
+        case Crossing::Verdict::undecided:
+            break;
     }
     return "undecided";
 }

@@ -49,7 +49,8 @@ class Search {
     std::set<std::int64_t> coarse_numbers() const {
         std::set<std::int64_t> numbers;
         for (int k = 0; k < coarse_points; ++k)
-            numbers.insert(settings_.from + (settings_.to - settings_.from) * k / (coarse_points - 1));
+            numbers.insert(settings_.from +
+                           (settings_.to - settings_.from) * k / (coarse_points - 1));
         return numbers;
     }
 
@@ -174,8 +175,7 @@ class Search {
     void report(const char* stage, std::uint64_t events) {
         const std::lock_guard lock(mutex_);
         events_ += events;
-        if (control_.progress)
-            control_.progress(stage, static_cast<double>(events_) / seconds());
+        if (control_.progress) control_.progress(stage, static_cast<double>(events_) / seconds());
     }
 
     const CrossingSettings& settings_;
@@ -198,9 +198,10 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
     largest.discs = settings.to;
     if (const auto wrong = problem(largest)) throw WrongCall(*wrong);
     if (!(settings.tolerance > 0.0))
-        throw WrongCall(fmt::format("--tolerance is {}, but it must be above 0: the standard error "
-                                    "of N_c that is wanted.",
-                                    settings.tolerance));
+        throw WrongCall(
+            fmt::format("--tolerance is {}, but it must be above 0: the standard error "
+                        "of N_c that is wanted.",
+                        settings.tolerance));
     return Search(settings, control)();
 }
 
@@ -222,15 +223,18 @@ std::string crossing_report(const CrossingSettings& settings, const CrossingSear
                                                  "for, so more --events would be right.",
                                                  settings.tolerance));
         case Crossing::Verdict::always_rotates:
-            return fmt::format("No crossing: the discs always rotate; {}, {:.0f} errors above zero.",
-                               evidence, lowest->mean / lowest->error);
+            return fmt::format(
+                "No crossing: the discs always rotate; {}, {:.0f} errors above zero.", evidence,
+                lowest->mean / lowest->error);
         case Crossing::Verdict::always_counterrotates:
             return fmt::format("No crossing: the discs always counterrotate; {}.", evidence);
-        case Crossing::Verdict::undecided: break;
+        case Crossing::Verdict::undecided:
+            break;
     }
-    return fmt::format("Undecided: {}; the errors are too large to tell, and more --events would be "
-                       "right.",
-                       evidence);
+    return fmt::format(
+        "Undecided: {}; the errors are too large to tell, and more --events would be "
+        "right.",
+        evidence);
 }
 
 }  // namespace swirl

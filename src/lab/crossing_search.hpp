@@ -23,7 +23,8 @@
 namespace swirl {
 
 struct CrossingSettings {
-    RunConfig config;  // its number of discs does not matter; its events are those of the first runs
+    RunConfig
+        config;  // its number of discs does not matter; its events are those of the first runs
     std::int64_t from = 5, to = 48;
     double tolerance = 0.3;  // wanted standard error of N_c
     int rounds = 6;          // of step 3, at most

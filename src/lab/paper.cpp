@@ -43,8 +43,7 @@ class Parts {
             return part.contains(name) && part[name] == text;
         };
         if (!part.is_object() || !says("key", key) || !says("version", version()) ||
-            !part.contains("result") || !part.contains("seconds") ||
-            !part["seconds"].is_number())
+            !part.contains("result") || !part.contains("seconds") || !part["seconds"].is_number())
             return {};
         return part;
     }
@@ -211,8 +210,8 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
         std::vector<Json> in_order;
         for (const PaperTask& task : plans[f].tasks)
             in_order.push_back(results.at(task.key)["result"]);
-        all.figures.push_back({figures[f].name, figures[f].description,
-                               plans[f].finish(in_order, settings.out)});
+        all.figures.push_back(
+            {figures[f].name, figures[f].description, plans[f].finish(in_order, settings.out)});
     }
     // The drawings are independent too, and take a second each.
     std::vector<std::vector<fs::path>> drawn(plans.size());
@@ -237,8 +236,7 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
     Json figures = Json::array();
     for (const MadeFigure& figure : result.figures) {
         Json files = Json::array();
-        for (const fs::path& file : figure.outcome.files)
-            files.push_back(file.filename().string());
+        for (const fs::path& file : figure.outcome.files) files.push_back(file.filename().string());
         figures.push_back({{"name", figure.name},
                            {"description", figure.description},
                            {"findings", figure.outcome.findings},

@@ -8,8 +8,7 @@ namespace swirl {
 FigurePlan plan_figure_ball(const PaperSettings&) {
     FigurePlan plan;
     plan.script = "figure_ball.py";
-    plan.finish = [](const std::vector<nlohmann::ordered_json>&,
-                     const std::filesystem::path& out) {
+    plan.finish = [](const std::vector<nlohmann::ordered_json>&, const std::filesystem::path& out) {
         Table table({"ball_radius", "container_radius", "slip", "gamma", "varpi", "varpi_m"});
         for (const double share : {0.5, 0.75, 0.9})
             for (int k = 0; k <= 20; ++k) {

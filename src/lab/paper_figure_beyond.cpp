@@ -50,8 +50,7 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
             curves[c].change(config);
             points.push_back({c, n});
             plan.tasks.push_back(varied_point(
-                fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events),
-                config));
+                fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events), config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"curve", parameter, "discs"}, rotation_columns()));
@@ -64,8 +63,8 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
                 std::vector<Table::Cell> row{curves[c].name, curves[c].value, points[k].discs};
                 add_rotation(row, results[k]);
                 table.add(std::move(row));
-                curve.push_back(rotation_point(static_cast<double>(points[k].discs), results[k],
-                                               "by_time"));
+                curve.push_back(
+                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
             }
             outcome.findings.push_back(
                 fmt::format("{} {}: {}.", parameter, curves[c].name, crossing_sentence(curve)));
@@ -94,8 +93,8 @@ FigurePlan plan_figure_averages(const PaperSettings& settings) {
         std::error_code error;
         fs::copy_file(outcome.files.front(), table, fs::copy_options::overwrite_existing, error);
         if (error)
-            throw Failure(fmt::format("'{}' cannot be written: {}.", table.string(),
-                                      error.message()));
+            throw Failure(
+                fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
         outcome.files = {table};
         outcome.findings.clear();
         return outcome;
@@ -204,8 +203,7 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
         search.rounds = settings.quick ? 1 : 4;
         plan.tasks.push_back(
             {fmt::format("crossing_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
-             40.0 * static_cast<double>(search.config.events),
-             [search](const RunControl& control) {
+             40.0 * static_cast<double>(search.config.events), [search](const RunControl& control) {
                  CrossingControl inner;
                  inner.stop = control.stop;
                  inner.threads = 1;
@@ -222,8 +220,8 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
              }});
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
-                     "events"});
+        Table table(
+            {"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs", "events"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < frictions.size(); ++k) {
             const Json& r = results[k];
@@ -253,8 +251,7 @@ FigurePlan plan_figure_inertia(const PaperSettings& settings) {
 FigurePlan plan_figure_restitution(const PaperSettings& settings) {
     std::vector<Curve> curves;
     for (const double e : {1.0, 0.99, 0.9})
-        curves.push_back(
-            {fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
+        curves.push_back({fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
     return plan_curves(settings, "restitution", "restitution", curves);
 }
 
@@ -271,8 +268,9 @@ FigurePlan plan_figure_tangential(const PaperSettings& settings) {
 FigurePlan plan_figure_polygon(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_polygon.py";
-    const std::vector<int> sides = settings.quick ? std::vector<int>{6, 30, 300, 0}
-                                                  : std::vector<int>{6, 10, 20, 30, 60, 100, 300, 0};
+    const std::vector<int> sides = settings.quick
+                                       ? std::vector<int>{6, 30, 300, 0}
+                                       : std::vector<int>{6, 10, 20, 30, 60, 100, 300, 0};
     const std::vector<std::int64_t> numbers{28, 48};
     for (const std::int64_t n : numbers)
         for (const int m : sides) {

@@ -61,8 +61,9 @@ FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name
     for (const Point& p : points)
         plan.tasks.push_back(measured_point(settings, p.friction, p.discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table(joined(joined({"setting", "mu_disc", "mu_wall", "discs"}, number_columns(names)),
-                           rotation_columns()));
+        Table table(
+            joined(joined({"setting", "mu_disc", "mu_wall", "discs"}, number_columns(names)),
+                   rotation_columns()));
         for (std::size_t k = 0; k < points.size(); ++k) {
             const Friction& f = points[k].friction;
             std::vector<Table::Cell> row{std::string(f.name), f.mu_disc, f.mu_wall,
@@ -115,8 +116,8 @@ FigurePlan plan_figure_1b(const PaperSettings& settings) {
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<RotationPoint> curve;
             for (std::size_t k = 0; k < points.size(); ++k)
-                curve.push_back(rotation_point(static_cast<double>(points[k].discs), results[k],
-                                               "by_time"));
+                curve.push_back(
+                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
             return std::vector<std::string>{
                 fmt::format("ϖ by time: {}.", crossing_sentence(curve)),
                 first_and_last("pancake line", high_friction, "slip", "pancake", points, results)};
@@ -124,15 +125,14 @@ FigurePlan plan_figure_1b(const PaperSettings& settings) {
 }
 
 FigurePlan plan_figure_4a(const PaperSettings& settings) {
-    return plan_against_n(
-        settings, "4a", {smooth, rough}, {"slip.cluster", "slip.pinned_region"},
-        [](const std::vector<Point>& points, const std::vector<Json>& results) {
-            return std::vector<std::string>{
-                first_and_last("slip of the pinned region", smooth, "slip", "pinned_region", points,
-                               results),
-                first_and_last("slip of the pinned region", rough, "slip", "pinned_region", points,
-                               results)};
-        });
+    return plan_against_n(settings, "4a", {smooth, rough}, {"slip.cluster", "slip.pinned_region"},
+                          [](const std::vector<Point>& points, const std::vector<Json>& results) {
+                              return std::vector<std::string>{
+                                  first_and_last("slip of the pinned region", smooth, "slip",
+                                                 "pinned_region", points, results),
+                                  first_and_last("slip of the pinned region", rough, "slip",
+                                                 "pinned_region", points, results)};
+                          });
 }
 
 FigurePlan plan_figure_4b(const PaperSettings& settings) {
@@ -179,9 +179,9 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
     for (const std::int64_t n : numbers)
         plan.tasks.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        const std::vector<std::string> columns{
-            "theta", "visits", "varpi_m", "varpi_m_error", "wall", "normalised",
-            "normalised_error"};
+        const std::vector<std::string> columns{"theta",           "visits", "varpi_m",
+                                               "varpi_m_error",   "wall",   "normalised",
+                                               "normalised_error"};
         const std::vector<std::string> angles{"becoming_pinned", "becoming_free",
                                               "becoming_pinned_by_collisions",
                                               "becoming_free_by_collisions", "share"};

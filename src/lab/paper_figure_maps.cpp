@@ -17,8 +17,8 @@ constexpr std::int64_t rotating = 28, counterrotating = 48;
 /// One table for several N: the number, then these columns of the measurement.
 FigureOutcome write_maps(const std::string& name, const std::string& measurement,
                          const std::vector<std::string>& columns,
-                         const std::vector<std::int64_t>& numbers,
-                         const std::vector<Json>& results, const fs::path& out) {
+                         const std::vector<std::int64_t>& numbers, const std::vector<Json>& results,
+                         const fs::path& out) {
     Table table(joined({"discs"}, columns));
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         const Json& map = results[k]["measured"][measurement];
