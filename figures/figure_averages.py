@@ -10,7 +10,7 @@ from figure_5b import CURVES
 def main():
     table = style.table_from_arguments("figure_averages")
     rows = style.read(table)
-    drawing, (both, difference) = style.figure(height=3.9, nrows=2, sharex=True)
+    drawing, (both, difference) = style.figure(height=4.2, nrows=2, sharex=True)
     for axes in (both, difference):
         style.zero_line(axes)
     for name, label, color, marker in CURVES:
@@ -22,8 +22,10 @@ def main():
         difference.plot(style.column(curve, "discs"),
                         [row["by_event"] - row["by_time"] for row in curve], color=color,
                         marker=marker)
-    both.set_ylabel(r"$\varpi/\Omega$ (filled: by event, open: by time)")
-    both.legend(loc="best", fontsize=6)
+    both.set_ylabel(r"$\varpi/\Omega$")
+    both.plot([], [], color=style.GREY, linestyle=":", marker="o", fillstyle="none",
+              label="by time (filled: by event)")
+    both.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, fontsize=6)
     difference.set_ylabel(r"by event $-$ by time")
     difference.set_xlabel(r"number of discs $N$")
     style.save(drawing, table)

@@ -14,7 +14,7 @@ def main():
     style.zero_line(axes)
     for k, value in enumerate(sorted({row["tangential_restitution"] for row in rows})):
         style.curve(axes, style.select(rows, tangential_restitution=value), "discs", "by_time",
-                    color=style.CYCLE[k], marker=style.MARKERS[k], label=f"$\beta = {value:g}$")
+                    color=style.CYCLE[k], marker=style.MARKERS[k], label=rf"$\beta = {value:g}$")
     axes.set_xlabel(r"number of discs $N$")
     axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
     axes.legend(loc="upper right")
