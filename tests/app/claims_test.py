@@ -55,6 +55,10 @@ class OnMadeUpTables(unittest.TestCase):
         self.crossings("5b", **{"no-wall": (None, None)})
         self.assertEqual(claims.never_crosses("no-wall")(self.folder)[0], claims.HOLDS)
 
+    def test_a_curve_named_by_a_number_is_found(self):
+        self.crossings("restitution", **{"1": (36, 0.3), "0.99": (36, 0.3), "0.9": (32, 0.3)})
+        self.assertEqual(claims.elastic(self.folder)[0], claims.HOLDS)
+
     def test_a_minimum_needs_a_rise_after_it(self):
         self.rotation("5b", "high", [(5, 0.9), (40, -0.2), (44, -0.3), (48, -0.2)])
         self.assertEqual(claims.minimum(self.folder)[0], claims.HOLDS)
