@@ -195,7 +195,10 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
         "byte_order=\"LittleEndian\">\n<Collection>\n");
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         const std::string name = fmt::format("{:06}.vtp", k);
-        write_whole_file(folder / name, vtp_of(s));
+        WholeFile frame(folder / name);  // the index waits for the disk, not each frame
+        frame.append(vtp_of(s));
+        frame.empty_buffer();
+        frame.give_name();
         add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
             escaped(folder.filename().string()), name);
     });

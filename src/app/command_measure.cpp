@@ -1,0 +1,219 @@
+// swirl measure: the measurements of a run, on frames that were recorded: by us, by a camera
+// (trackpy), by another program (LAMMPS).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/stop_signal.hpp"
+#include "files/tracks.hpp"
+#include "files/trajectory.hpp"
+#include "lab/failure.hpp"
+#include "lab/measurements.hpp"
+#include "lab/run_json.hpp"
+#include "lab/run_report.hpp"
+#include "lab/version.hpp"
+#include "measure/cluster_rotation.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MeasureCall {
+    std::string file, list, tables, json;
+    // How a camera's tracks translate; texts, so that what was not given is known.
+    std::string fps, scale, omega, centre, amplitude, phase, container_radius, skip;
+    bool clockwise = false, quiet = false;
+};
+
+double number(const char* name, const std::string& text, double otherwise, double from) {
+    if (text.empty()) return otherwise;
+    const auto value = read_number(text);
+    if (!value || *value < from)
+        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
+                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
+    return *value;
+}
+
+std::string first_bytes(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
+    std::string bytes(8, '\0');
+    stream.read(bytes.data(), 8);
+    return bytes;
+}
+
+TrackScale scale_of(const MeasureCall& call) {
+    constexpr double any = -std::numeric_limits<double>::infinity();
+    for (const auto& [name, text] :
+         {std::pair("omega", &call.omega), std::pair("container-radius", &call.container_radius)})
+        if (text->empty())
+            throw WrongCall(fmt::format(
+                "'{}' does not say how the container moved; --{} is needed (and --fps, --scale, "
+                "--centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
+                call.file, name));
+    TrackScale scale;
+    scale.frames_per_time = number("fps", call.fps, 1.0, 1e-12);
+    scale.pixels_per_radius = number("scale", call.scale, 1.0, 1e-12);
+    scale.period = 2.0 * pi / number("omega", call.omega, 1.0, 1e-12);
+    scale.amplitude = number("amplitude", call.amplitude, 0.0, 0.0);
+    scale.phase = number("phase", call.phase, 0.0, any) * pi / 180.0;
+    scale.container_radius = number("container-radius", call.container_radius, 1.0, 1e-12);
+    scale.clockwise = call.clockwise;
+    if (call.centre.empty()) return scale;
+    const std::size_t comma = call.centre.find(',');
+    const auto x = read_number(call.centre.substr(0, comma));
+    const auto y =
+        comma == std::string::npos ? std::nullopt : read_number(call.centre.substr(comma + 1));
+    if (!x || !y)
+        throw WrongCall(fmt::format(
+            "--centre is '{}', but it must be X,Y in pixels, for example 512,384.", call.centre));
+    scale.swirl_centre = {*x, *y};
+    return scale;
+}
+
+SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
+    const std::string begin = first_bytes(call.file);
+    if (begin.starts_with("\x89HDF"))
+        return series_of(std::make_shared<TrajectoryReader>(call.file));
+    const TrackScale scale = scale_of(call);
+    Tracks tracks =
+        begin.starts_with("ITEM:") ? read_lammps_dump(call.file) : read_trackpy_csv(call.file);
+    if (tracks.filled > 0)
+        remark =
+            fmt::format("{} positions missing for up to five frames were put back.", tracks.filled);
+    return series_of(std::move(tracks), scale);
+}
+
+void measure_file(const MeasureCall& call) {
+    const auto names =
+        call.list.empty() ? std::vector<std::string>() : read_measurement_list(call.list);
+    if (!call.tables.empty() && names.empty())
+        throw WrongCall("--tables needs --measure LIST, which says what to write there.");
+    if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
+    const double skip = number("skip", call.skip, 0.0, 0.0);
+    std::string remark;
+    const SnapshotSeries series = open_series(call, remark);
+    if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
+    const Snapshot first = series.frame(0);
+    bool pinned = false;
+    for (const MeasurementKind& kind : measurement_kinds())
+        for (const std::string& name : names)
+            pinned = pinned || (name == kind.name && kind.needs_pinned);
+    if (pinned && !series.same_discs)
+        throw Failure(fmt::format(
+            "The discs of '{}' are not the same in every frame, so which of them are pinned cannot "
+            "be told; measurements without pinned, slip and frustration would be right.",
+            call.file));
+
+    RunConfig config;
+    config.container_radius = first.container_radius;
+    config.period = first.period;
+    config.discs = std::int64_t(first.size());
+    RunMeasurements measurements(config, names);
+    RunControl control;
+    measurements.attach_to(control);
+    ClusterRotation rotation;
+    ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
+    std::int64_t swirl = first.swirls;
+    std::uint64_t used = 0;
+    bool begun = false;
+    for (std::uint64_t k = 0; k < series.frames; ++k) {
+        if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
+        const Snapshot s = series.frame(k);
+        if (s.time() < skip * s.period) continue;
+        if (!begun || s.swirls != swirl) {
+            if (begun) rotation.close_block();
+            if (control.swirl_begins) control.swirl_begins(true);
+        }
+        begun = true;
+        swirl = s.swirls;
+        rotation.look_in_time(s);
+        for (const auto& sampler : control.samplers) sampler.look(s);
+        ++used;
+        line.show(double(k + 1) / double(series.frames), fmt::format("frame {}", k + 1));
+    }
+    line.clear();
+    if (used == 0)
+        throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
+    rotation.close_block();
+    if (control.swirl_begins) control.swirl_begins(true);
+
+    const RotationEstimates found = rotation.estimates();
+    const double swirls = series.frame(series.frames - 1).time() / first.period - skip;
+    Json json{{"file", call.file},
+              {"frames", used},
+              {"discs", first.size()},
+              {"same_discs", series.same_discs},
+              {"rotation",
+               {{"by_time", estimate_json(found.by_time)},
+                {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
+              {"measured", measurements.results()},
+              {"remark", remark},
+              {"version", version()}};
+    std::string text = fmt::format(
+        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", first.size(),
+        sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
+        with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
+    for (const auto& [name, e] : measured_numbers(json["measured"]))
+        text += fmt::format("  {:<40}{}\n", name, with_error(e.mean, e.error));
+    if (!remark.empty()) text += remark + "\n";
+    const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
+    if (pinned && (per_swirl < 0.8 * looks_per_swirl || per_swirl > 1.25 * looks_per_swirl))
+        text += fmt::format(
+            "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",
+            per_swirl, looks_per_swirl);
+    if (!call.tables.empty()) {
+        make_folder(call.tables);
+        write_measured_tables(json["measured"], call.tables);
+    }
+    if (call.json == "-") return print_all(json.dump(2) + "\n");
+    if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
+    if (!call.quiet) print_all(text);
+}
+
+void add_measure_command(CLI::App& subcommand) {
+    const auto call = std::make_shared<MeasureCall>();
+    const auto text = [&](const char* name, std::string& into, const char* type,
+                          const char* description, const char* group) {
+        return subcommand.add_option(name, into, description)->type_name(type)->group(group);
+    };
+    subcommand
+        .add_option("file", call->file,
+                    "a trajectory of swirl, a table of trackpy (CSV), or a LAMMPS text dump")
+        ->type_name("FILE")
+        ->required();
+    text("--measure", call->list, "LIST", "as for swirl run: density,flow,profile,… or all",
+         "Output");
+    text("--tables", call->tables, "DIR", "write what was measured as CSV files", "Output");
+    text("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout",
+         "Output");
+    text("--skip", call->skip, "PERIODS", "swirls at the start that do not count [0]", "Output");
+    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group("Output");
+    const char* const camera = "Of tracks that are not ours";
+    text("--fps", call->fps, "NUMBER", "frames per unit of time (LAMMPS: steps) [1]", camera);
+    text("--scale", call->scale, "NUMBER", "pixels per disc radius [1]", camera);
+    text("--omega", call->omega, "NUMBER",
+         "angular velocity of the swirl, in radians per unit of time", camera);
+    text("--centre", call->centre, "X,Y", "the swirl centre, in pixels [0,0]", camera);
+    text("--amplitude", call->amplitude, "NUMBER", "of the swirl, in disc radii [0]", camera);
+    text("--phase", call->phase, "DEGREES", "of the container at frame 0, from +x [0]", camera);
+    text("--container-radius", call->container_radius, "NUMBER", "in disc radii", camera);
+    subcommand.add_flag("--clockwise", call->clockwise, "the swirl ran clockwise in the picture")
+        ->group(camera);
+    set_examples(subcommand,
+                 {"swirl measure frames.h5 --measure density,flow --tables maps",
+                  "swirl measure tracks.csv --fps 960 --scale 24 --omega 11.81 --centre 512,384 "
+                  "--container-radius 8.5"});
+    subcommand.callback([call] { measure_file(*call); });
+}
+
+const Command command(41, "measure", "The measurements, on recorded frames or a camera's tracks.",
+                      add_measure_command);
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,139 @@
+"""Sweeps: complete whatever happens to them, and the same table whoever did the work."""
+
+import json
+import os
+import random
+import subprocess
+import time
+import unittest
+
+from program import SWIRL, InFolder, swirl
+
+PLAN = ["sweep", "--discs", "5:12", "--mu", "0.5,1", "--seeds", "3", "--events", "20000", "--quiet"]
+POINTS = 48
+
+
+class Sweep(InFolder):
+    def table(self, folder):
+        done = swirl("collect", folder, "--csv", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def whole(self):
+        done = swirl(*PLAN, "--out", self.path("whole"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = self.table(self.path("whole"))
+        self.assertEqual(len(table.splitlines()), 17)
+        self.assertEqual(len(os.listdir(self.path("whole/results"))), POINTS)
+        return table
+
+    def test_threads_parts_and_order_do_not_show_in_the_table(self):
+        table = self.whole()
+        self.assertEqual(swirl(*PLAN, "--out", self.path("a"), "--threads", 1).returncode, 0)
+        self.assertEqual(self.table(self.path("a")), table)
+        for part in (3, 1, 2):
+            done = swirl(*PLAN, "--out", self.path("b"), "--part", f"{part}/3")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.table(self.path("b")), table)
+
+    def test_a_plan_says_the_same_as_options(self):
+        table = self.whole()
+        with open(self.path("plan.toml"), "w") as plan:
+            plan.write('discs = "5:12"\nmu = [0.5, 1]\nseeds = 3\nevents = 20000\n')
+        self.assertEqual(swirl("sweep", self.path("plan.toml"), "--out", self.path("a"),
+                               "--quiet").returncode, 0)
+        self.assertEqual(self.table(self.path("a")), table)
+
+    def test_killed_at_random_moments_and_started_again_it_does_what_is_missing(self):
+        table = self.whole()
+        choose = random.Random(5)
+        hits = 0
+        for _ in range(200):
+            process = subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],
+                                       stderr=subprocess.DEVNULL)
+            try:
+                process.wait(timeout=choose.uniform(0.02, 0.5) if hits < 10 else 100)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                hits += 1
+                for name in os.listdir(self.path("a/results")) if os.path.isdir(
+                        self.path("a/results")) else []:
+                    if name.endswith(".json"):
+                        with open(self.path("a/results/" + name)) as result:
+                            json.load(result)
+                continue
+            break
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(self.table(self.path("a")), table)
+        self.assertEqual(len(os.listdir(self.path("a/results"))), POINTS)  # no leftovers
+
+    def test_two_at_once_on_one_folder(self):
+        table = self.whole()
+        both = [subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],
+                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        for process in both:
+            complaint = process.communicate(timeout=100)[1]
+            self.assertEqual(process.returncode, 0, complaint)
+        self.assertEqual(self.table(self.path("a")), table)
+
+    def test_a_run_that_fails_does_not_stop_the_rest(self):
+        done = swirl("sweep", "--discs", "5,60,6", "--events", 1000, "--out", self.path("a"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("point 1: 60 discs", done.stderr)
+        self.assertIn("2 of 3 runs done, 0 running, 1 failed",
+                      swirl("sweep", "--out", self.path("a"), "--status").stdout)
+        self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
+
+    def test_another_plan_in_the_same_folder_is_refused(self):
+        self.whole()
+        done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds another sweep", done.stderr)
+
+    def test_a_result_of_an_older_version_or_damaged_is_named(self):
+        self.whole()
+        file = self.path("whole/results/000007.json")
+        with open(file) as opened:
+            result = json.load(opened)
+        result["format"] = 0
+        with open(file, "w") as opened:
+            json.dump(result, opened)
+        done = swirl("collect", self.path("whole"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("000007.json' is in format 0", done.stderr)
+        with open(file, "w") as opened:
+            opened.write('{"format": 1, "rot')
+        done = swirl("collect", self.path("whole"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("000007.json' is damaged", done.stderr)
+
+    def test_a_hundred_thousand_results_are_counted_and_collected_in_seconds(self):
+        self.assertEqual(swirl("sweep", "--discs", 5, "--events", 1000, "--seeds", 100000, "--part",
+                               "1/100000", "--out", self.path("a"), "--quiet").returncode, 0)
+        one = self.path("a/results/000000.json")
+        for point in range(1, 100000):  # links, so that making them is quick
+            try:
+                os.link(one, self.path(f"a/results/{point:06}.json"))
+            except OSError:  # a file can only have so many names
+                with open(one) as opened:
+                    text = opened.read()
+                one = self.path(f"a/results/{point:06}.json")
+                with open(one, "w") as opened:
+                    opened.write(text)
+        spent = []
+        for call in (["sweep", "--out", self.path("a"), "--status"], ["collect", self.path("a")]):
+            before = os.times()
+            done = swirl(*call)
+            after = os.times()
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("100000 of 100000 runs", done.stdout)
+            spent.append(after.children_user + after.children_system
+                         - before.children_user - before.children_system)
+        # Processor time: what else the machine does is not the program's fault.
+        self.assertLess(spent[0], 5)
+        self.assertLess(spent[1], 5)
+
+
+if __name__ == "__main__":
+    unittest.main()
