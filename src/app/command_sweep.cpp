@@ -209,7 +209,7 @@ void add_sweep_command(CLI::App& subcommand) {
     text("--partition", call->job.partition, "NAME", "of the cluster", cluster);
     set_examples(subcommand, {"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
                               "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
-                              "swirl sweep --out study --status", "swirl collect study"});
+                              "swirl sweep --out study --status"});
     subcommand.callback([call] { sweep(*call); });
 }
 

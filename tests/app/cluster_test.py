@@ -1,0 +1,59 @@
+"""A sweep on a real Slurm with three nodes, one of which dies in the middle."""
+
+import os
+import time
+import unittest
+
+import private_slurm
+from program import InFolder, swirl
+
+PLAN = ["sweep", "--discs", "5:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
+POINTS = 120
+
+
+class Cluster(InFolder):
+    def test_a_dead_node_does_not_show_in_the_table(self):
+        reason = private_slurm.why_not()
+        if reason:
+            self.skipTest(reason)
+        slurm = private_slurm.Slurm(self.path("slurm"), nodes=3, cpus=1)
+        self.addCleanup(slurm.stop)
+        environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
+        out = self.path("cluster")
+        submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
+        self.assertEqual(submitted.returncode, 0, submitted.stderr)
+        self.assertIn("Submitted as job", submitted.stdout)
+
+        def status():
+            done = swirl("sweep", "--out", out, "--status", environment=environment)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
+
+        def results():
+            return sum(name.endswith(".json") for name in os.listdir(out + "/results"))
+
+        killed = False
+        running_seen = False
+        for _ in range(1200):
+            said = status()
+            running_seen = running_seen or ("running" in said and "job " in said)
+            if not killed and results() >= 5 and slurm.steps_on("n2"):
+                slurm.kill_node("n2")
+                killed = True
+                self.assertLess(results(), POINTS, "the node outlived the sweep")
+            if f"{POINTS} of {POINTS} runs done" in said:
+                break
+            time.sleep(0.1)
+        logs = "".join(open(f"{out}/log/{name}").read() for name in os.listdir(out + "/log"))
+        self.assertIn(f"{POINTS} of {POINTS} runs done", status(), logs)
+        self.assertTrue(killed)
+        self.assertTrue(running_seen)
+
+        self.assertEqual(swirl(*PLAN, "--out", self.path("one"), "--quiet").returncode, 0)
+        tables = [swirl("collect", folder, "--csv", "-").stdout for folder in (out, self.path("one"))]
+        self.assertEqual(len(tables[0].splitlines()), 1 + POINTS // 2)
+        self.assertEqual(tables[0], tables[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
