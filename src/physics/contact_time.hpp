@@ -81,7 +81,7 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
 /// never oversteps the contact and converges quadratically onto it. Static: each width's event loop
 /// must have a copy of its own (simulation/event_loop.hpp).
 static inline double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
-                                           double clearance) {
+                                                  double clearance) {
     const double container_speed = square_root(dot(leg.velocity, leg.velocity));
     const double speed = square_root(dot(disc.velocity, disc.velocity)) + container_speed;
     const double M = speed * speed + clearance * container_speed * magnitude(leg.turning);
