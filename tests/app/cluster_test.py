@@ -7,8 +7,8 @@ import unittest
 import private_slurm
 from program import InFolder, swirl
 
-PLAN = ["sweep", "--discs", "5:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
-POINTS = 120
+PLAN = ["sweep", "--discs", "20:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
+POINTS = 60
 
 
 class Cluster(InFolder):
@@ -18,6 +18,7 @@ class Cluster(InFolder):
             self.skipTest(reason)
         slurm = private_slurm.Slurm(self.path("slurm"), nodes=3, cpus=1)
         self.addCleanup(slurm.stop)
+        slurm.start()
         environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
         out = self.path("cluster")
         submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
@@ -44,7 +45,10 @@ class Cluster(InFolder):
             if f"{POINTS} of {POINTS} runs done" in said:
                 break
             time.sleep(0.1)
-        logs = "".join(open(f"{out}/log/{name}").read() for name in os.listdir(out + "/log"))
+        logs = ""
+        for name in sorted(os.listdir(out + "/log")):
+            with open(f"{out}/log/{name}") as log:
+                logs += log.read()
         self.assertIn(f"{POINTS} of {POINTS} runs done", status(), logs)
         self.assertTrue(killed)
         self.assertTrue(running_seen)

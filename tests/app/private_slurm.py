@@ -60,7 +60,8 @@ class Slurm:
             port = min(probe.getsockname()[1], 60000)
         for part in ("state", "spool", "log", "munge"):
             os.makedirs(f"{folder}/{part}", exist_ok=True)
-        os.chmod(folder, 0o755)
+        for entered in (os.path.dirname(folder), folder):  # munged runs as a user of its own
+            os.chmod(entered, 0o755)
         self.environment = dict(os.environ, SLURM_CONF=f"{folder}/slurm.conf")
         host = socket.gethostname().split(".")[0]
         with open(f"{folder}/slurm.conf", "w") as conf:
@@ -100,7 +101,6 @@ SlurmdParameters=config_overrides
                            f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n")
             conf.write(f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
                        "MaxTime=INFINITE State=UP OverSubscribe=NO\n")
-        self.start()
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True,
