@@ -40,11 +40,13 @@ TEST(CrossingSearch, DoesNotDependOnTheNumberOfCores) {
 TEST(CrossingSearch, WithoutWallFrictionThereIsNoneAndItSaysWhy) {
     CrossingSettings settings = short_search(1.0);
     settings.config.mu_wall = 0.0;
+    settings.from = 8;
+    settings.to = 20;  // a thin dish: short runs are enough to be certain
     const CrossingSearch search = search_crossing(settings);
     EXPECT_EQ(search.crossing.verdict, Crossing::Verdict::always_rotates);
     const std::string report = crossing_report(settings, search);
     EXPECT_THAT(report, HasSubstr("No crossing: the discs always rotate"));
-    EXPECT_THAT(report, HasSubstr("between N = 24 and 48 the lowest is"));
+    EXPECT_THAT(report, HasSubstr("between N = 8 and 20 the lowest is"));
 }
 
 TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
