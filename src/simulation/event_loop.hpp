@@ -117,15 +117,16 @@ SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) 
     const Leg& leg = m.legs[m.leg];
     const Neighbourhood& mine = m.neighbourhoods[i];
     const Flight<double> flight = flight_of(disc);
-    const Flight<double> frame = carried_frame(leg);
-    const double now = larger(flight.time, frame.time);
-    const Vec2 s = flight.position_at(now) - frame.position_at(now);
-    const Vec2 v = flight.velocity - frame.velocity;
-    const Vec2 offset = s + (t - now) * v - Vec2{mine.X, mine.Y};
+    const Flight<double> container = container_flight(leg);
+    const double now = larger(flight.time, container.time);
+    const Vec2 s = flight.position_at(now) - container.position_at(now);
+    const Vec2 v = flight.velocity - container.velocity;
+    const Vec2 offset = flight.position_at(t) - m.carrier.position_at(t) - Vec2{mine.X, mine.Y};
+    const Vec2 stray = flight.velocity - m.carrier.velocity;
     const double clearance = m.container_radius - disc.radius;
     const double freedom = static_cast<double>(mine.freedom) * (1.0 - freedom_margin);
     const BasicVec2<Lanes<2>> from{two_lanes(s.x, offset.x), two_lanes(s.y, offset.y)};
-    const BasicVec2<Lanes<2>> velocity{Lanes<2>(v.x), Lanes<2>(v.y)};
+    const BasicVec2<Lanes<2>> velocity{two_lanes(v.x, stray.x), two_lanes(v.y, stray.y)};
     const Lanes<2> wait = time_to_leave(from, velocity, two_lanes(clearance, freedom));
     const double neighbourhood = t + wait.part[0][1];
     if (leg.turning != 0.0) [[unlikely]]
@@ -192,7 +193,7 @@ static void start_narrow(Machine& m, double t) {
 [[gnu::noinline]] static void renew_neighbourhood(Machine& m, std::uint32_t i, double t) {
     ++m.relists;
     const double before = settle(m, i, t);
-    if (claim(m, i, before, freedom_range(m))) {
+    if (claim(m, i, t, before, freedom_range(m))) {
         predict(m, i, t);
         return;
     }
@@ -214,9 +215,10 @@ static void start_narrow(Machine& m, double t) {
             if (level > 0) m.level_winners[level][k] = 0;
         }
     }
+    renew_carrier(m, m.legs[m.leg].position_at(m.clock), m.clock);
     start_narrow(m, m.clock);
     for (std::uint32_t i = 0; i < m.size; ++i) {
-        if (claim(m, i, settle(m, i, m.clock), freedom_range(m))) continue;
+        if (claim(m, i, m.clock, settle(m, i, m.clock), freedom_range(m))) continue;
         start_narrow(m, m.clock);
         break;
     }
@@ -254,22 +256,27 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
         freedom[k] = static_cast<double>(mine.freedom) * (1.0 - freedom_margin);
     }
     const Others<8> discs = load_others<8>(m, who);
-    const Flight<double> frame = carried_frame(m.legs[m.leg]);
-    const Vec2 centre = frame.position_at(t);
+    const Flight<double> container = container_flight(m.legs[m.leg]);
+    const auto lanes = [](const Vec2& a) {
+        return BasicVec2<Lanes<8>>{Lanes<8>(a.x), Lanes<8>(a.y)};
+    };
     const Lanes<8> now(t);
-    const BasicVec2<Lanes<8>> s =
-        discs.flight.position_at(now) - BasicVec2<Lanes<8>>{Lanes<8>(centre.x), Lanes<8>(centre.y)};
-    const BasicVec2<Lanes<8>> v =
-        discs.flight.velocity -
-        BasicVec2<Lanes<8>>{Lanes<8>(frame.velocity.x), Lanes<8>(frame.velocity.y)};
+    const BasicVec2<Lanes<8>> at = discs.flight.position_at(now);
+    const BasicVec2<Lanes<8>> s = at - lanes(container.position_at(t));
+    const BasicVec2<Lanes<8>> v = discs.flight.velocity - lanes(container.velocity);
+    const Vec2 carried = m.carrier.position_at(t);
     const BasicVec2<Lanes<8>> offset =
-        s - BasicVec2<Lanes<8>>{Lanes<8>::load(X), Lanes<8>::load(Y)};
+        at - lanes(carried) - BasicVec2<Lanes<8>>{Lanes<8>::load(X), Lanes<8>::load(Y)};
+    const BasicVec2<Lanes<8>> stray = discs.flight.velocity - lanes(m.carrier.velocity);
     alignas(64) double wall[8], neighbourhood[8];
     (now + time_to_leave(s, v, Lanes<8>(m.container_radius) - discs.radius)).store(wall);
-    (now + time_to_leave(offset, v, Lanes<8>::load(freedom))).store(neighbourhood);
-    for (std::uint32_t k = 0; k < count; ++k)
-        renew_leaving(m, first + k,
-                      {m.discs[first + k].far_from_wall ? never : wall[k], neighbourhood[k]});
+    (now + time_to_leave(offset, stray, Lanes<8>::load(freedom))).store(neighbourhood);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        HotDisc& disc = m.discs[first + k];
+        disc.far_from_wall =
+            is_far_from_wall(m, carried + Vec2{X[k], Y[k]}, freedom[k], disc.radius, t);
+        renew_leaving(m, first + k, {disc.far_from_wall ? never : wall[k], neighbourhood[k]});
+    }
 }
 
 [[gnu::noinline]] static Event end_leg(Machine& m) {
@@ -277,6 +284,7 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
     ++m.path_vertex;
     const Event event{m.swirls, m.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
     if (++m.leg < m.leg_count) {
+        renew_carrier(m, m.carrier.position_at(m.clock), m.clock);
         if (m.legs[m.leg].turning == 0.0) {
             for (std::uint32_t i = 0; i < m.size; i += 8) renew_eight(m, i, m.clock);
         } else {
@@ -294,9 +302,23 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
         disc.time = 0.0;
         ++disc.changes;
     }
+    const Vec2 carried = m.carrier.position_at(m.clock);
     m.leg = 0;
     m.clock = 0.0;
     ++m.swirls;
+    const Vec2 drift = carried - m.legs[0].start;
+    if (m.cells_per_side > 1 && square_root(dot(drift, drift)) * m.cells_per_length > 1.0) {
+        // The cells have been carried off the dish.
+        renew_carrier(m, m.legs[0].start, 0.0);
+        start_narrow(m, 0.0);
+    } else {
+        renew_carrier(m, carried, 0.0);
+        for (std::uint32_t i = 0; i < m.size; ++i) {
+            const Neighbourhood& mine = m.neighbourhoods[i];
+            m.discs[i].far_from_wall = is_far_from_wall(m, carried + Vec2{mine.X, mine.Y},
+                                                        mine.freedom, m.discs[i].radius, 0.0);
+        }
+    }
     predict_all(m, m.clock);
     return event;
 }

@@ -74,6 +74,9 @@ struct Machine {
     double* level_times[12];
     std::uint32_t* level_winners[12];
 
+    // What carries the neighbourhoods: the mean motion of the discs, renewed with every leg.
+    Flight<double> carrier;
+
     // Square cells over the dish, in the carried frame (neighbours.hpp).
     std::uint32_t cells_per_side;
     double cells_per_length, cell_origin;

@@ -27,10 +27,31 @@ inline constexpr std::uint32_t wanted_neighbours = 7;
 /// Rounding errors of positions are 10⁻¹³; this keeps them out of the argument above.
 inline constexpr double freedom_margin = 1e-9;
 
-/// Where the neighbourhoods are carried: with the container on a straight leg.
-SWIRL_INLINE Flight<double> carried_frame(const Leg& leg) {
-    if (leg.turning != 0.0) return {{0.0, 0.0}, {0.0, 0.0}, leg.begin};
+/// Where the centre of the container is, on a straight leg.
+SWIRL_INLINE Flight<double> container_flight(const Leg& leg) {
     return {leg.start, leg.velocity, leg.begin};
+}
+
+/// Lets the neighbourhoods be carried by the discs' mean velocity from time t on. The pack circles
+/// in the dish with the swirl, so this is where most discs stay near; and in a large dish, where
+/// the wall is far, they do not follow the container at all.
+static void renew_carrier(Machine& m, const Vec2& at, double t) {
+    Vec2 sum{0.0, 0.0};
+    for (std::uint32_t i = 0; i < m.size; ++i) sum = sum + m.discs[i].velocity;
+    m.carrier = {at, (1.0 / m.size) * sum, t};
+}
+
+/// Whether a disc whose neighbourhood is centred at `centre` now, at time t, cannot reach the wall
+/// before the leg ends: the neighbourhood drifts against the container.
+SWIRL_INLINE bool is_far_from_wall(const Machine& m, const Vec2& centre, double freedom,
+                                   double radius, double t) {
+    const Leg& leg = m.legs[m.leg];
+    if (leg.turning != 0.0) return false;
+    const Vec2 s = centre - container_flight(leg).position_at(t);
+    const Vec2 drift = (leg.end - t) * (m.carrier.velocity - leg.velocity);
+    const double outermost =
+        square_root(dot(s, s)) + square_root(dot(drift, drift)) + freedom + radius;
+    return outermost < m.container_radius * (1.0 - 1e-6);
 }
 
 SWIRL_INLINE std::uint32_t cell_row(const Machine& m, double x) {
@@ -155,7 +176,7 @@ SWIRL_INLINE double fair_freedom(const Surroundings& around, double before,
 static void stand(Machine& m, std::uint32_t i, double t) {
     const HotDisc& disc = m.discs[i];
     const Vec2 at = Flight<double>{disc.position, disc.velocity, disc.time}.position_at(t) -
-                    carried_frame(m.legs[m.leg]).position_at(t);
+                    m.carrier.position_at(t);
     m.neighbourhoods[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, m.size};
     if (m.cells_per_side > 1) enter_cell(m, i);
 }
@@ -171,7 +192,7 @@ static double settle(Machine& m, std::uint32_t i, double t) {
 
 /// Gives disc i, which has just settled, its freedom and its list. Discs without freedom are passed
 /// over: they find i when they claim theirs. False if there is no room.
-static bool claim(Machine& m, std::uint32_t i, double before, const FreedomRange& range) {
+static bool claim(Machine& m, std::uint32_t i, double t, double before, const FreedomRange& range) {
     Surroundings around;
     if (!look_around(m, i, around)) return false;
     double freedom = fair_freedom(around, before, range);
@@ -204,10 +225,8 @@ static bool claim(Machine& m, std::uint32_t i, double before, const FreedomRange
     // Rounded down, so that the single-precision number is on the safe side.
     Neighbourhood& mine = m.neighbourhoods[i];
     mine.freedom = static_cast<float>(freedom * (1.0 - 0x1p-22));
-    const double X = mine.X, Y = mine.Y;
-    const double outermost = square_root(X * X + Y * Y) + freedom + m.discs[i].radius;
-    m.discs[i].far_from_wall =
-        m.legs[m.leg].turning == 0.0 && outermost < m.container_radius * (1.0 - 1e-6);
+    m.discs[i].far_from_wall = is_far_from_wall(m, m.carrier.position_at(t) + Vec2{mine.X, mine.Y},
+                                                freedom, m.discs[i].radius, t);
     return true;
 }
 
@@ -222,7 +241,7 @@ static std::uint32_t make_room(Machine& m, std::uint32_t i, double t, const Free
     for (std::uint32_t next = 0; next < count; ++next) {
         const std::uint32_t k = settled[next];
         // Who has claimed and was settled again stands on the list twice.
-        if (m.neighbourhoods[k].freedom != 0.0f || claim(m, k, 0.0, range)) continue;
+        if (m.neighbourhoods[k].freedom != 0.0f || claim(m, k, t, 0.0, range)) continue;
         Surroundings around;
         if (!look_around(m, k, around)) return 0;
         for (std::uint32_t n = 0; n < around.count; ++n) {
@@ -231,7 +250,7 @@ static std::uint32_t make_room(Machine& m, std::uint32_t i, double t, const Free
             settle(m, around.disc[n], t);
             settled[count++] = around.disc[n];
         }
-        if (!claim(m, k, 0.0, range)) return 0;
+        if (!claim(m, k, t, 0.0, range)) return 0;
     }
     return count;
 }
@@ -246,7 +265,7 @@ static void make_all_neighbourhoods(Machine& m, double t, const FreedomRange& ra
         m.discs[i].neighbours = 0;
         stand(m, i, t);
     }
-    for (std::uint32_t i = 0; i < m.size; ++i) claim(m, i, 0.0, range);
+    for (std::uint32_t i = 0; i < m.size; ++i) claim(m, i, t, 0.0, range);
 }
 
 }  // namespace SWIRL_TARGET
