@@ -363,7 +363,7 @@ SWIRL_INLINE Event collide_discs(Machine& m, std::uint32_t a, std::uint32_t b, d
             EventKind::disc_disc,
             i,
             j,
-            (1.0 / distance) * s,
+            {s.x / distance, s.y / distance},
             impulse,
             body_i.radius + body_j.radius - distance};
 }
@@ -385,7 +385,7 @@ SWIRL_INLINE Event collide_with_wall(Machine& m, std::uint32_t i, double t) {
             EventKind::disc_wall,
             i,
             i,
-            (1.0 / distance) * s,
+            {s.x / distance, s.y / distance},
             impulse,
             distance - (m.container_radius - body.radius)};
 }
