@@ -109,6 +109,10 @@ const H5FD_class_t& driver_class() {
     return driver;
 }
 
+// Every file is closed where it is used. One that a full disk kept from closing must be left alone:
+// trying again at exit, the library may crash over the state it was left in.
+[[maybe_unused]] const herr_t no_second_try_at_exit = H5dont_atexit();
+
 hid_t driver_id() {
     static const hid_t id = [] {
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are ours to tell
