@@ -390,17 +390,34 @@ FigurePlan plan_figure_map(const PaperSettings& settings) {
             config.warmup = settings.quick ? 30 : 100;
             config.periods = *config.warmup + (settings.quick ? 60 : 200);
             points.emplace_back(mu_disc, mu_wall);
-            plan.tasks.push_back(varied_point(
-                fmt::format("map_d{}_w{}_{}periods", mu_disc, mu_wall, *config.periods), config));
+            PaperTask task = varied_point(
+                fmt::format("map_d{}_w{}_{}periods", mu_disc, mu_wall, *config.periods), config);
+            // A point that cannot be run to its end (collisions without number in no time) stays
+            // empty, and the map says so.
+            task.work = [work = task.work](const RunControl& control) {
+                try {
+                    return work(control);
+                } catch (const Failure& failure) {
+                    return Json{{"failed", failure.what()}};
+                }
+            };
+            plan.tasks.push_back(std::move(task));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"mu_disc", "mu_wall", "discs"}, rotation_columns()));
+        FigureOutcome outcome;
         for (std::size_t k = 0; k < points.size(); ++k) {
             std::vector<Table::Cell> row{points[k].first, points[k].second, std::int64_t{48}};
-            add_rotation(row, results[k]);
+            if (results[k].contains("failed")) {
+                row.resize(3 + rotation_columns().size(), not_known);
+                outcome.findings.push_back(fmt::format("μ_d = {}, μ_w = {} could not be run: {}",
+                                                       points[k].first, points[k].second,
+                                                       results[k]["failed"].get<std::string>()));
+            } else {
+                add_rotation(row, results[k]);
+            }
             table.add(std::move(row));
         }
-        FigureOutcome outcome;
         outcome.files.push_back(out / "figure_map.csv");
         table.write(outcome.files.back());
         return outcome;
