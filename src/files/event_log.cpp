@@ -72,7 +72,9 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
 }
 
 EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::uint64_t events) {
+    take_back_name(partial_name(path), path);
     EventLogWriter writer(path, Hdf5File(partial_name(path), StagedFile::Mode::change));
+    writer.file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     writer.open_columns();
     Columns& c = writer.columns_;
     for (Column* column : {&c.swirls, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y,

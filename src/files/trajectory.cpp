@@ -149,7 +149,9 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Snap
 }
 
 TrajectoryWriter TrajectoryWriter::resume(const std::filesystem::path& path, std::uint64_t frames) {
+    take_back_name(partial_name(path), path);
     TrajectoryWriter writer(path, Hdf5File(partial_name(path), StagedFile::Mode::change));
+    writer.file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     writer.open_columns();
     Columns& c = writer.columns_;
     for (Column* column :

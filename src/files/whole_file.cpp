@@ -57,6 +57,12 @@ void give_final_name(const std::filesystem::path& partial, const std::filesystem
     sync_folder_of(path);
 }
 
+void take_back_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(partial, ignored) || !std::filesystem::exists(path, ignored)) return;
+    give_final_name(path, partial);
+}
+
 WholeFile::WholeFile(const std::filesystem::path& path)
     : path_(path), aside_(path.string() + "." + own_name() + std::string(partial_suffix)) {
     file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -51,6 +51,10 @@ inline constexpr std::string_view partial_suffix = ".partial";
 /// Gives a finished file its final name, on the disk too. Throws FileError.
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
 
+/// A kill can come after a file got its name and before the result that belongs to it was written.
+/// Who resumes then goes on with that file: it gets its partial name back.
+void take_back_name(const std::filesystem::path& partial, const std::filesystem::path& path);
+
 /// Why the last system call failed, in words.
 std::string system_reason();
 

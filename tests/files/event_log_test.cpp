@@ -86,7 +86,7 @@ TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
     log.finish();
     const auto events = EventLogReader(scratch / "e.h5").read(0, 9'000);
     for (std::size_t k = 0; k < events.size(); ++k) ASSERT_EQ(events[k].clock, happened[k].clock);
-    EXPECT_THROW(EventLogWriter::resume(scratch / "e.h5", 1), FileError);
+    EXPECT_THROW(EventLogWriter::resume(scratch / "absent.h5", 1), FileError);
 }
 
 TEST(StateArchive, GivesBackWhatItGot) {

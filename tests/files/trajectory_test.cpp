@@ -96,6 +96,20 @@ TEST(Trajectory, ResumedFromFewerFramesItHoldsTheSameAsUninterrupted) {
     for (std::uint64_t k = 0; k < 120; ++k) expect_same(reader.frame(k), known_frame(many, k));
 }
 
+TEST(Trajectory, KilledBetweenItsNameAndTheResultItGoesOn) {
+    const Scratch scratch;
+    const auto path = known_trajectory(scratch);
+    auto writer = TrajectoryWriter::resume(path, 5);
+    EXPECT_FALSE(std::filesystem::exists(path));
+    writer.flush();
+    EXPECT_FALSE(TrajectoryReader(scratch / "known.h5.partial").complete());
+    for (std::uint64_t k = 5; k < frames; ++k) writer.write(known_frame(discs, k), 10 * k);
+    writer.finish();
+    TrajectoryReader reader(path);
+    EXPECT_TRUE(reader.complete());
+    for (std::uint64_t k = 0; k < frames; ++k) expect_same(reader.frame(k), known_frame(discs, k));
+}
+
 TEST(Trajectory, RefusesToResumeWhatHoldsTooLittle) {
     const Scratch scratch;
     { TrajectoryWriter writer(scratch / "t.h5", known_frame(discs, 0), {}); }
