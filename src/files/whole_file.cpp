@@ -59,7 +59,8 @@ void give_final_name(const std::filesystem::path& partial, const std::filesystem
 
 void take_back_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
     std::error_code ignored;
-    if (std::filesystem::exists(partial, ignored) || !std::filesystem::exists(path, ignored)) return;
+    if (std::filesystem::exists(partial, ignored) || !std::filesystem::exists(path, ignored))
+        return;
     give_final_name(path, partial);
 }
 
