@@ -1,6 +1,6 @@
-// Who may meet whom. Each disc has a neighbourhood: a circle of radius h_i about a point X_i that is
-// carried along with the mean motion of all discs. While every disc is within its own, only pairs
-// with
+// Who may meet whom. Each disc has a neighbourhood: a circle of radius h_i about a point X_i that
+// is carried along with the mean motion of all discs. While every disc is within its own, only
+// pairs with
 //
 //     |X_i − X_k| < r_i + r_k + h_i + h_k
 //
