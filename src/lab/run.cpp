@@ -171,8 +171,9 @@ class Run {
         for (SampleTimes& times : caller_times_) visit(times);
     }
 
-    /// Inelastic collapse: ever more events in ever less time. A disc of the paper's dish has about
-    /// 70 events per swirl, one that obeys a contact duration at most T/t_c.
+    /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
+    /// friction alone (docs/physics.md). A disc of the paper's dish has about 70 events per swirl,
+    /// one that obeys a contact duration at most T/t_c.
     void refuse_collapse() {
         constexpr double too_fast = 1e8;  // events per disc and swirl
         const std::uint64_t events = simulation_.events().total() - events_at_mark_;
@@ -182,11 +183,24 @@ class Run {
         if (static_cast<double>(events) > too_fast * discs * swirls)
             throw Failure(fmt::format(
                 "The last {} events took {:.2g} swirls, so time all but stands still after {:.3f} "
-                "swirls: with restitution {} the discs collide ever faster (inelastic collapse). A "
-                "longer --contact-duration than {} would keep them apart.",
-                events, swirls, periods(), config_.restitution, config_.contact_duration));
+                "swirls: {}",
+                events, swirls, periods(), reason_for_collapse()));
         events_at_mark_ += events;
         periods_at_mark_ += swirls;
+    }
+
+    std::string reason_for_collapse() const {
+        if (config_.restitution < 1.0)
+            return fmt::format(
+                "with restitution {} the discs collide ever faster (inelastic collapse). A longer "
+                "--contact-duration than {} would keep them apart.",
+                config_.restitution, config_.contact_duration);
+        return fmt::format(
+            "friction has taken the energy out of the relative motion of discs that lie pressed "
+            "together, and they collide ever faster (a collapse; docs/physics.md). The model has "
+            "no state after it. Another --seed than {} may "
+            "not meet it.",
+            config_.seed);
     }
 
     void offer_state(bool stopped, double seconds) {
