@@ -39,17 +39,13 @@ RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
         line.show(progress.fraction, short_number(rate) + " events/s");
     };
     measurements.attach_to(control);
-    return run_recorded(config, files, control, provenance);
+    return run_recorded(config, files, control, provenance, measurements.gatherers());
 }
 
 std::vector<std::string> measurements_of(const RunCall& call) {
     if (call.measure.empty() && !call.tables.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (call.measure.empty()) return {};
-    if (call.recording->resume)
-        throw WrongCall(
-            "--resume and --measure cannot go together: a checkpoint does not hold what was "
-            "measured; a run from its beginning would be right.");
     return read_measurement_list(call.measure);
 }
 

@@ -48,12 +48,16 @@ class Columns {
 
 /// What looks at an MFrameView, closes blocks, and becomes JSON by a function of its own.
 template <class Observer, Json (*to_json)(const Observer&)>
-class OfTheView : public Measurement {
+class OfTheView : public Kept<OfTheView<Observer, to_json>> {
   public:
     explicit OfTheView(Observer observer) : observer_(std::move(observer)) {}
     void look(const Look& look) override { observer_.look(look.view); }
     void close_block() override { observer_.close_block(); }
     Json result() const override { return to_json(observer_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(observer_);
+    }
 
   private:
     Observer observer_;
@@ -62,7 +66,7 @@ class OfTheView : public Measurement {
 // --- density --------------------------------------------------------------------------------
 
 /// Both averages of one map: by time, and by event as in the paper.
-class Density : public Measurement {
+class Density : public Kept<Density> {
   public:
     explicit Density(double container_radius)
         : by_time_(container_radius), by_event_(container_radius) {}
@@ -84,6 +88,10 @@ class Density : public Measurement {
             table.add({p.x, p.y, time.mean, time.error, event.mean, event.error});
         }
         return table.json();
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(by_time_, by_event_, events_);
     }
 
   private:
@@ -137,21 +145,24 @@ Json angle_json(const CircularMean& mean) {
 }
 
 /// By the paper's two criteria on trajectories, and from the collisions themselves.
-class Pinned : public Measurement {
+class Pinned : public Kept<Pinned> {
   public:
-    void look(const Look& look) override { by_tracks_ = &look.pinned_loose; }
+    void share(const PinnedLoose& pinned_loose) override { by_tracks_ = &pinned_loose; }
     void after_event(const Snapshot& lab, const Event& event) override {
         by_collisions_.look(event, lab);
     }
     void close_block() override { by_collisions_.close_block(); }
     Json result() const override {
-        const PinnedLoose none;
-        const PinnedLoose& tracks = by_tracks_ ? *by_tracks_ : none;
+        const PinnedLoose& tracks = *by_tracks_;
         return {{"becoming_pinned", angle_json(tracks.becoming_pinned())},
                 {"becoming_free", angle_json(tracks.becoming_free())},
                 {"becoming_pinned_by_collisions", angle_json(by_collisions_.becoming_pinned())},
                 {"becoming_free_by_collisions", angle_json(by_collisions_.becoming_free())},
                 {"share", estimate_json(tracks.share())}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(by_collisions_);
     }
 
   private:
@@ -159,7 +170,7 @@ class Pinned : public Measurement {
     PinnedByCollisions by_collisions_;
 };
 
-class OfSlip : public Measurement {
+class OfSlip : public Kept<OfSlip> {
   public:
     void look(const Look& look) override {
         if (look.earlier) slip_.look(*look.earlier, look.pinned_loose.pinned());
@@ -171,12 +182,16 @@ class OfSlip : public Measurement {
                 {"cluster_perimeter", estimate_json(slip_.cluster_perimeter())},
                 {"pancake", estimate_json(slip_.pancake())}};
     }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(slip_);
+    }
 
   private:
     Slip slip_;
 };
 
-class OfFrustration : public Measurement {
+class OfFrustration : public Kept<OfFrustration> {
   public:
     void look(const Look& look) override {
         if (look.earlier) spins_.look(*look.earlier, look.pinned_loose.pinned());
@@ -191,6 +206,10 @@ class OfFrustration : public Measurement {
                 {"coordination", estimate_json(spins_.coordination())},
                 {"disc_sticking", estimate_json(spins_.disc_sticking())},
                 {"wall_sticking", estimate_json(spins_.wall_sticking())}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(spins_);
     }
 
   private:
@@ -210,6 +229,10 @@ class PinnedWatch {
     const MFrameView* earlier() const {
         if (frames_ < PinnedLoose::width) return nullptr;
         return &recent_[(frames_ - 1 - PinnedLoose::half_width) % recent_.size()];
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(pinned_loose_, recent_, frames_);
     }
 
   private:
@@ -315,6 +338,10 @@ struct RunMeasurements::State {
         }
         counts = warm;
     }
+    template <class Archive>
+    void fields(Archive& archive) {
+        archive(counts, watch);
+    }
 };
 
 RunMeasurements::RunMeasurements(const RunConfig& config, const std::vector<std::string>& names)
@@ -322,6 +349,7 @@ RunMeasurements::RunMeasurements(const RunConfig& config, const std::vector<std:
     state_->names = names;
     for (const std::string& name : names) {
         state_->measurements.push_back(kind(name).make(config));
+        state_->measurements.back()->share(state_->watch.pinned_loose());
         state_->needs_pinned = state_->needs_pinned || kind(name).needs_pinned;
     }
 }
@@ -342,6 +370,20 @@ void RunMeasurements::attach_to(RunControl& control) {
         state->swirl_begins(warm);
         if (swirl_begins) swirl_begins(warm);
     };
+}
+
+std::vector<Gatherer> RunMeasurements::gatherers() {
+    State* const state = state_.get();
+    if (state->measurements.empty()) return {};
+    return {{fmt::format("{}", fmt::join(state->names, ",")),
+             [state](StateWriter& to) {
+                 state->fields(to);
+                 for (const auto& m : state->measurements) m->keep(to);
+             },
+             [state](StateReader& from) {
+                 state->fields(from);
+                 for (const auto& m : state->measurements) m->resume(from);
+             }}};
 }
 
 Json RunMeasurements::results() const {

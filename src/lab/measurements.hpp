@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "files/state_archive.hpp"
+#include "lab/recorded_run.hpp"
 #include "lab/run.hpp"
 #include "measure/m_frame.hpp"
 #include "measure/pinned_loose.hpp"
@@ -34,10 +36,13 @@ struct Look {
     const MFrameView* earlier;  // seven frames ago; null in the first frames
 };
 
-/// One measurement while the run goes on.
+/// One measurement while the run goes on. Those that look at a run derive from Kept, below, and say
+/// in fields() what they have gathered, so that a run that is resumed has all of it.
 class Measurement {
   public:
     virtual ~Measurement() = default;
+    /// Called once, before anything else: the observer that all measurements share.
+    virtual void share(const PinnedLoose& /*pinned_loose*/) {}
     /// Called at equal time steps, `looks_per_swirl` per swirl.
     virtual void look(const Look& /*look*/) {}
     /// Called after every event.
@@ -45,6 +50,21 @@ class Measurement {
     /// Called at the end of every swirl.
     virtual void close_block() {}
     virtual nlohmann::ordered_json result() const = 0;
+    /// Everything gathered, to the last bit, and back.
+    virtual void keep(StateWriter& state) = 0;
+    virtual void resume(StateReader& state) = 0;
+};
+
+/// A measurement that says in one line what it consists of (state_archive.hpp):
+///
+///     class OfSomething : public Kept<OfSomething> {
+///         …
+///         template <class Visitor> void fields(Visitor&& visit) { visit(sum_); visit(weight_); }
+template <class Kind>
+class Kept : public Measurement {
+  public:
+    void keep(StateWriter& state) final { static_cast<Kind&>(*this).fields(state); }
+    void resume(StateReader& state) final { static_cast<Kind&>(*this).fields(state); }
 };
 
 struct MeasurementKind {
@@ -67,9 +87,10 @@ class RunMeasurements {
     RunMeasurements(const RunConfig& config, const std::vector<std::string>& names);
     ~RunMeasurements();
 
-    /// Puts them into the control of the run, beside what is there. They must outlive the run,
-    /// which must not be one that resumes.
+    /// Puts them into the control of the run, beside what is there. They must outlive the run.
     void attach_to(RunControl& control);
+    /// What a checkpoint of that run keeps of them, for run_recorded(); nothing if there are none.
+    std::vector<Gatherer> gatherers();
 
     /// Name of the measurement: its result.
     nlohmann::ordered_json results() const;

@@ -27,10 +27,14 @@ Json frames_json(const RunFiles& files) {
 }
 
 /// What must agree for a run to be resumed.
-Json identity(const RunConfig& config, const RunFiles& files) {
+Json identity(const RunConfig& config, const RunFiles& files,
+              const std::vector<Gatherer>& gatherers) {
+    Json gathered = Json::array();
+    for (const Gatherer& gatherer : gatherers) gathered.push_back(gatherer.name);
     return {{"parameters", config_json(config)},
             {"frames", frames_json(files)},
-            {"event_log", !files.event_log.empty()}};
+            {"event_log", !files.event_log.empty()},
+            {"measured", gathered}};
 }
 
 std::string difference(const Json& there, const Json& here) {
@@ -41,7 +45,10 @@ std::string difference(const Json& there, const Json& here) {
     if (there.at("frames") != here.at("frames"))
         return fmt::format("the frames of its trajectory are {} there and {} here",
                            there["frames"].dump(), here["frames"].dump());
-    return "one of the two writes an event log and the other does not";
+    if (there.value("event_log", false) != here.at("event_log"))
+        return "one of the two writes an event log and the other does not";
+    return fmt::format("it measures {} there and {} here",
+                       there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
 
 class Recorder {
@@ -82,7 +89,7 @@ class Recorder {
 
     void resume() {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
-        const Json about = Json::parse(kept.about), here = identity(config_, files_);
+        const Json about = Json::parse(kept.about), here = identity(config_, files_, gatherers_);
         if (about.at("identity") != here)
             throw WrongCall(fmt::format(
                 "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
@@ -155,7 +162,8 @@ class Recorder {
         state(frames, events);
         state(run_state);
         for (const Gatherer& gatherer : gatherers_) gatherer.keep(state);
-        const Json about{{"version", version()}, {"identity", identity(config_, files_)}};
+        const Json about{{"version", version()},
+                         {"identity", identity(config_, files_, gatherers_)}};
         write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
         last_kept_ = Clock::now();
     }

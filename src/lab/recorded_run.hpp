@@ -36,8 +36,10 @@ struct RunFiles {
     bool resume = false;  // from the checkpoint, if it is there
 };
 
-/// Something that gathers while the run goes on, and must be kept with it.
+/// Something that gathers while the run goes on, and must be kept with it. `name` says what; a run
+/// resumes only from a checkpoint of one that gathered the same.
 struct Gatherer {
+    std::string name;
     std::function<void(StateWriter&)> keep;
     std::function<void(StateReader&)> resume;
 };

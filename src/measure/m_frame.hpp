@@ -85,6 +85,17 @@ class MFrameView {
     Vec2 velocity(std::size_t i) const {
         return relative_velocity(i) - frame.omega * perpendicular(position(i));
     }
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(frame);
+        visit(time);
+        visit(container_radius);
+        visit(centre_of_mass);
+        visit(centre_of_mass_velocity);
+        for (auto* column : {&x, &y, &ux, &uy, &theta, &varpi, &spin, &radius, &mass, &inertia})
+            visit(*column);
+    }
 };
 
 }  // namespace swirl

@@ -76,7 +76,8 @@ class PinnedLoose {
         visit(breaks_);
         for (auto* column : {&past_x_, &past_y_, &sum_x_, &sum_y_, &slope_x_, &slope_y_})
             visit(*column);
-        for (auto* column : {&loose_for_, &left_x_, &left_y_, &parallel_for_}) visit(*column);
+        for (auto* column : {&loose_for_, &left_x_, &left_y_, &parallel_for_, &freed_, &turned_})
+            visit(*column);
         visit(is_pinned_);
         visit(pinned_);
         becoming_pinned_.fields(visit);

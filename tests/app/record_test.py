@@ -12,7 +12,7 @@ import unittest
 from program import SWIRL, InFolder, swirl
 
 RUN = ["run", "--discs", "24", "--events", "300000", "--warmup", "5", "--seed", "3", "--frames", "40",
-       "--checkpoint-every", "0.02", "--compression", "0"]
+       "--checkpoint-every", "0.02", "--compression", "0", "--measure", "radial,pinned"]
 
 
 def without_time(file):

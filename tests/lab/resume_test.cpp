@@ -4,6 +4,10 @@
 #include <atomic>
 
 #include "files/file_error.hpp"
+#include "files/scratch.hpp"
+#include "lab/failure.hpp"
+#include "lab/measurements.hpp"
+#include "lab/recorded_run.hpp"
 #include "lab/run.hpp"
 #include "lab/run_json.hpp"
 
@@ -64,6 +68,61 @@ TEST(Resume, AnInterruptedRunEndsWithTheSameResult) {
     EXPECT_GT(pieces, 10);
     EXPECT_EQ(result_without_time(result), result_without_time(whole));
     EXPECT_EQ(looks, whole_looks);
+}
+
+// Whatever measurements there are: each must say in its fields() all that it has gathered.
+TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
+    const RunConfig config = short_run();
+    const std::vector<std::string> names = read_measurement_list("all");
+    const MeasuredRun whole = measured_run(config, names);
+
+    const Scratch scratch;
+    RunFiles files;
+    files.checkpoint = scratch / "c";
+    files.resume = true;
+    std::string measured;
+    RunResult result;
+    int pieces = 0;
+    for (; !result.complete; ++pieces) {
+        std::atomic<bool> stop = false;
+        std::uint64_t left = 1'900;
+        RunMeasurements measurements(config, names);
+        RunControl control;
+        control.stop = &stop;
+        control.after_event = [&](const Snapshot&, const Event&) { stop = --left == 0 || stop; };
+        measurements.attach_to(control);
+        result = run_recorded(config, files, control, {}, measurements.gatherers());
+        measured = measurements.results().dump();
+    }
+    EXPECT_GT(pieces, 10);
+    EXPECT_EQ(measured, whole.measured.dump());
+    EXPECT_EQ(result_without_time(result), result_without_time(whole.run));
+}
+
+TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
+    const RunConfig config = short_run();
+    const Scratch scratch;
+    RunFiles files;
+    files.checkpoint = scratch / "c";
+    files.resume = true;
+    const auto stopped_run = [&](const char* list) {
+        const std::atomic<bool> stop = true;
+        RunMeasurements measurements(config, read_measurement_list(list));
+        RunControl control;
+        control.stop = &stop;
+        measurements.attach_to(control);
+        run_recorded(config, files, control, {}, measurements.gatherers());
+    };
+    stopped_run("density,flow");
+    EXPECT_NO_THROW(stopped_run("density,flow"));
+    try {
+        stopped_run("density");
+        FAIL();
+    } catch (const WrongCall& wrong) {
+        EXPECT_NE(std::string(wrong.what()).find("measures [\"density,flow\"] there"),
+                  std::string::npos)
+            << wrong.what();
+    }
 }
 
 TEST(Resume, KeepingTheStateChangesNothing) {
