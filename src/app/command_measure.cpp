@@ -2,6 +2,7 @@
 // (trackpy), by another program (LAMMPS).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -89,9 +90,37 @@ SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
     return series_of(std::move(tracks), scale);
 }
 
+const MeasurementKind& kind(const std::string& name) {
+    return *std::find_if(measurement_kinds().begin(), measurement_kinds().end(),
+                         [&](const MeasurementKind& k) { return name == k.name; });
+}
+
+/// Frames do not tell one collision from the next.
+void drop_what_needs_events(std::vector<std::string>& names, const std::string& list) {
+    for (const std::string& name : names)
+        if (kind(name).needs_events && list != "all")
+            throw WrongCall(fmt::format(
+                "--measure has '{}' in its list, which needs every collision, and frames do not "
+                "hold them; `swirl run --measure {}` can tell.",
+                name, name));
+    std::erase_if(names, [](const std::string& name) { return kind(name).needs_events; });
+}
+
+void drop_what_needs_tracks(std::vector<std::string>& names, const MeasureCall& call) {
+    for (const std::string& name : names)
+        if (kind(name).needs_tracks && call.list != "all")
+            throw Failure(fmt::format(
+                "The discs of '{}' are not the same in every frame, so '{}' cannot be told of "
+                "them; density, flow, profile, radial, temperature, order and packing can.",
+                call.file, name));
+    std::erase_if(names, [](const std::string& name) { return kind(name).needs_tracks; });
+}
+
 void measure_file(const MeasureCall& call) {
-    const auto names =
-        call.list.empty() ? std::vector<std::string>() : read_measurement_list(call.list);
+    if (call.list == "help") return print_all(measurement_list_text());
+    std::vector<std::string> names;
+    if (!call.list.empty()) names = read_measurement_list(call.list);
+    drop_what_needs_events(names, call.list);
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
@@ -100,21 +129,13 @@ void measure_file(const MeasureCall& call) {
     const SnapshotSeries series = open_series(call, remark);
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
     const Snapshot first = series.frame(0);
-    bool pinned = false;
-    for (const MeasurementKind& kind : measurement_kinds())
-        for (const std::string& name : names)
-            pinned = pinned || (name == kind.name && kind.needs_pinned);
-    if (pinned && !series.same_discs)
-        throw Failure(fmt::format(
-            "The discs of '{}' are not the same in every frame, so which of them are pinned cannot "
-            "be told; measurements without pinned, slip and frustration would be right.",
-            call.file));
+    if (!series.same_discs) drop_what_needs_tracks(names, call);
 
     RunConfig config;
     config.container_radius = first.container_radius;
     config.period = first.period;
     config.discs = std::int64_t(first.size());
-    RunMeasurements measurements(config, names);
+    RunMeasurements measurements(config, names, series.same_discs);
     RunControl control;
     measurements.attach_to(control);
     ClusterRotation rotation;
@@ -163,6 +184,9 @@ void measure_file(const MeasureCall& call) {
         text += fmt::format("  {:<40}{}\n", name, with_error(e.mean, e.error));
     if (!remark.empty()) text += remark + "\n";
     const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
+    const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return kind(name).needs_pinned;
+    });
     if (pinned && (per_swirl < 0.8 * looks_per_swirl || per_swirl > 1.25 * looks_per_swirl))
         text += fmt::format(
             "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",

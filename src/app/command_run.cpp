@@ -70,6 +70,7 @@ void take_parameters_from_checkpoint(const RunCall& call) {
 }
 
 void run_and_report(RunCall& call) {
+    if (call.measure == "help") return print_all(measurement_list_text());
     const std::map<std::string, std::string*> others{{"json", &call.json}};
     const std::string config_text = take_config_file(*call.recording, *call.parameters, others);
     take_parameters_from_checkpoint(call);
@@ -122,7 +123,8 @@ void add_run_command(CLI::App& subcommand) {
         ->group("Output");
     subcommand
         .add_option("--measure", call->measure,
-                    "what to measure besides the rotation: names with commas between, or all")
+                    "what to measure besides the rotation: names with commas between, or all; help "
+                    "lists them")
         ->type_name("LIST")
         ->group("Output");
     subcommand
@@ -140,10 +142,7 @@ void add_run_command(CLI::App& subcommand) {
                               "swirl run --discs 48 --measure density,flow --tables maps",
                               "swirl run study.toml --discs 40 --trajectory frames.h5",
                               "swirl run --discs 48 --events 1e9 --json out.json --resume"});
-    std::string kinds = "To measure:";
-    for (const MeasurementKind& kind : measurement_kinds())
-        kinds += fmt::format("\n  {:<14}{}", kind.name, kind.description);
-    subcommand.footer(kinds + "\n\n" + subcommand.get_footer());
+    subcommand.footer("To measure:\n" + measurement_list_text() + "\n" + subcommand.get_footer());
     subcommand.callback([call] { run_and_report(*call); });
 }
 

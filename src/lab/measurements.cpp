@@ -10,13 +10,19 @@
 #include "lab/run_json.hpp"
 #include "lab/table.hpp"
 #include "measure/angular_profile.hpp"
+#include "measure/collision_rates.hpp"
 #include "measure/density_map.hpp"
+#include "measure/diffusion.hpp"
+#include "measure/energy_budget.hpp"
 #include "measure/flow_map.hpp"
 #include "measure/granular_temperature.hpp"
+#include "measure/hexatic_order.hpp"
+#include "measure/local_packing.hpp"
 #include "measure/m_frame.hpp"
 #include "measure/radial_density.hpp"
 #include "measure/slip.hpp"
 #include "measure/spin_frustration.hpp"
+#include "measure/wall_stress.hpp"
 
 namespace swirl {
 namespace {
@@ -28,6 +34,13 @@ constexpr double degrees = 180.0 / pi;
 
 /// Looks by event at every sixteenth event: that changes the error, hardly, and not the mean.
 constexpr int events_per_look = 16;
+
+/// Cells are found at every hundredth look: they cost as much as twenty others, and the structure
+/// changes slowly. 100 and 511 have no common divisor, so every phase of the swirl is met.
+constexpr int looks_per_structure = 100;
+
+/// Displacements within a swirl are taken at every seventh look, 73 times per swirl.
+constexpr int looks_per_position = 7;
 
 /// Columns that grow together.
 class Columns {
@@ -50,7 +63,7 @@ class Columns {
 template <class Observer, Json (*to_json)(const Observer&)>
 class OfTheView : public Kept<OfTheView<Observer, to_json>> {
   public:
-    explicit OfTheView(Observer observer) : observer_(std::move(observer)) {}
+    explicit OfTheView(Observer observer = Observer()) : observer_(std::move(observer)) {}
     void look(const Look& look) override { observer_.look(look.view); }
     void close_block() override { observer_.close_block(); }
     Json result() const override { return to_json(observer_); }
@@ -216,6 +229,177 @@ class OfFrustration : public Kept<OfFrustration> {
     SpinFrustration spins_;
 };
 
+// --- order and packing ----------------------------------------------------------------------
+
+/// HexaticOrder or LocalPacking.
+template <class Observer>
+class OfTheCells : public Kept<OfTheCells<Observer>> {
+  public:
+    void look(const Look& look) override {
+        if (look.cells) observer_.look(*look.structure, *look.cells, look.pinned);
+    }
+    void close_block() override { observer_.close_block(); }
+    Json result() const override {
+        return {{"all", estimate_json(observer_.all())},
+                {"pinned", estimate_json(observer_.pinned())}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(observer_);
+    }
+
+  private:
+    Observer observer_;
+};
+
+// --- collision by collision -----------------------------------------------------------------
+
+/// Without events there is nothing to be known, not even that nothing happened.
+class OfCollisions : public Kept<OfCollisions> {
+  public:
+    explicit OfCollisions(const RunConfig& config) : period_(config.period) {}
+    void after_event(const Snapshot& lab, const Event& event) override {
+        rates_.look(event);
+        discs_ = lab.size();
+    }
+    void close_block() override {
+        if (discs_ > 0) rates_.close_block(period_, discs_);
+    }
+    Json result() const override {
+        return {{"disc_disc_rate", estimate_json(rates_.disc_disc())},
+                {"disc_wall_rate", estimate_json(rates_.disc_wall())},
+                {"mean_free_time", estimate_json(rates_.mean_free_time())}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(rates_);
+        visit(discs_);
+    }
+
+  private:
+    double period_;
+    CollisionRates rates_;
+    std::size_t discs_ = 0;
+};
+
+class OfTheWall : public Kept<OfTheWall> {
+  public:
+    explicit OfTheWall(const RunConfig& config)
+        : period_(config.period), stress_(config.container_radius) {}
+    void after_event(const Snapshot& lab, const Event& event) override {
+        stress_.look(event, lab);
+        seen_ = true;
+    }
+    void close_block() override {
+        if (seen_) stress_.close_block(period_);
+    }
+    Json result() const override {
+        Columns table({"theta", "pressure", "pressure_error", "traction", "traction_error"});
+        for (std::size_t s = 0; s < stress_.slices(); ++s) {
+            const Estimate p = stress_.pressure(s), t = stress_.traction(s);
+            table.add({stress_.theta(s) * degrees, p.mean, p.error, t.mean, t.error});
+        }
+        return {{"pressure", estimate_json(stress_.mean_pressure())},
+                {"traction", estimate_json(stress_.mean_traction())},
+                {"profile", table.json()}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(stress_);
+        visit(seen_);
+    }
+
+  private:
+    double period_;
+    WallStress stress_;
+    bool seen_ = false;
+};
+
+/// Besides the powers, how well the budget closes: the change of the kinetic energy that the
+/// snapshots show between the first event of a swirl and that of the next, against the change that
+/// the collisions account for.
+class OfTheEnergy : public Kept<OfTheEnergy> {
+  public:
+    explicit OfTheEnergy(const RunConfig& config) : period_(config.period) {}
+    void after_event(const Snapshot& lab, const Event& event) override {
+        budget_.look(event, lab);
+        if (compared_) return;
+        compared_ = true;
+        const double difference = kinetic_energy(lab) - budget_.accounted();
+        if (!begun_) beginning_ = difference;
+        begun_ = true;
+        worst_ = std::fmax(worst_, std::fabs(difference - beginning_));
+    }
+    void close_block() override {
+        compared_ = false;
+        if (begun_) budget_.close_block(period_);
+    }
+    Json result() const override {
+        const double turned_over =
+            std::fmax(std::fabs(budget_.total_work()), std::fabs(budget_.total_loss()));
+        return {{"wall_power", estimate_json(budget_.wall_power())},
+                {"disc_friction_power", estimate_json(budget_.disc_friction_power())},
+                {"wall_friction_power", estimate_json(budget_.wall_friction_power())},
+                {"inelastic_power", estimate_json(budget_.inelastic_power())},
+                {"unaccounted_share", begun_ ? worst_ / turned_over : not_known}};
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(budget_);
+        for (bool* flag : {&begun_, &compared_}) visit(*flag);
+        for (double* value : {&beginning_, &worst_}) visit(*value);
+    }
+
+  private:
+    double period_;
+    EnergyBudget budget_;
+    bool begun_ = false, compared_ = false;
+    double beginning_ = 0.0, worst_ = 0.0;
+};
+
+// --- diffusion ------------------------------------------------------------------------------
+
+/// Lags below a swirl, and lags of whole swirls.
+class OfDiffusion : public Kept<OfDiffusion> {
+  public:
+    void look(const Look& look) override {
+        if (looks_++ % looks_per_position == 0) within_.look(look.lab);
+        if (at_beginning_) across_.look(look.lab);
+        at_beginning_ = false;
+    }
+    void close_block() override {
+        within_.close_block();
+        across_.close_block();
+        at_beginning_ = true;
+    }
+    Json result() const override {
+        Columns table({"lag", "displacement", "displacement_error", "turn", "turn_error",
+                       "turn_variance", "turn_variance_error"});
+        for (const Diffusion* d : {&within_, &across_})
+            for (std::size_t k = 0; k < d->lags(); ++k) {
+                const Estimate moved = d->square_displacement(k), turn = d->mean_turn(k),
+                               variance = d->turn_variance(k);
+                if (moved.blocks == 0 || std::isnan(moved.mean)) continue;
+                table.add({d->lag(k), moved.mean, moved.error, turn.mean, turn.error, variance.mean,
+                           variance.error});
+            }
+        return table.json();
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(looks_);
+        visit(at_beginning_);
+        visit(within_);
+        visit(across_);
+    }
+
+  private:
+    std::int64_t looks_ = 0;
+    bool at_beginning_ = true;
+    Diffusion within_{7};  // up to 64 of 73 parts of a swirl
+    Diffusion across_{8};  // up to 128 swirls
+};
+
 /// The frames of the last moments, so that a disc found pinned can be seen where it was then.
 class PinnedWatch {
   public:
@@ -242,12 +426,16 @@ class PinnedWatch {
 };
 
 template <class Observer, Json (*to_json)(const Observer&)>
-std::unique_ptr<Measurement> of_the_dish(const RunConfig& config) {
+std::unique_ptr<Measurement> seen_in_the_dish(const RunConfig& config) {
     return std::make_unique<OfTheView<Observer, to_json>>(Observer(config.container_radius));
 }
-template <class Observer, Json (*to_json)(const Observer&)>
-std::unique_ptr<Measurement> of_the_discs(const RunConfig&) {
-    return std::make_unique<OfTheView<Observer, to_json>>(Observer());
+template <class Kind>
+std::unique_ptr<Measurement> of_the_dish(const RunConfig& config) {
+    return std::make_unique<Kind>(config.container_radius);
+}
+template <class Kind>
+std::unique_ptr<Measurement> of_the_run(const RunConfig& config) {
+    return std::make_unique<Kind>(config);
 }
 template <class Kind>
 std::unique_ptr<Measurement> made(const RunConfig&) {
@@ -277,25 +465,69 @@ bool is_table(const Json& json) {
 
 const std::vector<MeasurementKind>& measurement_kinds() {
     static const std::vector<MeasurementKind> all = {
-        {"density", "density map, 100 × 100, by time and by event (Figs 2, 5c)", false,
-         [](const RunConfig& c) -> std::unique_ptr<Measurement> {
-             return std::make_unique<Density>(c.container_radius);
-         }},
-        {"flow", "velocity relative to the container, 20 × 20 (Figs 2, 5d)", false,
-         of_the_dish<FlowMap, flow_json>},
-        {"profile", "angular velocity about the centre of mass against θ (Fig. 3)", false,
-         of_the_discs<AngularProfile, profile_json>},
-        {"pinned", "where discs become pinned and free, by tracks and by collisions (Fig. 3)", true,
-         made<Pinned>},
-        {"slip", "slip parameter, perimeter, pancake line (Figs 1b, 4a)", true, made<OfSlip>},
-        {"frustration", "spins at the wall and of neighbours, sticking contacts (Fig. 4b)", true,
-         made<OfFrustration>},
-        {"radial", "density against the distance from the container's centre", false,
-         of_the_dish<RadialDensity, radial_json>},
-        {"temperature", "granular temperature, of the motion and of the spins", false,
-         of_the_dish<GranularTemperature, temperature_json>},
+        {.name = "density",
+         .description = "density map, 100 × 100, by time and by event (Figs 2, 5c)",
+         .make = of_the_dish<Density>},
+        {.name = "flow",
+         .description = "velocity relative to the container, 20 × 20 (Figs 2, 5d)",
+         .make = seen_in_the_dish<FlowMap, flow_json>},
+        {.name = "profile",
+         .description = "angular velocity about the centre of mass against θ (Fig. 3)",
+         .make = made<OfTheView<AngularProfile, profile_json>>},
+        {.name = "pinned",
+         .description = "where discs become pinned and free, by tracks and by collisions (Fig. 3)",
+         .make = made<Pinned>,
+         .needs_pinned = true,
+         .needs_tracks = true},
+        {.name = "slip",
+         .description = "slip parameter, perimeter, pancake line (Figs 1b, 4a)",
+         .make = made<OfSlip>,
+         .needs_pinned = true,
+         .needs_tracks = true},
+        {.name = "frustration",
+         .description = "spins at the wall and of neighbours, sticking contacts (Fig. 4b)",
+         .make = made<OfFrustration>,
+         .needs_pinned = true,
+         .needs_tracks = true},
+        {.name = "radial",
+         .description = "density against the distance from the container's centre",
+         .make = seen_in_the_dish<RadialDensity, radial_json>},
+        {.name = "temperature",
+         .description = "granular temperature, of the motion and of the spins",
+         .make = seen_in_the_dish<GranularTemperature, temperature_json>},
+        {.name = "order",
+         .description = "hexatic order ψ6 from Voronoi neighbours, of all discs and of the pinned",
+         .make = made<OfTheCells<HexaticOrder>>,
+         .needs_cells = true},
+        {.name = "packing",
+         .description = "local packing fraction from Voronoi cells, of all discs and of the pinned",
+         .make = made<OfTheCells<LocalPacking>>,
+         .needs_cells = true},
+        {.name = "collisions",
+         .description = "collision rates of a disc, mean free time",
+         .make = of_the_run<OfCollisions>,
+         .needs_events = true},
+        {.name = "wall",
+         .description = "pressure on the wall and traction along it against θ",
+         .make = of_the_run<OfTheWall>,
+         .needs_events = true},
+        {.name = "diffusion",
+         .description = "squared displacement and turn of a disc against the time between",
+         .make = made<OfDiffusion>,
+         .needs_tracks = true},
+        {.name = "energy",
+         .description = "energy budget: work of the wall, losses in friction and collisions",
+         .make = of_the_run<OfTheEnergy>,
+         .needs_events = true},
     };
     return all;
+}
+
+std::string measurement_list_text() {
+    std::string text;
+    for (const MeasurementKind& kind : measurement_kinds())
+        text += fmt::format("  {:<14}{}\n", kind.name, kind.description);
+    return text;
 }
 
 std::vector<std::string> read_measurement_list(std::string_view list) {
@@ -316,16 +548,26 @@ std::vector<std::string> read_measurement_list(std::string_view list) {
 struct RunMeasurements::State {
     std::vector<std::string> names;
     std::vector<std::unique_ptr<Measurement>> measurements;
-    bool needs_pinned = false, counts = false;
+    bool watches_pinned = false, needs_cells = false, counts = false;
+    std::int64_t looks = 0;
     MFrameView view;
     PinnedWatch watch;
+    Voronoi cells;
 
     void look(const Snapshot& lab) {
         if (!counts) return;
         view.look(lab);
-        if (needs_pinned) watch.look(view);
-        const Look look{lab, view, watch.pinned_loose(), watch.earlier()};
+        if (watches_pinned) watch.look(view);
+        Look look{lab, view, watch.pinned_loose(), watch.earlier(), nullptr, nullptr, {}};
+        if (needs_cells && ++looks % looks_per_structure == 0) look_at_the_structure(look);
         for (const auto& m : measurements) m->look(look);
+    }
+    void look_at_the_structure(Look& look) {
+        look.structure = watches_pinned ? look.earlier : &look.view;
+        if (!look.structure) return;
+        cells.find(*look.structure);
+        look.cells = &cells;
+        if (watches_pinned) look.pinned = look.pinned_loose.pinned();
     }
     void after_event(const Snapshot& lab, const Event& event) {
         if (!counts) return;
@@ -340,17 +582,20 @@ struct RunMeasurements::State {
     }
     template <class Archive>
     void fields(Archive& archive) {
-        archive(counts, watch);
+        archive(counts, looks, watch);
     }
 };
 
-RunMeasurements::RunMeasurements(const RunConfig& config, const std::vector<std::string>& names)
+RunMeasurements::RunMeasurements(const RunConfig& config, const std::vector<std::string>& names,
+                                 bool tracks)
     : state_(std::make_unique<State>()) {
     state_->names = names;
     for (const std::string& name : names) {
-        state_->measurements.push_back(kind(name).make(config));
+        const MeasurementKind& of = kind(name);
+        state_->measurements.push_back(of.make(config));
         state_->measurements.back()->share(state_->watch.pinned_loose());
-        state_->needs_pinned = state_->needs_pinned || kind(name).needs_pinned;
+        state_->needs_cells |= of.needs_cells;
+        state_->watches_pinned |= tracks && (of.needs_pinned || of.needs_cells);
     }
 }
 RunMeasurements::~RunMeasurements() = default;

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "lab/run.hpp"
 #include "measure/m_frame.hpp"
 #include "measure/pinned_loose.hpp"
+#include "measure/voronoi.hpp"
 
 namespace swirl {
 
@@ -34,6 +36,11 @@ struct Look {
     const MFrameView& view;
     const PinnedLoose& pinned_loose;
     const MFrameView* earlier;  // seven frames ago; null in the first frames
+    /// At every hundredth look: the frame whose discs have these cells, and which of them are
+    /// pinned. Null, null, and empty at all others.
+    const MFrameView* structure;
+    const Voronoi* cells;
+    std::span<const std::uint8_t> pinned;
 };
 
 /// One measurement while the run goes on. Those that look at a run derive from Kept, below, and say
@@ -70,12 +77,17 @@ class Kept : public Measurement {
 struct MeasurementKind {
     const char* name;
     const char* description;  // one line
-    bool needs_pinned;
     std::unique_ptr<Measurement> (*make)(const RunConfig& config);
+    bool needs_pinned = false;  // has nothing to say if it is not known who is pinned
+    bool needs_tracks = false;  // the same discs in every frame
+    bool needs_cells = false;   // Voronoi's
+    bool needs_events = false;  // collision by collision: frames are not enough
 };
 
 /// In the order of the help text.
 const std::vector<MeasurementKind>& measurement_kinds();
+/// A line for each.
+std::string measurement_list_text();
 
 /// "density,flow" or "all"; throws WrongCall, naming those there are, if one is unknown.
 std::vector<std::string> read_measurement_list(std::string_view list);
@@ -83,8 +95,10 @@ std::vector<std::string> read_measurement_list(std::string_view list);
 /// The measurements of one run. They look after the warm-up, and change nothing.
 class RunMeasurements {
   public:
-    /// The names are those of read_measurement_list().
-    RunMeasurements(const RunConfig& config, const std::vector<std::string>& names);
+    /// The names are those of read_measurement_list(). Without tracks nobody watches which discs
+    /// are pinned.
+    RunMeasurements(const RunConfig& config, const std::vector<std::string>& names,
+                    bool tracks = true);
     ~RunMeasurements();
 
     /// Puts them into the control of the run, beside what is there. They must outlive the run.

@@ -59,6 +59,7 @@ std::string with_commas(std::uint64_t number) {
 std::string with_error(double mean, double error) {
     if (std::isnan(mean)) return "not known";
     if (std::isnan(error) || error <= 0.0) return with_minus(fmt::format("{:.3g}", mean));
+    if (error < 1e-9) return with_minus(fmt::format("{:.2g} ± {:.1g}", mean, error));
     // Two digits of an error that begins with 1, one of any other.
     const double exponent = std::floor(std::log10(error));
     const double leading = error / std::pow(10.0, exponent);

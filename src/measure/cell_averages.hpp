@@ -53,9 +53,10 @@ class CellMeans {
     std::size_t size() const { return sums_.size(); }
     std::size_t blocks() const { return blocks_; }
 
-    void add(std::size_t cell, const std::array<double, Quantities>& values) {
+    /// The values of one visit, or the sums over several.
+    void add(std::size_t cell, const std::array<double, Quantities>& values, double visits = 1.0) {
         Open& o = open_[cell];
-        o.visits += 1.0;
+        o.visits += visits;
         for (std::size_t k = 0; k < Quantities; ++k) o.sum[k] += values[k];
     }
     void close_block() {

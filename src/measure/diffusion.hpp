@@ -9,10 +9,10 @@
 //
 // Units: length², rad (the angle is counted through full turns). Normalisation: every disc and
 // every beginning counts the same. Error from blocks of periods: a displacement belongs to the
-// block in which it ends; those of lags longer than a block overlap, so their errors are too small
-// (take the scatter over runs). Limits: orientation unknown (NaN): no angular displacement (NaN).
-// Looks that do not follow in equal steps of time (to 1 %), or another number of discs, begin anew,
-// and are counted.
+// block in which it ends. Those of a lag of L periods overlap for L blocks, so L blocks count as
+// one independent sample: the error is √L times that of the blocks. Limits: orientation unknown
+// (NaN): no angular displacement (NaN). Looks that do not follow in equal steps of time (to 1 %),
+// or another number of discs, begin anew, and are counted.
 #pragma once
 
 #include <cmath>
@@ -43,6 +43,7 @@ class Diffusion {
         }
         if (looks_ == 1) step_ = step;
         last_time_ = s.time();
+        period_ = s.period;
         if (discs_ == 0) return;
 
         State* const now = at(looks_);
@@ -52,12 +53,17 @@ class Diffusion {
             const std::int64_t lag = std::int64_t{1} << k;
             if (lag > looks_) break;
             const State* const then = at(looks_ - lag);
+            double square = 0.0, turned = 0.0, turned_square = 0.0;
             for (std::size_t i = 0; i < discs_; ++i) {
                 const Vec2 d = now[i].position - then[i].position;
                 const double turn = now[i].angle - then[i].angle;
-                moves_.add(k, {dot(d, d)});
-                turns_.add(k, {turn, turn * turn});
+                square += dot(d, d);
+                turned += turn;
+                turned_square += turn * turn;
             }
+            const double visits = static_cast<double>(discs_);
+            moves_.add(k, {square}, visits);
+            turns_.add(k, {turned, turned_square}, visits);
         }
         ++looks_;
     }
@@ -69,12 +75,12 @@ class Diffusion {
     std::size_t lags() const { return moves_.size(); }
     /// In units of the snapshots' time.
     double lag(std::size_t k) const { return step_ * static_cast<double>(std::int64_t{1} << k); }
-    Estimate square_displacement(std::size_t k) const { return moves_.estimate(k); }
+    Estimate square_displacement(std::size_t k) const { return apart(moves_.estimate(k), k); }
     /// ⟨Δα⟩.
-    Estimate mean_turn(std::size_t k) const { return turns_.estimate(k, 0); }
+    Estimate mean_turn(std::size_t k) const { return apart(turns_.estimate(k, 0), k); }
     /// ⟨Δα²⟩ − ⟨Δα⟩²; the error is that of ⟨Δα²⟩.
     Estimate turn_variance(std::size_t k) const {
-        Estimate e = turns_.estimate(k, 1);
+        Estimate e = apart(turns_.estimate(k, 1), k);
         e.mean -= turns_.mean(k, 0) * turns_.mean(k, 0);
         return e;
     }
@@ -83,6 +89,7 @@ class Diffusion {
     /// The other must have as many lags and the same time step.
     void merge(const Diffusion& other) {
         if (step_ == 0.0) step_ = other.step_;
+        if (period_ == 0.0) period_ = other.period_;
         moves_.merge(other.moves_);
         turns_.merge(other.turns_);
         breaks_ += other.breaks_;
@@ -94,6 +101,7 @@ class Diffusion {
         visit(looks_);
         visit(last_time_);
         visit(step_);
+        visit(period_);
         visit(breaks_);
         moves_.fields(visit);
         turns_.fields(visit);
@@ -109,11 +117,19 @@ class Diffusion {
         return past_.data() + static_cast<std::size_t>(look) % window_ * discs_;
     }
 
+    /// As many blocks as the lag is long count as one.
+    Estimate apart(Estimate e, std::size_t k) const {
+        const double blocks = std::fmax(1.0, lag(k) / period_);
+        e.error *= square_root(blocks);
+        e.effective_samples /= blocks;
+        return e;
+    }
+
     std::size_t window_;  // looks that are kept
     std::vector<State> past_;
     std::size_t discs_ = 0;
     std::int64_t looks_ = 0;
-    double last_time_ = 0.0, step_ = 0.0, breaks_ = 0.0;
+    double last_time_ = 0.0, step_ = 0.0, period_ = 0.0, breaks_ = 0.0;
     CellMeans<1> moves_;
     CellMeans<2> turns_;
 };

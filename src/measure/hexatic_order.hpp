@@ -15,8 +15,8 @@
 #include <cstdint>
 #include <span>
 
+#include "measure/all_and_pinned.hpp"
 #include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
 #include "measure/voronoi.hpp"
 
 namespace swirl {
@@ -37,36 +37,12 @@ inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::s
     return total > 0.0 ? square_root(re * re + im * im) / total : not_known;
 }
 
-class HexaticOrder {
+class HexaticOrder : public AllAndPinned {
   public:
     void look(const MFrameView& view, const Voronoi& cells,
               std::span<const std::uint8_t> pinned = {}) {
-        for (std::size_t i = 0; i < view.size(); ++i) {
-            const double psi = hexatic_order(view, cells, i);
-            if (!(psi == psi)) continue;
-            all_.add(psi);
-            if (i < pinned.size() && pinned[i] != 0) pinned_.add(psi);
-        }
+        for (std::size_t i = 0; i < view.size(); ++i) add(hexatic_order(view, cells, i), i, pinned);
     }
-    void close_block() {
-        all_.close_block();
-        pinned_.close_block();
-    }
-    Estimate all() const { return all_.estimate(); }
-    Estimate pinned() const { return pinned_.estimate(); }
-
-    void merge(const HexaticOrder& other) {
-        all_.merge(other.all_);
-        pinned_.merge(other.pinned_);
-    }
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        all_.fields(visit);
-        pinned_.fields(visit);
-    }
-
-  private:
-    BlockMean all_, pinned_;
 };
 
 }  // namespace swirl

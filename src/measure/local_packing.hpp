@@ -13,42 +13,21 @@
 #include <cstdint>
 #include <span>
 
+#include "measure/all_and_pinned.hpp"
 #include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
 #include "measure/voronoi.hpp"
 
 namespace swirl {
 
-class LocalPacking {
+class LocalPacking : public AllAndPinned {
   public:
     void look(const MFrameView& view, const Voronoi& cells,
               std::span<const std::uint8_t> pinned = {}) {
         for (std::size_t i = 0; i < view.size(); ++i) {
-            if (!(cells.area(i) > 0.0)) continue;
-            const double fraction = pi * view.radius[i] * view.radius[i] / cells.area(i);
-            all_.add(fraction);
-            if (i < pinned.size() && pinned[i] != 0) pinned_.add(fraction);
+            const double area = cells.area(i);
+            add(area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known, i, pinned);
         }
     }
-    void close_block() {
-        all_.close_block();
-        pinned_.close_block();
-    }
-    Estimate all() const { return all_.estimate(); }
-    Estimate pinned() const { return pinned_.estimate(); }
-
-    void merge(const LocalPacking& other) {
-        all_.merge(other.all_);
-        pinned_.merge(other.pinned_);
-    }
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        all_.fields(visit);
-        pinned_.fields(visit);
-    }
-
-  private:
-    BlockMean all_, pinned_;
 };
 
 }  // namespace swirl

@@ -15,6 +15,7 @@
 
 #include "measure/cell_averages.hpp"
 #include "measure/m_frame.hpp"
+#include "measure/statistics.hpp"
 #include "physics/event.hpp"
 
 namespace swirl {
@@ -33,6 +34,8 @@ class WallStress {
         normal_.add(slice, event.impulse.normal);
         // The law's tangent (n_y, −n_x) points clockwise.
         along_.add(slice, -event.impulse.tangential);
+        open_normal_ += event.impulse.normal;
+        open_along_ -= event.impulse.tangential;
     }
     /// `duration`: the time the events since the last call took.
     void close_block(double duration) {
@@ -40,6 +43,9 @@ class WallStress {
         along_.add_weight(duration);
         normal_.close_block();
         along_.close_block();
+        all_normal_.add(open_normal_, duration);
+        all_along_.add(open_along_, duration);
+        open_normal_ = open_along_ = 0.0;
     }
 
     std::size_t slices() const { return normal_.size(); }
@@ -53,31 +59,35 @@ class WallStress {
         return scaled(along_.estimate(slice), per_length());
     }
     /// Averaged along the whole wall.
-    double mean_pressure() const { return mean(normal_); }
-    double mean_traction() const { return mean(along_); }
+    Estimate mean_pressure() const { return scaled(all_normal_.estimate(), per_circumference()); }
+    Estimate mean_traction() const { return scaled(all_along_.estimate(), per_circumference()); }
 
     void merge(const WallStress& other) {
         normal_.merge(other.normal_);
         along_.merge(other.along_);
+        all_normal_.merge(other.all_normal_);
+        all_along_.merge(other.all_along_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
         normal_.fields(visit);
         along_.fields(visit);
+        visit(open_normal_);
+        visit(open_along_);
+        all_normal_.fields(visit);
+        all_along_.fields(visit);
     }
 
   private:
     double per_length() const {
         return static_cast<double>(slices()) / (2.0 * pi * container_radius_);
     }
-    double mean(const CellRates& rates) const {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < rates.size(); ++k) sum += rates.mean(k);
-        return sum / (2.0 * pi * container_radius_);
-    }
+    double per_circumference() const { return 1.0 / (2.0 * pi * container_radius_); }
 
     double container_radius_;
     CellRates normal_, along_;
+    double open_normal_ = 0.0, open_along_ = 0.0;
+    BlockSeries all_normal_, all_along_;
 };
 
 }  // namespace swirl

@@ -62,6 +62,34 @@ TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
     }
 }
 
+TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
+    // The scatter over many walks against the error that each states, for a lag of four periods
+    // (one look each): √L is an upper bound for what overlapping does (√(2L/3) for a free walk).
+    double stated = 0.0, sum = 0.0, squares = 0.0;
+    constexpr int walks = 200;
+    for (int walk = 0; walk < walks; ++walk) {
+        Diffusion diffusion(3);
+        Noise noise(static_cast<std::uint64_t>(100 + walk));
+        Vec2 p{};
+        for (int k = 0; k < 200; ++k) {
+            Snapshot s = empty_dish();
+            s.swirls = k;
+            p = p + Vec2{noise(), noise()};
+            add_disc(s, s.container_centre + p, {0.0, 0.0});
+            diffusion.look(s);
+            diffusion.close_block();
+        }
+        const Estimate e = diffusion.square_displacement(2);
+        stated += e.error / walks;
+        sum += e.mean / walks;
+        squares += e.mean * e.mean / walks;
+    }
+    const double scatter = std::sqrt(squares - sum * sum);
+    // A fifth on either side: 200 walks know their scatter to 5 %, and the bound is 22 % above.
+    EXPECT_GT(stated, 0.95 * scatter);
+    EXPECT_LT(stated, 1.5 * scatter);
+}
+
 TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
     Diffusion diffusion(3);
     for (int k = 0; k < 20; ++k) {
