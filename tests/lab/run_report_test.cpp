@@ -16,6 +16,7 @@ TEST(WithError, HasAsManyDigitsAsTheErrorSupports) {
     EXPECT_EQ(with_error(37.84, 0.21), "37.8 ± 0.2");
     EXPECT_EQ(with_error(37.84, 21.0), "38 ± 21");
     EXPECT_EQ(with_error(0.5, 0.0099), "0.500 ± 0.010");
+    EXPECT_EQ(with_error(-2.34e-17, 4.1e-18), "−2.3e-17 ± 4e-18");
 }
 
 TEST(WithError, SaysWhatIsNotKnown) {
