@@ -68,4 +68,17 @@ class Canvas {
     cairo_t* cairo_;
 };
 
+/// While it lives, line styles, fonts and the like may change; then they are as before. So what is
+/// drawn never depends on what was drawn earlier, or by which of several canvases.
+class StyleScope {
+  public:
+    explicit StyleScope(const Canvas& canvas) : cairo_(canvas.cairo()) { cairo_save(cairo_); }
+    ~StyleScope() { cairo_restore(cairo_); }
+    StyleScope(const StyleScope&) = delete;
+    StyleScope& operator=(const StyleScope&) = delete;
+
+  private:
+    cairo_t* cairo_;
+};
+
 }  // namespace swirl

@@ -407,6 +407,8 @@ void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style
 
 void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
+    const StyleScope scope(canvas);
+    cairo_set_line_join(canvas.cairo(), CAIRO_LINE_JOIN_ROUND);
     draw_dish(canvas, view, style, content.now);
     draw_slice(canvas, view, style, content.now);
     draw_ghosts(canvas, view, style, content);

@@ -245,6 +245,7 @@ void Sheet::draw_legend(const Canvas& canvas) const {
 }
 
 void Sheet::draw_still(const Canvas& canvas) const {
+    const StyleScope scope(canvas);
     canvas.fill_page(spec_.style.theme.page);
     for (const Text& text : texts_) draw_label(canvas, text.text, text.place, text.style);
     draw_legend(canvas);
@@ -269,6 +270,7 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
 
 void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
                         std::span<const Curve> curves, double swirls) const {
+    const StyleScope scope(canvas);
     for (std::size_t k = 0; k < contents.size() && k < views_.size(); ++k)
         draw_panel(canvas, k, contents[k]);
     if (plot_area_)

@@ -332,6 +332,35 @@ TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
     }
 }
 
+TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
+    // Painters share out the frames of a movie as they come free, so a frame may be the first of
+    // its canvas or the hundredth, and must be the same to the byte.
+    Snapshot s = dish(0.3), before = dish(0.25);
+    add_disc(s, {1.0, 2.0}, 0.4);
+    add_disc(before, {0.5, 2.0}, 0.2);
+    const Snapshot* past[] = {&before};
+    const std::vector<Vec2> path{{1.892, 0.0}, {0.0, 1.892}, {-1.892, 0.0}, {0.0, -1.892}};
+    SheetSpec spec;
+    spec.size = {400, 300};
+    spec.style.forces = true;
+    spec.title = "A title";
+    spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892, true}, {Frame::m, "M-frame", 8.6, 1.892}};
+    spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+    const Sheet sheet(spec);
+    const std::vector<SceneContent> contents{{.now = s, .path = path, .past = past, .turned = 0.3},
+                                             {.now = s, .path = path}};
+    const auto draw = [&](Canvas& canvas) {
+        sheet.draw_still(canvas);
+        sheet.draw_moving(canvas, contents, {}, 0.3);
+    };
+    Canvas fresh(spec.size), used(spec.size);
+    draw(fresh);
+    draw(used);
+    draw(used);
+    const auto a = fresh.pixels(), b = used.pixels();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
+}
+
 TEST(Sheet, DishesSideBySideHaveOneScaleAndDoNotOverlap) {
     SheetSpec spec;
     spec.panels = {{Frame::lab, "", 8.6, 1.892}, {Frame::m, "", 8.6, 1.892}};
