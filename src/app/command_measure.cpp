@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
 #include "app/stop_signal.hpp"
-#include "files/tracks.hpp"
+#include "app/track_options.hpp"
 #include "files/trajectory.hpp"
 #include "lab/failure.hpp"
 #include "lab/measurements.hpp"
@@ -25,10 +24,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeasureCall {
-    std::string file, list, tables, json;
-    // How a camera's tracks translate; texts, so that what was not given is known.
-    std::string fps, scale, omega, centre, amplitude, phase, container_radius, skip;
-    bool clockwise = false, quiet = false;
+    std::string file, list, tables, json, skip;
+    TrackTexts camera;
+    bool quiet = false;
 };
 
 double number(const char* name, const std::string& text, double otherwise, double from) {
@@ -40,50 +38,10 @@ double number(const char* name, const std::string& text, double otherwise, doubl
     return *value;
 }
 
-std::string first_bytes(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
-    std::string bytes(8, '\0');
-    stream.read(bytes.data(), 8);
-    return bytes;
-}
-
-TrackScale scale_of(const MeasureCall& call) {
-    constexpr double any = -std::numeric_limits<double>::infinity();
-    for (const auto& [name, text] :
-         {std::pair("omega", &call.omega), std::pair("container-radius", &call.container_radius)})
-        if (text->empty())
-            throw WrongCall(fmt::format(
-                "'{}' does not say how the container moved; --{} is needed (and --fps, --scale, "
-                "--centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
-                call.file, name));
-    TrackScale scale;
-    scale.frames_per_time = number("fps", call.fps, 1.0, 1e-12);
-    scale.pixels_per_radius = number("scale", call.scale, 1.0, 1e-12);
-    scale.period = 2.0 * pi / number("omega", call.omega, 1.0, 1e-12);
-    scale.amplitude = number("amplitude", call.amplitude, 0.0, 0.0);
-    scale.phase = number("phase", call.phase, 0.0, any) * pi / 180.0;
-    scale.container_radius = number("container-radius", call.container_radius, 1.0, 1e-12);
-    scale.clockwise = call.clockwise;
-    if (call.centre.empty()) return scale;
-    const std::size_t comma = call.centre.find(',');
-    const auto x = read_number(call.centre.substr(0, comma));
-    const auto y =
-        comma == std::string::npos ? std::nullopt : read_number(call.centre.substr(comma + 1));
-    if (!x || !y)
-        throw WrongCall(fmt::format(
-            "--centre is '{}', but it must be X,Y in pixels, for example 512,384.", call.centre));
-    scale.swirl_centre = {*x, *y};
-    return scale;
-}
-
 SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
-    const std::string begin = first_bytes(call.file);
-    if (begin.starts_with("\x89HDF"))
-        return series_of(std::make_shared<TrajectoryReader>(call.file));
-    const TrackScale scale = scale_of(call);
-    Tracks tracks =
-        begin.starts_with("ITEM:") ? read_lammps_dump(call.file) : read_trackpy_csv(call.file);
+    if (is_trajectory(call.file)) return series_of(std::make_shared<TrajectoryReader>(call.file));
+    const TrackScale scale = track_scale(call.camera, "fps", call.file);
+    Tracks tracks = read_tracks(call.file);
     if (tracks.filled > 0)
         remark =
             fmt::format("{} positions missing for up to five frames were put back.", tracks.filled);
@@ -219,16 +177,10 @@ void add_measure_command(CLI::App& subcommand) {
     text("--skip", call->skip, "PERIODS", "swirls at the start that do not count [0]", "Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group("Output");
     const char* const camera = "Of tracks that are not ours";
-    text("--fps", call->fps, "NUMBER", "frames per unit of time (LAMMPS: steps) [1]", camera);
-    text("--scale", call->scale, "NUMBER", "pixels per disc radius [1]", camera);
-    text("--omega", call->omega, "NUMBER",
-         "angular velocity of the swirl, in radians per unit of time", camera);
-    text("--centre", call->centre, "X,Y", "the swirl centre, in pixels [0,0]", camera);
-    text("--amplitude", call->amplitude, "NUMBER", "of the swirl, in disc radii [0]", camera);
-    text("--phase", call->phase, "DEGREES", "of the container at frame 0, from +x [0]", camera);
-    text("--container-radius", call->container_radius, "NUMBER", "in disc radii", camera);
-    subcommand.add_flag("--clockwise", call->clockwise, "the swirl ran clockwise in the picture")
-        ->group(camera);
+    add_track_options(subcommand, call->camera, "fps", camera);
+    text("--amplitude", call->camera.amplitude, "NUMBER", "of the swirl, in disc radii [0]",
+         camera);
+    text("--container-radius", call->camera.container_radius, "NUMBER", "in disc radii", camera);
     set_examples(subcommand,
                  {"swirl measure frames.h5 --measure density,flow --tables maps",
                   "swirl measure tracks.csv --fps 960 --scale 24 --omega 11.81 --centre 512,384 "

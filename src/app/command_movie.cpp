@@ -23,7 +23,7 @@ struct MovieCall {
     std::string out, frames_folder;
     std::optional<double> seconds, swirls, start;
     std::optional<int> frames_per_second;
-    double pace = 0.5;
+    std::optional<double> pace;
     bool quiet = false;
 };
 
@@ -34,18 +34,20 @@ MovieConfig movie_config(const MovieCall& call) {
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
     config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
     config.footage = footage(*call.footage);
-    config.pace = call.pace;
     config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
     const Footage& first = config.footage.front();
+    // Over a camera's pictures: one after the other, none twice.
+    config.pace = call.pace.value_or(
+        first.open_backdrop ? config.frames_per_second / first.frames_per_swirl : 0.5);
     config.start =
         call.start.value_or(first.from.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.swirls)
         throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
-    if (call.swirls) seconds = *call.swirls / call.pace;
+    if (call.swirls) seconds = *call.swirls / config.pace;
     // A recording is shown to its end, both ends included.
     if (first.to && !call.seconds && !call.swirls)
-        seconds = std::floor((*first.to - config.start) / call.pace * config.frames_per_second +
+        seconds = std::floor((*first.to - config.start) / config.pace * config.frames_per_second +
                              1e-9 + 1.0) /
                   config.frames_per_second;
     if (config.frames_per_second < 1)
@@ -84,6 +86,7 @@ void make_and_report(const MovieCall& call) {
                         where, result.frames, double(result.frames) / config.frames_per_second,
                         config.frames_per_second, config.pace, short_duration(seconds()),
                         result.frames / seconds()));
+    if (!call.quiet) print_all(remark_on(config.footage));
     if (!result.complete)
         throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
                                       result.frames, config.frames, where));
@@ -107,8 +110,10 @@ void add_movie_command(CLI::App& subcommand) {
         ->type_name("NUMBER")
         ->group(group);
     subcommand
-        .add_option("--pace", call->pace,
-                    "swirls per second of playing; the paper's table makes 1.88 [0.5]")
+        .add_option(
+            "--pace", call->pace,
+            "swirls per second of playing; the paper's table makes 1.88 [0.5; with --over one of "
+            "the camera's frames after the other]")
         ->type_name("NUMBER")
         ->group(group);
     subcommand.add_option("--fps", call->frames_per_second, "frames per second [60; .gif 25]")
@@ -124,7 +129,10 @@ void add_movie_command(CLI::App& subcommand) {
                  {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
                   "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
                   "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif",
-                  "swirl movie run.h5 --color id --out run.mp4"});
+                  "swirl movie run.h5 --color id --out run.mp4",
+                  "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
+                  "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
+                  "dish.mp4"});
     subcommand.callback([call] { make_and_report(*call); });
 }
 

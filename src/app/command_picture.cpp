@@ -36,7 +36,8 @@ void draw_and_report(const PictureCall& call) {
     make_picture(config);
     if (!call.quiet)
         print_all(fmt::format("{}: swirl {:g}, {}x{} pixels.\n", call.out, config.at,
-                              config.appearance.size.width, config.appearance.size.height));
+                              config.appearance.size.width, config.appearance.size.height) +
+                  remark_on(config.footage));
 }
 
 void add_picture_command(CLI::App& subcommand) {

@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "app/run_options.hpp"
+#include "draw/film.hpp"
+#include "draw/label.hpp"
 #include "lab/failure.hpp"
 
 namespace swirl {
@@ -23,12 +28,58 @@ RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
     return ball;
 }
 
+constexpr const char* camera_fps = "camera-fps";
+
+/// A run, or a recording of ours, is in no need of translation.
+void refuse_camera(const FootageTexts& texts) {
+    const TrackTexts& camera = texts.camera;
+    for (const auto& [name, given] :
+         {std::pair(camera_fps, !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
+          std::pair("omega", !camera.omega.empty()), std::pair("centre", !camera.centre.empty()),
+          std::pair("phase", !camera.phase.empty()), std::pair("clockwise", camera.clockwise),
+          std::pair("over", !texts.pictures.empty()),
+          std::pair("over-first", texts.first_picture != 0)})
+        if (given)
+            throw WrongCall(fmt::format(
+                "--{} belongs to a camera's tracks, but {}.", name,
+                texts.file.empty() ? "no FILE is given" : texts.file + " is a trajectory of ours"));
+}
+
+/// The container of a camera's tracks has the options of a run's; all others belong to runs alone.
+Footage tracked_in(const FootageTexts& texts) {
+    TrackTexts camera = texts.camera;
+    ParameterTexts given = *texts.parameters;
+    const auto take = [&](const char* name) {
+        const auto found = given.find(name);
+        if (found == given.end()) return std::string();
+        std::string text = found->second;
+        given.erase(found);
+        return text;
+    };
+    camera.amplitude = take("amplitude");
+    camera.container_radius = take("container-radius");
+    if (!given.empty())
+        throw WrongCall(fmt::format(
+            "{} holds recorded tracks: --{} cannot change them, and only --amplitude and "
+            "--container-radius say something of their container.",
+            texts.file, given.begin()->first));
+    if (const auto wrong = film_problem(texts.pictures)) throw WrongCall(*wrong);
+    const TrackScale scale = track_scale(camera, camera_fps, texts.file);
+    return tracked(read_tracks(texts.file), scale,
+                   escaped(std::filesystem::path(texts.file).filename().string()), texts.pictures,
+                   texts.first_picture);
+}
+
 }  // namespace
 
 std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
     auto texts = std::make_shared<FootageTexts>();
     const auto group = "What is shown";
-    subcommand.add_option("FILE", texts->file, "a recorded trajectory (.h5) instead of a new run")
+    subcommand
+        .add_option(
+            "FILE", texts->file,
+            "instead of a new run: a recorded trajectory (.h5), a camera's tracks (table of "
+            "trackpy, CSV), or a LAMMPS text dump")
         ->group(group);
     subcommand
         .add_option("--beside", texts->beside,
@@ -44,11 +95,30 @@ std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
     subcommand.add_option("--ball-radius", texts->ball_radius, "of that ball [4.3]")
         ->type_name("NUMBER")
         ->group(group);
+    const auto camera = "Of tracks that are not ours (and --amplitude, --container-radius)";
+    add_track_options(subcommand, texts->camera, camera_fps, camera);
+    subcommand
+        .add_option(
+            "--over", texts->pictures,
+            "draw over what the camera saw: files with a number, such as 'frames/%05d.png', "
+            "or a film")
+        ->type_name("NAME")
+        ->group(camera);
+    subcommand
+        .add_option("--over-first", texts->first_picture,
+                    "the number of frame 0 among these files [0]")
+        ->type_name("NUMBER")
+        ->group(camera);
     texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
     return texts;
 }
 
 std::vector<Footage> footage(const FootageTexts& texts) {
+    const bool of_a_camera = !texts.file.empty() && !is_trajectory(texts.file);
+    if (!of_a_camera) refuse_camera(texts);
+    if (of_a_camera && (texts.beside || texts.slip))
+        throw WrongCall("A recording stands alone: --beside and --rolling-ball need a run.");
+    if (of_a_camera) return {tracked_in(texts)};
     if (!texts.file.empty()) {
         if (!texts.parameters->empty())
             throw WrongCall(
@@ -71,6 +141,13 @@ std::vector<Footage> footage(const FootageTexts& texts) {
         dishes.insert(dishes.begin(), simulated(other));
     }
     return dishes;
+}
+
+std::string remark_on(const std::vector<Footage>& footage) {
+    for (const Footage& dish : footage)
+        if (!dish.knows_orientation)
+            return "The recording tells no orientation of the discs, so they have no hands.\n";
+    return "";
 }
 
 }  // namespace swirl

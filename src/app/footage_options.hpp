@@ -1,5 +1,5 @@
 // The options that say what is drawn or filmed: a recording, a run, a second dish beside it, or the
-// minimal model.
+// minimal model, or a camera's tracks.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/track_options.hpp"
 #include "lab/footage.hpp"
 #include "lab/run_parameters.hpp"
 
@@ -17,6 +18,9 @@ namespace swirl {
 struct FootageTexts {
     std::shared_ptr<ParameterTexts> parameters;
     std::string file;
+    TrackTexts camera;
+    std::string pictures;  // of the camera
+    std::int64_t first_picture = 0;
     std::optional<std::int64_t> beside;
     std::optional<double> slip;
     double ball_radius = 0.5 * paper_container_radius;
@@ -26,5 +30,8 @@ std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand);
 
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<Footage> footage(const FootageTexts& texts);
+
+/// What is missing in what was shown, as a line for the report; empty if nothing is.
+std::string remark_on(const std::vector<Footage>& footage);
 
 }  // namespace swirl

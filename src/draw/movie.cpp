@@ -1,20 +1,14 @@
 #include "draw/movie.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <vector>
-
-extern char** environ;
 
 namespace swirl {
 
@@ -40,21 +34,13 @@ const char* name_of(MovieFormat format) {
 std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second,
                                    const std::string& out) {
     const std::string dimensions = std::to_string(size.width) + "x" + std::to_string(size.height);
-    std::vector<std::string> args{"ffmpeg",
-                                  "-hide_banner",
-                                  "-nostats",
-                                  "-loglevel",
-                                  "error",
-                                  "-xerror",
-                                  "-y",
-                                  "-f",
-                                  "rawvideo",
-                                  "-pix_fmt",
-                                  format == MovieFormat::gif ? "bgr0" : "yuv420p",
-                                  "-s",
-                                  dimensions,
-                                  "-framerate",
-                                  std::to_string(frames_per_second)};
+    std::vector<std::string> args{"-hide_banner", "-nostats",
+                                  "-loglevel",    "error",
+                                  "-xerror",      "-y",
+                                  "-f",           "rawvideo",
+                                  "-pix_fmt",     format == MovieFormat::gif ? "bgr0" : "yuv420p",
+                                  "-s",           dimensions,
+                                  "-framerate",   std::to_string(frames_per_second)};
     const auto add = [&](std::initializer_list<const char*> more) {
         args.insert(args.end(), more.begin(), more.end());
     };
@@ -125,117 +111,49 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
         throw DrawFailure("The movie " + path_ + " could not be written: " + std::strerror(errno) +
                           ".");
     ::close(probe);
-
-    // A socket and not a pipe: writing to a dead reader then gives an error instead of a signal.
-    std::array<int, 2> ends{};
-    complaints_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
-    if (complaints_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        const std::string reason = std::strerror(errno);
-        if (complaints_ >= 0) ::close(complaints_);
-        ::unlink(aside_.c_str());
-        throw DrawFailure("ffmpeg could not be started: " + reason + ".");
-    }
-    input_ = ends[0];
-    const int roomy = 1 << 20;
-    ::setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &roomy, sizeof roomy);
-
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, complaints_, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(
-        &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    std::vector<std::string> args = arguments(format, size, frames_per_second, aside_);
-    std::vector<char*> pointers;
-    for (std::string& arg : args) pointers.push_back(arg.data());
-    pointers.push_back(nullptr);
-    const int error =
-        ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    ::close(ends[1]);
-    if (error == 0) return;
-    process_ = -1;
-    ::close(input_);
-    ::close(complaints_);
-    ::unlink(aside_.c_str());
-    if (error == ENOENT)
-        throw DrawFailure(
+    try {
+        ffmpeg_ = std::make_unique<Ffmpeg>(
+            arguments(format, size, frames_per_second, aside_), Ffmpeg::Side::input,
             "Movies are made by the program ffmpeg, which was not found: install it "
             "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.");
-    throw DrawFailure(std::string("ffmpeg could not be started: ") + std::strerror(error) + ".");
+    } catch (const DrawFailure&) {
+        ::unlink(aside_.c_str());
+        throw;
+    }
 }
 
 MovieWriter::~MovieWriter() {
-    if (process_ > 0) {
-        ::kill(process_, SIGKILL);
-        end_process();
-        ::unlink(aside_.c_str());
-    }
-    if (complaints_ >= 0) ::close(complaints_);
-}
-
-/// Closes its input, waits for its end, and gives its status.
-int MovieWriter::end_process() {
-    if (input_ >= 0) ::close(input_);
-    input_ = -1;
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    process_ = -1;
-    return status;
-}
-
-std::string MovieWriter::last_words() const {
-    std::array<char, 4096> text{};
-    const off_t size = ::lseek(complaints_, 0, SEEK_END);
-    const off_t from =
-        size > static_cast<off_t>(text.size()) ? size - static_cast<off_t>(text.size()) : 0;
-    const ssize_t count = ::pread(complaints_, text.data(), text.size(), from);
-    std::string words(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-    while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();
-    const std::size_t line = words.rfind('\n');
-    return line == std::string::npos ? words : words.substr(line + 1);
+    ffmpeg_.reset();
+    if (!finished_) ::unlink(aside_.c_str());
 }
 
 void MovieWriter::fail(int status) {
     ::unlink(aside_.c_str());
-    const std::string how = WIFSIGNALED(status)
-                                ? "was killed by signal " + std::to_string(WTERMSIG(status))
-                                : "ended with code " + std::to_string(WEXITSTATUS(status));
-    const std::string words = last_words();
-    throw DrawFailure("The movie " + path_ + " could not be made: ffmpeg " + how +
-                      (words.empty() ? "." : " and said: " + words));
+    finished_ = true;
+    throw DrawFailure("The movie " + path_ + " could not be made: ffmpeg " +
+                      ffmpeg_->how_it_ended(status));
 }
 
 void MovieWriter::write(std::span<const std::uint8_t> frame) {
     while (!frame.empty()) {
-        const ssize_t sent = ::send(input_, frame.data(), frame.size(), MSG_NOSIGNAL);
+        const ssize_t sent = ::send(ffmpeg_->socket(), frame.data(), frame.size(), MSG_NOSIGNAL);
         if (sent > 0) {
             frame = frame.subspan(static_cast<std::size_t>(sent));
         } else if (sent < 0 && errno != EINTR) {
-            fail(end_process());
+            fail(ffmpeg_->end());
         }
     }
 }
 
 void MovieWriter::finish() {
     // Shutting down, not closing: what is still under way arrives, then comes the end.
-    ::shutdown(input_, SHUT_WR);
-    const int status = end_process();
+    ::shutdown(ffmpeg_->socket(), SHUT_WR);
+    const int status = ffmpeg_->end();
     const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     // ffmpeg has been seen to end with code 0 after it could not write everything.
-    const bool complained = last_words().find("No space left") != std::string::npos;
+    const bool complained = ffmpeg_->last_words().find("No space left") != std::string::npos;
     if (!well || complained) fail(status);
+    finished_ = true;
     if (std::rename(aside_.c_str(), path_.c_str()) == 0) return;
     const std::string reason = std::strerror(errno);
     ::unlink(aside_.c_str());

@@ -4,17 +4,18 @@
 //     .webm   VP9
 //     .gif    a palette made for the whole movie, without dithering, so that flat colours stay flat
 //
-// ffmpeg gets its own process group: Ctrl-C reaches us alone, and we close the movie properly. It
-// works with a fixed number of threads and writes no dates, so the same frames give the same bytes
-// on one machine. The file is written aside and appears under its name when it is complete.
+// ffmpeg works with a fixed number of threads and writes no dates, so the same frames give the same
+// bytes on one machine. The file is written aside and appears under its name when it is complete.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "draw/canvas.hpp"
+#include "draw/ffmpeg.hpp"
 
 namespace swirl {
 
@@ -43,13 +44,10 @@ class MovieWriter {
 
   private:
     [[noreturn]] void fail(int status);
-    int end_process();
-    std::string last_words() const;
 
     std::string path_, aside_;
-    int input_ = -1;       // our end of ffmpeg's standard input
-    int complaints_ = -1;  // an unnamed file that takes its standard error
-    int process_ = -1;
+    std::unique_ptr<Ffmpeg> ffmpeg_;
+    bool finished_ = false;  // the file aside is gone
 };
 
 }  // namespace swirl

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "draw/label.hpp"
@@ -12,10 +13,16 @@ namespace swirl {
 namespace {
 
 constexpr double full_turn = 2.0 * pi;
+constexpr Vec2 nowhere{std::numeric_limits<double>::quiet_NaN(),
+                       std::numeric_limits<double>::quiet_NaN()};
 
 /// Below this radius, in pixels, outlines and marks would only be noise.
 constexpr double smallest_marked_radius = 3.5;
 constexpr double smallest_outlined_radius = 2.5;
+
+std::size_t name_of(const SceneContent& content, std::size_t i) {
+    return content.ids.size() == content.now.size() ? static_cast<std::size_t>(content.ids[i]) : i;
+}
 
 Color disc_color(const SceneStyle& style, const SceneContent& content, const FrameAt& at,
                  std::size_t i) {
@@ -34,7 +41,7 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, const Fra
             return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
         }
         case Coloring::id:
-            return distinct_colors[i % distinct_colors.size()];
+            return distinct_colors[name_of(content, i) % distinct_colors.size()];
         case Coloring::none:
             break;
     }
@@ -80,6 +87,38 @@ void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Co
     cairo_stroke(cairo);
 }
 
+/// A ring and a hand, to be seen on any picture.
+void outline_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
+                  double orientation) {
+    cairo_t* cairo = canvas.cairo();
+    const double width = std::max(1.2, 0.11 * radius);
+    for (const bool shade : {true, false}) {
+        circle(cairo, centre, radius);
+        if (radius >= smallest_marked_radius && !std::isnan(orientation)) {
+            cairo_move_to(cairo, centre.x, centre.y);
+            cairo_line_to(cairo, centre.x + 0.74 * radius * std::cos(orientation),
+                          centre.y - 0.74 * radius * std::sin(orientation));
+        }
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_width(cairo, shade ? 1.9 * width : width);
+        canvas.set(shade ? color_from_hex(0x000000) : color, shade ? 0.4 : 1.0);
+        cairo_stroke(cairo);
+    }
+}
+
+/// The wall over a picture: a thin line.
+void outline_dish(const Canvas& canvas, const View& view, const Snapshot& now) {
+    cairo_t* cairo = canvas.cairo();
+    const Vec2 c = view.on_page(FrameAt(now, view.frame).position(now.container_centre));
+    const double radius = view.pixels_per_unit * now.container_radius;
+    for (const bool shade : {true, false}) {
+        circle(cairo, c, radius);
+        cairo_set_line_width(cairo, std::max(1.0, 0.006 * radius) * (shade ? 3.0 : 1.0));
+        canvas.set(color_from_hex(shade ? 0x000000 : 0xFFFFFF), shade ? 0.35 : 0.9);
+        cairo_stroke(cairo);
+    }
+}
+
 double line_unit(const View& view, const Snapshot& now) {
     return view.pixels_per_unit * now.container_radius;
 }
@@ -115,6 +154,35 @@ void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const C
     cairo_line_to(cairo, neck.x - 1.5 * width * side.x, neck.y - 1.5 * width * side.y);
     cairo_close_path(cairo);
     cairo_fill(cairo);
+}
+
+void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& content) {
+    const Backdrop& backdrop = *content.backdrop;
+    const FrameAt at(content.now, view.frame);
+    const auto place = [&](double x, double y) {
+        return view.on_page(
+            at.position(backdrop.origin + x * backdrop.along_x + y * backdrop.along_y));
+    };
+    // cairo counts from the corner of the first pixel, cameras from its middle.
+    const Vec2 corner = place(-0.5, -0.5);
+    const Vec2 right = place(0.5, -0.5) - corner, down = place(-0.5, 0.5) - corner;
+    cairo_t* cairo = canvas.cairo();
+    cairo_save(cairo);
+    if (view.half_side > 0.0 && view.frame == Frame::lab)
+        cairo_rectangle(cairo, view.centre.x - view.half_side, view.centre.y - view.half_side,
+                        2.0 * view.half_side, 2.0 * view.half_side);
+    else if (view.half_side > 0.0)
+        circle(cairo, view.centre, view.half_side);
+    if (view.half_side > 0.0) cairo_clip(cairo);
+    const cairo_matrix_t matrix{right.x, right.y, down.x, down.y, corner.x, corner.y};
+    cairo_transform(cairo, &matrix);
+    cairo_set_source_surface(cairo, backdrop.image->surface(), 0.0, 0.0);
+    // A picture that is made much smaller must be averaged; else this is faster and as good.
+    const double scale = std::sqrt(dot(right, right));
+    cairo_pattern_set_filter(cairo_get_source(cairo),
+                             scale < 0.6 ? CAIRO_FILTER_GOOD : CAIRO_FILTER_BILINEAR);
+    cairo_paint(cairo);
+    cairo_restore(cairo);
 }
 
 void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
@@ -153,12 +221,25 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
     const std::size_t count = content.now.size();
     std::vector<std::vector<Vec2>> places;  // of all discs on the page, oldest instant first
     for (std::size_t k = 0; k <= content.past.size(); ++k) {
-        const Snapshot& then = k < content.past.size() ? *content.past[k] : content.now;
-        if (then.size() != count) continue;
+        const bool present = k == content.past.size();
+        const Snapshot& then = present ? content.now : *content.past[k];
+        const bool named = !present && content.past_ids.size() == content.past.size();
+        if (!named && then.size() != count) continue;
         const FrameAt at(then, view.frame);
-        std::vector<Vec2>& row = places.emplace_back(count);
-        for (std::size_t i = 0; i < count; ++i)
-            row[i] = view.on_page(at.position(then.position(i)));
+        std::vector<Vec2>& row = places.emplace_back(count, nowhere);
+        if (!named) {
+            for (std::size_t i = 0; i < count; ++i)
+                row[i] = view.on_page(at.position(then.position(i)));
+            continue;
+        }
+        // Those who were there already, by name; the names ascend.
+        const auto& names = content.past_ids[k];
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto found = std::lower_bound(names.begin(), names.end(), content.ids[i]);
+            if (found == names.end() || *found != content.ids[i]) continue;
+            const auto j = static_cast<std::size_t>(found - names.begin());
+            row[i] = view.on_page(at.position(then.position(j)));
+        }
     }
     if (places.size() < 2) return;
     // A few bands of one opacity each, all discs of a colour in one path: segment by segment it
@@ -167,7 +248,8 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
     const FrameAt at(content.now, view.frame);
     const std::size_t segments = places.size() - 1;
     const double radius = count > 0 ? view.pixels_per_unit * content.now.radius[0] : 1.0;
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    // Round ends would show through each other where the trails are transparent.
+    cairo_set_line_cap(cairo, content.backdrop ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (std::size_t band = 0; band < bands; ++band) {
         const std::size_t from = segments * band / bands, to = segments * (band + 1) / bands;
@@ -175,13 +257,17 @@ void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style
         const double age = (static_cast<double>(band) + 1.0) / bands;
         cairo_set_line_width(cairo, std::max(1.0, (0.05 + 0.14 * age) * radius));
         for (std::size_t i = 0; i < count; ++i) {
-            cairo_move_to(cairo, places[from][i].x, places[from][i].y);
-            for (std::size_t k = from + 1; k <= to; ++k)
-                cairo_line_to(cairo, places[k][i].x, places[k][i].y);
+            cairo_new_sub_path(cairo);
+            for (std::size_t k = from; k <= to; ++k)
+                if (!std::isnan(places[k][i].x))
+                    cairo_line_to(cairo, places[k][i].x, places[k][i].y);
             const bool own_color = style.coloring != Coloring::none;
             if (!own_color && i + 1 < count) continue;
             const Color color = disc_color(style, content, at, i);
-            canvas.set(mix(style.theme.floor, color, 0.12 + 0.6 * age));
+            if (content.backdrop)
+                canvas.set(color, 0.12 + 0.6 * age);
+            else
+                canvas.set(mix(style.theme.floor, color, 0.12 + 0.6 * age));
             cairo_stroke(cairo);
         }
     }
@@ -194,9 +280,9 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
     for (std::size_t i = 0; i < now.size(); ++i) {
         const double orientation =
             style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
-        draw_disc(canvas, view.on_page(at.position(now.position(i))),
-                  view.pixels_per_unit * now.radius[i], disc_color(style, content, at, i),
-                  orientation);
+        (content.backdrop ? outline_disc : draw_disc)(
+            canvas, view.on_page(at.position(now.position(i))),
+            view.pixels_per_unit * now.radius[i], disc_color(style, content, at, i), orientation);
     }
 }
 
@@ -206,11 +292,11 @@ void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style
     const Snapshot& now = content.now;
     for (std::size_t k = 0; k < content.ghosts.size(); ++k) {
         const Snapshot& then = *content.ghosts[k];
-        if (then.size() != now.size()) continue;
         const FrameAt at(then, view.frame);
         const double age = double(k + 1) / double(content.ghosts.size() + 1);
         for (std::size_t i = 0; i < then.size(); ++i) {
-            const Color color = disc_color(style, content, at, i);
+            const Color color =
+                then.size() == now.size() ? disc_color(style, content, at, i) : style.theme.disc;
             const double radius = view.pixels_per_unit * then.radius[i];
             circle(cairo, view.on_page(at.position(then.position(i))), 0.94 * radius);
             canvas.set(color, 0.05 + 0.2 * age);
@@ -409,7 +495,12 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     const StyleScope scope(canvas);
     cairo_set_line_join(canvas.cairo(), CAIRO_LINE_JOIN_ROUND);
-    draw_dish(canvas, view, style, content.now);
+    if (content.backdrop) {
+        draw_backdrop(canvas, view, content);
+        outline_dish(canvas, view, content.now);
+    } else {
+        draw_dish(canvas, view, style, content.now);
+    }
     draw_slice(canvas, view, style, content.now);
     draw_ghosts(canvas, view, style, content);
     draw_trails(canvas, view, style, content);

@@ -2,7 +2,7 @@
 //
 // Discs carry an orientation mark, the wall carries marks, so that what spins and what does not can
 // be seen. On top lie the swirl centre S, the dish's centre C, the point M on the wall farthest
-// from S, and the path of C.
+// from S, and the path of C. Over a camera's picture dish and discs are only outlined.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "draw/canvas.hpp"
+#include "draw/image.hpp"
 #include "draw/theme.hpp"
 #include "draw/view.hpp"
 #include "physics/snapshot.hpp"
@@ -57,6 +58,12 @@ struct SceneContent {
     /// Whole and part turns of the cluster since some beginning, counter-clockwise: an arc round
     /// the dish shows it. Lab frame only.
     std::optional<double> turned = {};
+    /// What a camera saw at this instant; drawn beneath, in the M-frame turned with it.
+    const Backdrop* backdrop = nullptr;
+    /// Names of the discs in `now` and in each instant of `past`, where discs come and go; empty:
+    /// they are the same in all, in the same order.
+    std::span<const std::int64_t> ids = {};
+    std::span<const std::span<const std::int64_t>> past_ids = {};
 };
 
 /// Everything, back to front.
@@ -64,6 +71,7 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content);
 
 /// The parts of it, for pictures that are composed otherwise.
+void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& content);
 void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
                const Snapshot& now);
 void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,

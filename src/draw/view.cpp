@@ -20,7 +20,8 @@ View fitting_view(const Rectangle& rectangle, Frame frame, double container_radi
     const double half = 0.5 * std::min(rectangle.width, rectangle.height);
     return {frame,
             {rectangle.x + 0.5 * rectangle.width, rectangle.y + 0.5 * rectangle.height},
-            half / (1.01 * reach)};
+            half / (1.01 * reach),
+            half};
 }
 
 }  // namespace swirl

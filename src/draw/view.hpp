@@ -41,6 +41,7 @@ struct View {
     Frame frame;
     Vec2 centre;  // on the page: S in the lab frame, C in the M-frame
     double pixels_per_unit;
+    double half_side = 0.0;  // of the square on the page that belongs to it; 0: no end
 
     Vec2 on_page(const Vec2& p) const {
         return {centre.x + pixels_per_unit * p.x, centre.y - pixels_per_unit * p.y};

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "draw/film.hpp"
 #include "draw/label.hpp"
 #include "files/file_error.hpp"
 #include "files/trajectory.hpp"
@@ -171,6 +172,87 @@ Footage recorded(const SnapshotSeries& series, const std::string& caption) {
                           fmt::format("{} recorded frames", series.frames)};
     footage.from = swirls_of(first);
     footage.to = swirls_of(last);
+    const auto known = [](const std::vector<double>& values) {
+        return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+    };
+    footage.knows_spin = known(first.spin);
+    footage.knows_orientation = known(first.angle);
+    return footage;
+}
+
+namespace {
+
+/// When the frames of a camera were taken, in swirls.
+class FrameTable {
+  public:
+    FrameTable(const Tracks& tracks, const TrackScale& scale) {
+        for (const TrackFrame& frame : tracks.frames) {
+            numbers.push_back(frame.number);
+            times_.push_back(static_cast<double>(frame.number) /
+                             (scale.frames_per_time * scale.period));
+            ids.push_back(frame.id);
+        }
+    }
+
+    std::size_t nearest(double swirls) const {
+        const auto after = std::lower_bound(times_.begin(), times_.end(), swirls);
+        if (after == times_.begin()) return 0;
+        const auto k = static_cast<std::size_t>(after - times_.begin());
+        if (after == times_.end()) return k - 1;
+        return swirls - times_[k - 1] < times_[k] - swirls ? k - 1 : k;
+    }
+
+    std::vector<std::int64_t> numbers;
+    std::vector<std::vector<std::int64_t>> ids;
+
+  private:
+    std::vector<double> times_;
+};
+
+/// Where the camera's pixels lie in the plane of the discs.
+Backdrop placed(const TrackScale& scale, bool y_down) {
+    const double unit = 1.0 / scale.pixels_per_radius;
+    Backdrop backdrop;
+    backdrop.along_x = {scale.clockwise ? -unit : unit, 0.0};
+    backdrop.along_y = {0.0, y_down ? -unit : unit};
+    backdrop.origin =
+        -scale.swirl_centre.x * backdrop.along_x - scale.swirl_centre.y * backdrop.along_y;
+    return backdrop;
+}
+
+}  // namespace
+
+Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
+                const std::string& pictures, std::int64_t first_picture) {
+    const auto table = std::make_shared<const FrameTable>(tracks, scale);
+    const Backdrop place = placed(scale, tracks.y_down);
+    const SnapshotSeries series = series_of(std::move(tracks), scale);
+    Footage footage = recorded(series, caption);
+    footage.frames_per_swirl = scale.frames_per_time * scale.period;
+    if (series.same_discs) footage.open_between = footage.open;
+    if (!series.same_discs || !pictures.empty())
+        footage.open = [series, table]() -> Reel {
+            return [series, table](double swirls) { return series.frame(table->nearest(swirls)); };
+        };
+    if (!series.same_discs)
+        footage.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
+    if (pictures.empty()) return footage;
+
+    const Film film(pictures);
+    for (const std::int64_t number : {table->numbers.front(), table->numbers.back()})
+        if (!film.may_have(number + first_picture))
+            throw Failure(fmt::format(
+                "There is no picture '{}', which frame {} of the tracks would be drawn over.",
+                film.name(number + first_picture), number));
+    footage.open_backdrop = [=]() -> BackdropReel {
+        const auto reel = std::make_shared<Film>(pictures);
+        return [=](double swirls) {
+            Backdrop backdrop = place;
+            const std::int64_t number = table->numbers[table->nearest(swirls)];
+            backdrop.image = reel->picture(number + first_picture);
+            return backdrop;
+        };
+    };
     return footage;
 }
 

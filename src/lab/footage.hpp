@@ -2,12 +2,15 @@
 // engine, from a recorded file, or from the minimal model of one rolling ball.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "draw/image.hpp"
 #include "files/series.hpp"
+#include "files/tracks.hpp"
 #include "lab/run_config.hpp"
 #include "physics/rolling_ball.hpp"
 #include "physics/snapshot.hpp"
@@ -17,6 +20,8 @@ namespace swirl {
 
 /// One pass over it. A second pass is a second call of open().
 using Reel = std::function<Snapshot(double swirls)>;
+/// One pass over what a camera saw.
+using BackdropReel = std::function<Backdrop(double swirls)>;
 
 struct Footage {
     /// Starts a pass; the times asked of one reel must not decrease.
@@ -27,6 +32,17 @@ struct Footage {
     std::vector<std::string> parameters;  // for the parameter line (draw/label.hpp)
     /// Swirls covered by a recording; nothing: from 0 without end.
     std::optional<double> from = {}, to = {};
+    /// What the recording tells of the discs.
+    bool knows_spin = true, knows_orientation = true;
+    /// Where discs come and go: their names at that moment, ascending. Empty: they are the same
+    /// all the time.
+    std::function<std::vector<std::int64_t>(double swirls)> ids = {};
+    /// Where open() shows nothing but recorded frames, though the discs between them are known: a
+    /// pass that has those too. Empty: open() does.
+    std::function<Reel()> open_between = {};
+    /// Where there are pictures of a camera: starts a pass over them.
+    std::function<BackdropReel()> open_backdrop = {};
+    double frames_per_swirl = 0.0;  // of the camera, where there is one
 };
 
 /// Exact states at exact times.
@@ -40,6 +56,12 @@ Footage rolling(const RollingBall& ball, double amplitude, double period);
 Footage recorded(const SnapshotSeries& series, const std::string& caption);
 /// A trajectory file of ours; throws Failure.
 Footage recorded(const std::string& file);
+
+/// Tracks of a camera or of another program. Where discs come and go, or over a camera's pictures,
+/// the nearest frame is shown as it is. `pictures` is a name as for draw/film.hpp, in which frame 0
+/// has the number `first_picture`; empty: none. Throws Failure.
+Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
+                const std::string& pictures = "", std::int64_t first_picture = 0);
 
 /// "$N$ = 48", "$μ_{d}$ = 1", … in the order in which the paper names them.
 std::vector<std::string> parameter_labels(const RunConfig& config);

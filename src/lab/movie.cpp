@@ -21,7 +21,12 @@ namespace swirl {
 
 namespace {
 
-using Moment = std::shared_ptr<const Snapshot>;
+/// The state at one time, and the names of the discs where they come and go.
+struct MomentState {
+    Snapshot snapshot;
+    std::vector<std::int64_t> ids;
+};
+using Moment = std::shared_ptr<const MomentState>;
 
 /// Samples of the running plot, and points of a trail, per swirl.
 constexpr int plot_samples = 64;
@@ -78,35 +83,45 @@ class Camera {
   public:
     Camera(const Footage& footage, const Appearance& appearance, double start)
         : reel_(footage.open()),
+          ids_(footage.ids),
           from_(footage.from.value_or(0.0)),
           length_(appearance.trails ? appearance.trail_length : 0.0) {
         if (appearance.coloring == Coloring::pinned) watch_.emplace(footage, start);
+        if (footage.open_backdrop) backdrops_ = footage.open_backdrop();
     }
 
     void advance_to(double swirls) {
         if (length_ > 0.0) remember_until(swirls);
-        now_ = std::make_shared<const Snapshot>(reel_(swirls));
+        now_ = moment(swirls);
         if (watch_) pinned_ = watch_->at(swirls);
+        if (backdrops_) backdrop_ = backdrops_(swirls);
     }
+    const std::optional<Backdrop>& backdrop() const { return backdrop_; }
     const std::vector<std::uint8_t>& pinned() const { return pinned_; }
     const Moment& now() const { return now_; }
     std::vector<Moment> past() const { return {past_.begin(), past_.end()}; }
 
   private:
+    Moment moment(double swirls) const {
+        return std::make_shared<const MomentState>(
+            MomentState{reel_(swirls), ids_ ? ids_(swirls) : std::vector<std::int64_t>()});
+    }
     void remember_until(double swirls) {
         const auto last = static_cast<std::int64_t>(std::ceil(swirls * trail_samples)) - 1;
         const double first = std::max(from_, swirls - length_) * trail_samples;
         next_ = std::max(next_, static_cast<std::int64_t>(std::ceil(first)));
         for (; next_ <= last; ++next_)
-            past_.push_back(std::make_shared<const Snapshot>(
-                reel_(static_cast<double>(next_) / trail_samples)));
+            past_.push_back(moment(static_cast<double>(next_) / trail_samples));
         const auto longest = static_cast<std::size_t>(std::ceil(length_ * trail_samples));
         while (past_.size() > longest) past_.pop_front();
     }
 
     Reel reel_;
+    std::function<std::vector<std::int64_t>(double)> ids_;
     double from_, length_;
     std::int64_t next_ = 0;
+    BackdropReel backdrops_;
+    std::optional<Backdrop> backdrop_;
     std::deque<Moment> past_;
     Moment now_;
     std::optional<PinnedWatch> watch_;
@@ -119,6 +134,7 @@ struct Instant {
     std::vector<Moment> now;                // per footage
     std::vector<std::vector<Moment>> past;  // per footage
     std::vector<std::vector<std::uint8_t>> pinned;
+    std::vector<std::optional<Backdrop>> backdrop;
 };
 
 /// Where a painter works: its canvas, and what is the same in every frame, drawn once.
@@ -137,12 +153,22 @@ class Easel {
         cairo_surface_mark_dirty(cairo_get_target(canvas_.cairo()));
 
         std::vector<std::vector<const Snapshot*>> past(config.footage.size());
+        std::vector<std::vector<std::span<const std::int64_t>>> past_ids(config.footage.size());
         std::vector<SceneContent> contents;
         for (std::size_t k = 0; k < config.footage.size(); ++k) {
-            for (const Moment& moment : instant.past[k]) past[k].push_back(moment.get());
+            for (const Moment& moment : instant.past[k]) {
+                past[k].push_back(&moment->snapshot);
+                if (config.footage[k].ids) past_ids[k].push_back(moment->ids);
+            }
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f) {
                 contents.push_back(
-                    {*instant.now[k], config.footage[k].path, instant.pinned[k], past[k]});
+                    {.now = instant.now[k]->snapshot,
+                     .path = config.footage[k].path,
+                     .pinned = instant.pinned[k],
+                     .past = past[k],
+                     .backdrop = instant.backdrop[k] ? &*instant.backdrop[k] : nullptr,
+                     .ids = instant.now[k]->ids,
+                     .past_ids = past_ids[k]});
                 if (config.appearance.turned)
                     contents.back().turned = turns_until(curves[k], config.start, instant.swirls);
             }
@@ -173,11 +199,26 @@ double time_of_frame(const MovieConfig& config, int frame) {
 }  // namespace
 
 PinnedWatch::PinnedWatch(const Footage& footage, double first)
-    : reel_(footage.open()), to_(footage.to) {
+    : reel_(footage.open_between ? footage.open_between() : footage.open()), to_(footage.to) {
     // One swirl earlier, where there is one: a disc counts as pinned after eight frames at the
     // wall.
     const double begin = std::max(footage.from.value_or(0.0), first - 1.0);
     next_ = static_cast<std::int64_t>(std::ceil(begin * frames_per_swirl));
+}
+
+std::optional<std::string> problem(const std::vector<Footage>& footage,
+                                   const Appearance& appearance) {
+    for (const Footage& dish : footage) {
+        if (appearance.coloring == Coloring::spin && !dish.knows_spin)
+            return fmt::format("{} tells no spins, so the discs cannot be coloured by them.",
+                               dish.caption);
+        if (appearance.coloring == Coloring::pinned && dish.ids)
+            return fmt::format(
+                "The discs of {} are not the same in every frame, so which of them are pinned "
+                "cannot be told; another --color would be right.",
+                dish.caption);
+    }
+    return std::nullopt;
 }
 
 const std::vector<std::uint8_t>& PinnedWatch::at(double swirls) {
@@ -201,6 +242,7 @@ std::optional<std::string> problem(const MovieConfig& config) {
             "The name '{}' does not tell what kind of movie is wanted: it must end in .mp4, .webm "
             "or .gif.",
             config.out);
+    if (auto wrong = problem(config.footage, config.appearance)) return wrong;
     // Pictures alone take any size and rate; their sides may be odd.
     const Size size = config.appearance.size;
     if (format) {
@@ -348,6 +390,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
                 instant->now.push_back(camera.now());
                 instant->past.push_back(camera.past());
                 instant->pinned.push_back(camera.pinned());
+                instant->backdrop.push_back(camera.backdrop());
             }
             painters.submit([&, instant, frame](unsigned painter, Painters::Bytes& bytes) {
                 auto& easel = easels[painter];

@@ -58,6 +58,9 @@ struct MovieResult {
     bool complete = false;
 };
 
+/// Why these dishes cannot be shown so, as a full sentence; nothing if they can.
+std::optional<std::string> problem(const std::vector<Footage>& footage,
+                                   const Appearance& appearance);
 /// Why this cannot be filmed, as a full sentence; nothing if it can.
 std::optional<std::string> problem(const MovieConfig& config);
 

@@ -17,6 +17,10 @@ struct Exposure {
     std::vector<Snapshot> past, ghosts;
     std::vector<std::uint8_t> pinned;
     std::vector<const Snapshot*> past_pointers, ghost_pointers;
+    std::optional<Backdrop> backdrop;
+    std::vector<std::int64_t> ids;
+    std::vector<std::vector<std::int64_t>> past_ids;
+    std::vector<std::span<const std::int64_t>> past_id_spans;
 };
 
 Exposure expose(const Footage& footage, const PictureConfig& config) {
@@ -31,10 +35,15 @@ Exposure expose(const Footage& footage, const PictureConfig& config) {
         constexpr int points = 96;  // per swirl
         const double begin = std::max(from, config.at - config.appearance.trail_length);
         for (auto k = static_cast<std::int64_t>(std::ceil(begin * points));
-             static_cast<double>(k) / points < config.at; ++k)
-            exposure.past.push_back(trail(static_cast<double>(k) / points));
+             static_cast<double>(k) / points < config.at; ++k) {
+            const double then = static_cast<double>(k) / points;
+            exposure.past.push_back(trail(then));
+            if (footage.ids) exposure.past_ids.push_back(footage.ids(then));
+        }
     }
     exposure.now = reel(config.at);
+    if (footage.ids) exposure.ids = footage.ids(config.at);
+    if (footage.open_backdrop) exposure.backdrop = footage.open_backdrop()(config.at);
     if (config.appearance.coloring == Coloring::pinned)
         exposure.pinned = PinnedWatch(footage, config.at).at(config.at);
     return exposure;
@@ -55,6 +64,7 @@ std::optional<std::string> problem(const PictureConfig& config) {
             "The name '{}' does not tell what kind of picture is wanted: it must end in .png, .svg "
             "or .pdf.",
             config.out);
+    if (auto wrong = problem(config.footage, config.appearance)) return wrong;
     if (config.flashes < 1 || config.flashes > 1000)
         return fmt::format("A stroboscope of {} flashes cannot be drawn: 1 to 1000 can.",
                            config.flashes);
@@ -87,9 +97,16 @@ void make_picture(const PictureConfig& config) try {
         Exposure& e = exposures[k];
         for (const Snapshot& s : e.past) e.past_pointers.push_back(&s);
         for (const Snapshot& s : e.ghosts) e.ghost_pointers.push_back(&s);
+        for (const auto& ids : e.past_ids) e.past_id_spans.push_back(ids);
         for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
-            contents.push_back(
-                {e.now, config.footage[k].path, e.pinned, e.past_pointers, e.ghost_pointers});
+            contents.push_back({.now = e.now,
+                                .path = config.footage[k].path,
+                                .pinned = e.pinned,
+                                .past = e.past_pointers,
+                                .ghosts = e.ghost_pointers,
+                                .backdrop = e.backdrop ? &*e.backdrop : nullptr,
+                                .ids = e.ids,
+                                .past_ids = e.past_id_spans});
         if (config.appearance.turned)
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
                 contents[contents.size() - 1 - f].turned = turns_until(curves[k], begin, config.at);

@@ -1,0 +1,87 @@
+#include "app/track_options.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lab/failure.hpp"
+#include "lab/run_parameters.hpp"
+#include "physics/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+double number(const std::string& name, const std::string& text, double otherwise, double from) {
+    if (text.empty()) return otherwise;
+    const auto value = read_number(text);
+    if (!value || *value < from)
+        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
+                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
+    return *value;
+}
+
+std::string first_bytes(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
+    std::string bytes(8, '\0');
+    stream.read(bytes.data(), 8);
+    return bytes;
+}
+
+}  // namespace
+
+void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::string& fps,
+                       const std::string& group) {
+    const auto text = [&](const std::string& name, std::string& into, const char* type,
+                          const char* description) {
+        subcommand.add_option(name, into, description)->type_name(type)->group(group);
+    };
+    text("--" + fps, texts.fps, "NUMBER", "frames per unit of time (LAMMPS: steps) [1]");
+    text("--scale", texts.scale, "NUMBER", "pixels per disc radius [1]");
+    text("--omega", texts.omega, "NUMBER",
+         "angular velocity of the swirl, in radians per unit of time");
+    text("--centre", texts.centre, "X,Y", "the swirl centre, in pixels [0,0]");
+    text("--phase", texts.phase, "DEGREES", "of the container at frame 0, from +x [0]");
+    subcommand.add_flag("--clockwise", texts.clockwise, "the swirl ran clockwise in the picture")
+        ->group(group);
+}
+
+bool is_trajectory(const std::string& file) { return first_bytes(file).starts_with("\x89HDF"); }
+
+Tracks read_tracks(const std::string& file) {
+    return first_bytes(file).starts_with("ITEM:") ? read_lammps_dump(file) : read_trackpy_csv(file);
+}
+
+TrackScale track_scale(const TrackTexts& texts, const std::string& fps, const std::string& file) {
+    constexpr double any = -std::numeric_limits<double>::infinity();
+    for (const auto& [name, text] :
+         {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
+        if (text->empty())
+            throw WrongCall(fmt::format(
+                "'{}' does not say how the container moved; --{} is needed (and --{}, --scale, "
+                "--centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
+                file, name, fps));
+    TrackScale scale;
+    scale.frames_per_time = number(fps, texts.fps, 1.0, 1e-12);
+    scale.pixels_per_radius = number("scale", texts.scale, 1.0, 1e-12);
+    scale.period = 2.0 * pi / number("omega", texts.omega, 1.0, 1e-12);
+    scale.amplitude = number("amplitude", texts.amplitude, 0.0, 0.0);
+    scale.phase = number("phase", texts.phase, 0.0, any) * pi / 180.0;
+    scale.container_radius = number("container-radius", texts.container_radius, 1.0, 1e-12);
+    scale.clockwise = texts.clockwise;
+    if (texts.centre.empty()) return scale;
+    const std::size_t comma = texts.centre.find(',');
+    const auto x = read_number(texts.centre.substr(0, comma));
+    const auto y =
+        comma == std::string::npos ? std::nullopt : read_number(texts.centre.substr(comma + 1));
+    if (!x || !y)
+        throw WrongCall(fmt::format(
+            "--centre is '{}', but it must be X,Y in pixels, for example 512,384.", texts.centre));
+    scale.swirl_centre = {*x, *y};
+    return scale;
+}
+
+}  // namespace swirl

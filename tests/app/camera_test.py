@@ -1,0 +1,255 @@
+"""Tracks of a camera, drawn and filmed by swirl, over the camera's own frames.
+
+The camera is ours: it takes grey pictures of bright discs whose places are known, a trackpy table
+says where they are, and the outlines that swirl draws must lie on the discs.
+"""
+
+import math
+import os
+import struct
+import subprocess
+import unittest
+import zlib
+
+from program import InFolder, swirl
+
+WIDTH, HEIGHT = 240, 200
+SCALE = 10.0                  # pixels per disc radius
+CENTRE = (118.4, 101.3)       # of the swirl
+RADIUS, AMPLITUDE = 7.0, 1.5  # of the container, in disc radii
+CAMERA_FPS, OMEGA = 40.0, 2.0 * math.pi   # forty frames for a swirl
+PHASE = 30.0
+BRIGHT = 0.6                  # of a disc's radius: its bright middle, all within the outline
+SIDE = 500                    # of the pictures made, in pixels
+RING = (0x7F, 0xA6, 0xCC)     # the discs' colour in the dark theme
+
+
+def write_png(path, rows, width):
+    """Rows of bytes, one for each pixel: grey."""
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n"
+                   + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 0, 0, 0, 0))
+                   + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + bytes(row) for row in rows), 1))
+                   + chunk(b"IEND", b""))
+
+
+def read_png(path, side):
+    """The pixels of a square picture: (x, y, red, green, blue)."""
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24",
+                          "-"], capture_output=True, check=True).stdout
+    assert len(raw) == 3 * side * side
+    for k in range(side * side):
+        yield (k % side, k // side, *raw[3 * k:3 * k + 3])
+
+
+def places(frame, clockwise=False):
+    """Of the discs in pixels, y down. The first moves on a circle of its own, the others ride with
+    the dish."""
+    turn = math.radians(PHASE) + OMEGA * frame / CAMERA_FPS
+    sense = -1.0 if clockwise else 1.0
+    x, y = CENTRE
+
+    def pixel(px, py):
+        return x + sense * SCALE * px, y - SCALE * py
+    cx, cy = AMPLITUDE * math.cos(turn), AMPLITUDE * math.sin(turn)
+    found = [pixel(cx + 2.2 * math.cos(-0.7 * turn), cy + 2.2 * math.sin(-0.7 * turn))]
+    found += [pixel(cx + 5.6 * math.cos(a), cy + 5.6 * math.sin(a)) for a in (0.4, 1.7, 3.9)]
+    return found
+
+
+def take_picture(path, discs):
+    rows = [bytearray([70] * WIDTH) for _ in range(HEIGHT)]
+    for px, py in discs:
+        reach = BRIGHT * SCALE
+        for y in range(int(py - reach) - 1, int(py + reach) + 3):
+            for x in range(int(px - reach) - 1, int(px + reach) + 3):
+                inside = min(max(reach + 0.5 - math.hypot(x - px, y - py), 0.0), 1.0)
+                if inside > 0.0:
+                    rows[y][x] = max(rows[y][x], round(70 + 170 * inside))
+    write_png(path, rows, WIDTH)
+
+
+def middle(points):
+    return (sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points))
+
+
+class CameraTest(InFolder):
+    def record(self, frames, clockwise=False, lose=None, first=0):
+        """Pictures and tracks; `lose` leaves disc 0 out of frames from that one on."""
+        os.makedirs(self.path("seen"), exist_ok=True)
+        with open(self.path("tracks.csv"), "w", encoding="utf-8") as table:
+            table.write("frame,particle,x,y\n")
+            for frame in range(frames):
+                discs = places(frame, clockwise)
+                take_picture(self.path(f"seen/{frame + first:04d}.png"), discs)
+                for k, (x, y) in enumerate(discs):
+                    if not (k == 0 and lose is not None and frame >= lose):
+                        table.write(f"{frame},{k},{x!r},{y!r}\n")
+
+    def call(self, command, *more, over=True):
+        arguments = [command, self.path("tracks.csv"), "--camera-fps", CAMERA_FPS, "--scale", SCALE,
+                     "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--phase", PHASE,
+                     "--amplitude", AMPLITUDE, "--container-radius", RADIUS, "--size",
+                     f"{SIDE}x{SIDE}"]
+        if over:
+            arguments += ["--over", self.path("seen/%04d.png")]
+        return swirl(*arguments, *more)
+
+    def assert_good(self, result):
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def assert_wrong_call(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def assert_outlines_lie_on_the_discs(self, path, count=4):
+        """Blobs of bright grey, each in the middle of a ring of the discs' colour."""
+        bright, ring = set(), set()
+        for x, y, red, green, blue in read_png(path, SIDE):
+            if red == green == blue and red > 155:  # half way up its edge
+                bright.add((x, y))
+            elif (red, green, blue) == RING:
+                ring.add((x, y))
+        blobs = []
+        while bright:
+            blob, open_ends = [], [bright.pop()]
+            while open_ends:
+                x, y = open_ends.pop()
+                blob.append((x, y))
+                for near in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+                    if near in bright:
+                        bright.remove(near)
+                        open_ends.append(near)
+            if len(blob) > 500:  # and not a piece of the wall
+                blobs.append(blob)
+        self.assertEqual(len(blobs), count)
+        offsets = []
+        for blob in blobs:
+            x, y = middle(blob)
+            reach = math.sqrt(len(blob) / math.pi)
+            around = [(a, b) for a, b in ring if math.hypot(a - x, b - y) < reach / BRIGHT + 5.0]
+            self.assertGreater(len(around), 60)
+            ring_x, ring_y = middle(around)
+            offsets.append((ring_x - x, ring_y - y))
+            # Few pixels of a ring have its very colour, so each is found to some tenths of a pixel.
+            self.assertLess(math.hypot(*offsets[-1]), 0.9)
+            radius = sum(math.hypot(a - x, b - y) for a, b in around) / len(around)
+            self.assertLess(abs(radius - reach / BRIGHT), 0.7)
+        # A pixel of the camera is 2.7 of ours: half of one, the usual mistake, would shift them all
+        # by 1.9.
+        self.assertLess(math.hypot(*middle(offsets)), 0.35)
+
+    def test_outlines_lie_on_what_the_camera_saw(self):
+        for clockwise in (False, True):
+            self.record(14, clockwise)
+            for frame in ("lab", "m"):
+                out = self.path("x.png")
+                self.assert_good(self.call("picture", "--frame", frame, "--at", 0.31, "--bare",
+                                           "--out", out, *(["--clockwise"] if clockwise else [])))
+                self.assert_outlines_lie_on_the_discs(out)
+
+    def test_a_movie_shows_each_of_the_cameras_frames_once(self):
+        self.record(7, first=100)
+        self.assert_good(self.call("movie", "--over-first", 100, "--bare", "--frames",
+                                   self.path("made"), "--fps", 30))
+        names = sorted(os.listdir(self.path("made")))
+        self.assertEqual(len(names), 7)
+        for name in (names[0], names[6]):
+            self.assert_outlines_lie_on_the_discs(self.path("made/" + name))
+
+    def test_tracks_alone_make_an_ordinary_movie_without_hands(self):
+        self.record(7)
+        out = self.path("x.mp4")
+        result = self.call("movie", "--pace", 0.5, "--fps", 20, "--trails", "--plot", "--frame",
+                           "both", "--out", out, over=False)
+        self.assert_good(result)
+        self.assertIn("no orientation", result.stdout)
+        frames = subprocess.run(
+            ["ffprobe", "-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries",
+             "stream=nb_read_frames", out], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(frames.strip(), "7")  # 6/40 of a swirl, at 1/40 of a swirl each
+
+    def test_a_film_gives_the_same_as_its_frames(self):
+        self.record(6)
+        subprocess.run(["ffmpeg", "-v", "error", "-framerate", "10", "-i",
+                        self.path("seen/%04d.png"), "-c:v", "ffv1", "-pix_fmt", "gray",
+                        self.path("seen.avi")], check=True)
+        made = []
+        for pictures in ("seen/%04d.png", "seen.avi"):
+            folder = self.path("made-" + pictures[-3:])
+            self.assert_good(self.call("movie", "--over", self.path(pictures), "--frames", folder,
+                                       over=False))
+            frames = []
+            for name in sorted(os.listdir(folder)):
+                with open(os.path.join(folder, name), "rb") as file:
+                    frames.append(file.read())
+            made.append(frames)
+        self.assertEqual(len(made[0]), 6)
+        self.assertTrue(made[0] == made[1])
+
+    def test_jpeg_pictures_are_read_too(self):
+        self.record(5)
+        subprocess.run(["ffmpeg", "-v", "error", "-i", self.path("seen/%04d.png"), "-q:v", "1",
+                        "-start_number", "0", self.path("seen/%04d.jpg")], check=True)
+        self.assert_good(self.call("picture", "--at", 0.05, "--bare", "--over",
+                                   self.path("seen/%04d.jpg"), "--out", self.path("x.png"),
+                                   over=False))
+        self.assertGreater(sum(red > 220 for _, _, red, _, _ in
+                               read_png(self.path("x.png"), SIDE)), 2000)
+
+    def test_discs_may_come_and_go(self):
+        self.record(14, lose=9)
+        out = self.path("x.png")
+        self.assert_good(self.call("picture", "--trails", "--at", 0.3, "--out", out))
+        self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out",
+                                   self.path("x.mp4")))
+        wrong = self.call("picture", "--color", "pinned", "--out", out)
+        self.assert_wrong_call(wrong, "not the same in every frame")
+
+    def test_wrong_calls(self):
+        self.record(3)
+        out = self.path("x.png")
+        wrong = self.assert_wrong_call
+        wrong(self.call("picture", "--color", "spin", "--out", out), "no spins")
+        wrong(self.call("picture", "--discs", 4, "--out", out), "--discs")
+        wrong(self.call("picture", "--beside", 4, "--out", out), "--beside")
+        wrong(self.call("picture", "--over", "seen.png", "--out", out, over=False), "%05d")
+        wrong(self.call("picture", "--over", "%d/%d.png", "--out", out, over=False), "%05d")
+        wrong(self.call("picture", "--at", 5, "--out", out), "5")
+        wrong(swirl("picture", "--over", "%d.png", "--out", out), "--over", "no FILE")
+        wrong(swirl("picture", self.path("tracks.csv"), "--out", out), "--omega")
+        wrong(swirl("picture", self.path("tracks.csv"), "--omega", 1, "--out", out),
+              "--container-radius")
+        missing = self.call("movie", "--over-first", 7, "--out", self.path("x.mp4"))
+        self.assertEqual(missing.returncode, 1)
+        self.assertIn("0007.png", missing.stderr)
+        self.assertEqual(self.left_behind(), ["seen", "tracks.csv"])
+
+    def test_a_picture_that_cannot_be_read_is_a_clear_error(self):
+        self.record(5)
+        with open(self.path("seen/0002.png"), "wb") as file:
+            file.write(b"\x89PNG\r\n\x1a\nrest missing")
+        out = self.path("x.mp4")
+        result = self.call("movie", "--out", out)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("0002.png", result.stderr)
+        os.remove(self.path("seen/0002.png"))
+        result = self.call("movie", "--out", out)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("0002.png", result.stderr)
+        with open(self.path("no.avi"), "w", encoding="utf-8") as file:
+            file.write("this is no film")
+        result = self.call("movie", "--over", self.path("no.avi"), "--out", out, over=False)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("no.avi", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertNotIn("x.mp4", self.left_behind())
+
+
+if __name__ == "__main__":
+    unittest.main()
