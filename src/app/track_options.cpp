@@ -49,7 +49,10 @@ void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::strin
         ->group(group);
 }
 
-bool is_trajectory(const std::string& file) { return first_bytes(file).starts_with("\x89HDF"); }
+bool is_trajectory(const std::string& file) {
+    // By its name too: what is wrong with it is then said by who knows trajectories.
+    return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
+}
 
 Tracks read_tracks(const std::string& file) {
     return first_bytes(file).starts_with("ITEM:") ? read_lammps_dump(file) : read_trackpy_csv(file);
