@@ -30,7 +30,9 @@ constexpr RecordingOption options[] = {
     {"frames", "N", "frames per swirl, at equal phases; 1 is stroboscopic [30]"},
     {"frame-interval", "TIME", "a frame every TIME, instead of --frames"},
     {"frame-events", "N", "a frame after every N events, instead of --frames"},
-    {"compression", "0..9", "of the files above and below; 0 is fastest, and large [1]"},
+    {"compression", "quick|0..9",
+     "of the recordings: quick leaves out what repeats from frame to frame; 0: none; 1…9: "
+     "deflate, smaller and slower [quick]"},
     {"log-events", "FILE.h5", "record every event with its impulses"},
     {"checkpoint", "FILE", "where to keep the state of the run [named after its other files]"},
     {"checkpoint-every", "SECONDS", "how often to keep it; 0: never [60]"},
@@ -60,6 +62,16 @@ std::int64_t whole(const RecordingCall& call, const char* name, std::int64_t oth
         throw WrongCall(fmt::format("--{} is '{}', but it must be a whole number from {} to {}.",
                                     name, text, from, to));
     return *value;
+}
+
+int compression(const RecordingCall& call) {
+    const std::string text = text_of(call, "compression");
+    if (text.empty() || text == "quick") return quick_compression;
+    const auto value = read_whole_number(text);
+    if (!value || *value < 0 || *value > 9)
+        throw WrongCall(fmt::format(
+            "--compression is '{}', but it must be quick or a whole number from 0 to 9.", text));
+    return static_cast<int>(*value);
 }
 
 FrameTimes frame_times(const RecordingCall& call) {
@@ -204,7 +216,7 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     files.trajectory = text_of(call, "trajectory");
     files.frames = frame_times(call);
     files.event_log = text_of(call, "log-events");
-    files.compression = static_cast<int>(whole(call, "compression", default_compression, 0, 9));
+    files.compression = compression(call);
     files.resume = call.resume;
     files.checkpoint_every = number(call, "checkpoint-every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");

@@ -53,14 +53,18 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
     file.write("/initial/mass", initial.mass, {n});
     file.write("/initial/moment_of_inertia", initial.inertia, {n});
     file.create_group("/events");
-    file.create_column<std::int64_t>("/events/swirls", {}, chunk, compression);
+    const Packing packing = compression == 0 ? Packing::none : Packing::deflate;
+    const int level = std::max(compression, 1);
+    file.create_column<std::int64_t>("/events/swirls", {}, {chunk}, packing, level);
     for (const char* name :
          {"clock", "normal_x", "normal_y", "normal_impulse", "tangential_impulse"})
-        file.create_column<double>(std::string("/events/") + name, {}, chunk, compression);
+        file.create_column<double>(std::string("/events/") + name, {}, {chunk}, packing, level);
     for (const char* name : {"i", "j"})
-        file.create_column<std::uint32_t>(std::string("/events/") + name, {}, chunk, compression);
+        file.create_column<std::uint32_t>(std::string("/events/") + name, {}, {chunk}, packing,
+                                          level);
     for (const char* name : {"kind", "sticks"})
-        file.create_column<std::uint8_t>(std::string("/events/") + name, {}, chunk, compression);
+        file.create_column<std::uint8_t>(std::string("/events/") + name, {}, {chunk}, packing,
+                                         level);
     file.create_group(parameters);
     for (const auto& [name, text] : provenance) file.write(parameters + "/" + name, text);
     file.set_attribute(parameters, "period", initial.period);

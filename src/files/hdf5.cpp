@@ -242,7 +242,32 @@ Column::Column(std::shared_ptr<Handle> handle, std::string name)
     if (shape.empty()) return;
     rows_ = shape.front();
     row_shape_.assign(shape.begin() + 1, shape.end());
+    const ::swirl::Handle properties(H5Dget_create_plist(handle_->id), H5Pclose);
+    if (H5Pget_layout(properties) != H5D_CHUNKED) return;
+    H5Pget_chunk(properties, int(extent.size()), extent.data());
+    chunk_shape_.assign(extent.begin(), extent.end());
+    const int filters = H5Pget_nfilters(properties);
+    packing_ = filters > 1 ? Packing::deflate : filters == 1 ? Packing::stream : Packing::none;
 }
+
+/// Some rows of a column, or one entry of the last dimension of each: in the file and in memory.
+struct Column::Selection {
+    ::swirl::Handle there, here;
+
+    Selection(const Column& column, std::uint64_t first, std::uint64_t count,
+              std::optional<std::uint64_t> component)
+        : there(H5Dget_space(column.handle_->id), H5Sclose), here(-1, H5Sclose) {
+        std::vector<hsize_t> from(1 + column.row_shape_.size(), 0), size{count};
+        from.front() = first;
+        size.insert(size.end(), column.row_shape_.begin(), column.row_shape_.end());
+        if (component) {
+            from.back() = *component;
+            size.back() = 1;
+        }
+        H5Sselect_hyperslab(there, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
+        here = {H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose};
+    }
+};
 
 void Column::resize(std::uint64_t rows) {
     const Locked lock(library_lock());
@@ -255,17 +280,31 @@ void Column::resize(std::uint64_t rows) {
 template <ColumnValue T>
 void Column::append(const T* values, std::uint64_t count) {
     if (count == 0) return;
-    const Locked lock(library_lock());
     const std::uint64_t first = rows_;
     resize(first + count);
-    std::vector<hsize_t> from(1 + row_shape_.size(), 0), size{count};
-    from[0] = first;
-    size.insert(size.end(), row_shape_.begin(), row_shape_.end());
-    const ::swirl::Handle there(H5Dget_space(handle_->id), H5Sclose);
-    H5Sselect_hyperslab(there, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
-    const ::swirl::Handle here(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
-    handle_->file->check(H5Dwrite(handle_->id, memory_type<T>(), here, there, H5P_DEFAULT, values),
-                         "writing " + name_);
+    change(first, count, values);
+}
+
+template <ColumnValue T>
+void Column::change(std::uint64_t first, std::uint64_t count, const T* values,
+                    std::optional<std::uint64_t> component) {
+    const Locked lock(library_lock());
+    const Selection rows(*this, first, count, component);
+    handle_->file->check(
+        H5Dwrite(handle_->id, memory_type<T>(), rows.here, rows.there, H5P_DEFAULT, values),
+        "writing " + name_);
+}
+
+void Column::put_chunk(std::uint64_t first, const void* bytes, std::size_t size, bool raw,
+                       std::optional<std::uint64_t> component) {
+    const Locked lock(library_lock());
+    std::vector<hsize_t> from(1 + row_shape_.size(), 0);
+    from.front() = first;
+    if (component) from.back() = *component;
+    const std::uint32_t filters_left_out = raw && packing_ != Packing::none ? 1 : 0;
+    handle_->file->check(
+        H5Dwrite_chunk(handle_->id, H5P_DEFAULT, filters_left_out, from.data(), size, bytes),
+        "writing " + name_);
 }
 
 template <ColumnValue T>
@@ -276,14 +315,9 @@ std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
                                     handle_->file->path, rows_, name_, first, first + count));
     std::vector<T> values(count * product(row_shape_));
     if (values.empty()) return values;
-    std::vector<hsize_t> from(1 + row_shape_.size(), 0), size{count};
-    from[0] = first;
-    size.insert(size.end(), row_shape_.begin(), row_shape_.end());
-    const ::swirl::Handle there(H5Dget_space(handle_->id), H5Sclose);
-    H5Sselect_hyperslab(there, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
-    const ::swirl::Handle here(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    const Selection rows(*this, first, count, {});
     handle_->file->check(
-        H5Dread(handle_->id, memory_type<T>(), here, there, H5P_DEFAULT, values.data()),
+        H5Dread(handle_->id, memory_type<T>(), rows.here, rows.there, H5P_DEFAULT, values.data()),
         "reading " + name_);
     return values;
 }
@@ -379,19 +413,19 @@ std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
 
 template <ColumnValue T>
 Column Hdf5File::create_column(const std::string& name, const Dimensions& row_shape,
-                               std::uint64_t chunk_rows, int compression) {
+                               const Dimensions& chunk_shape, Packing packing, int level) {
     const Locked lock(library_lock());
-    std::vector<hsize_t> size{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows};
-    for (auto* shape : {&size, &limit, &chunk})
+    std::vector<hsize_t> size{0}, limit{H5S_UNLIMITED};
+    for (auto* shape : {&size, &limit})
         shape->insert(shape->end(), row_shape.begin(), row_shape.end());
+    std::vector<hsize_t> chunk(size);
+    std::copy(chunk_shape.begin(), chunk_shape.end(), chunk.begin());
     const Handle space(H5Screate_simple(int(size.size()), size.data(), limit.data()), H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(properties, int(chunk.size()), chunk.data());
     H5Pset_obj_track_times(properties, false);  // no clock in the bytes
-    if (compression > 0) {
-        H5Pset_shuffle(properties);
-        H5Pset_deflate(properties, unsigned(compression));
-    }
+    if (packing == Packing::deflate) H5Pset_shuffle(properties);
+    if (packing != Packing::none) H5Pset_deflate(properties, unsigned(level));
     const hid_t id = H5Dcreate2(state_->id, name.c_str(), disk_type<T>(), space, H5P_DEFAULT,
                                 properties, H5P_DEFAULT);
     state_->check(id, "creating " + name);
@@ -503,55 +537,65 @@ bool Hdf5File::has_attribute(const std::string& object, const std::string& name)
            H5Aexists_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+namespace {
+
+/// An attribute that is there, with its type and its number of values.
+struct Attribute {
+    Handle id, type, space;
+    hssize_t count;
+
+    Attribute(hid_t file, const std::string& object, const std::string& name)
+        : id(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+             H5Aclose),
+          type(H5Aget_type(id), H5Tclose),
+          space(H5Aget_space(id), H5Sclose),
+          count(H5Sget_simple_extent_npoints(space)) {}
+    bool is_text() const {
+        return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+    }
+};
+
+}  // namespace
+
+/// Reads an attribute with `read`, which says whether it is of the kind that is `wanted`.
+template <class Read>
+void Hdf5File::read_attribute(const std::string& object, const std::string& name,
+                              const char* wanted, Read&& read) const {
     const Locked lock(library_lock());
     if (!has_attribute(object, name))
         throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
-    const Handle attribute(
-        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose);
-    const Handle type(H5Aget_type(attribute), H5Tclose);
-    const Handle space(H5Aget_space(attribute), H5Sclose);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
-        H5Sget_simple_extent_npoints(space) != 1)
-        throw FileError(fmt::format("Attribute {} at {} in '{}' is not one text of fixed length.",
-                                    name, object, state_->path));
-    std::string text(H5Tget_size(type), '\0');
-    state_->check(H5Aread(attribute, type, text.data()), "reading attribute " + name);
+    const Attribute attribute(state_->id, object, name);
+    if (!read(attribute))
+        throw FileError(fmt::format("Attribute {} at {} in '{}' is not {}.", name, object,
+                                    state_->path, wanted));
+}
+
+std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+    std::string text;
+    read_attribute(object, name, "one text of fixed length", [&](const Attribute& a) {
+        if (!a.is_text() || a.count != 1) return false;
+        text.assign(H5Tget_size(a.type), '\0');
+        return H5Aread(a.id, a.type, text.data()) >= 0;
+    });
     text.resize(std::min(text.find('\0'), text.size()));
     return text;
 }
 
 double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
-    const Locked lock(library_lock());
-    if (!has_attribute(object, name))
-        throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
-    const Handle attribute(
-        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose);
-    const Handle space(H5Aget_space(attribute), H5Sclose);
     double value = 0.0;
-    if (H5Sget_simple_extent_npoints(space) != 1 ||
-        H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
-        throw FileError(
-            fmt::format("Attribute {} at {} in '{}' is not a number.", name, object, state_->path));
+    read_attribute(object, name, "a number", [&](const Attribute& a) {
+        return a.count == 1 && H5Aread(a.id, H5T_NATIVE_DOUBLE, &value) >= 0;
+    });
     return value;
 }
 
 std::vector<std::int64_t> Hdf5File::integers_attribute(const std::string& object,
                                                        const std::string& name) const {
-    const Locked lock(library_lock());
-    if (!has_attribute(object, name))
-        throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
-    const Handle attribute(
-        H5Aopen_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose);
-    const Handle space(H5Aget_space(attribute), H5Sclose);
-    const hssize_t count = H5Sget_simple_extent_npoints(space);
-    std::vector<std::int64_t> values(count > 0 ? std::size_t(count) : 0);
-    if (values.empty() || H5Aread(attribute, H5T_NATIVE_INT64, values.data()) < 0)
-        throw FileError(fmt::format("Attribute {} at {} in '{}' is not a list of integers.", name,
-                                    object, state_->path));
+    std::vector<std::int64_t> values;
+    read_attribute(object, name, "a list of integers", [&](const Attribute& a) {
+        values.assign(a.count > 0 ? std::size_t(a.count) : 0, 0);
+        return !values.empty() && H5Aread(a.id, H5T_NATIVE_INT64, values.data()) >= 0;
+    });
     return values;
 }
 
@@ -574,7 +618,9 @@ void Hdf5File::attach_scales(const std::string& dataset, const std::vector<std::
     template void Column::append<T>(const T*, std::uint64_t);                         \
     template std::vector<T> Column::read<T>(std::uint64_t, std::uint64_t) const;      \
     template Column Hdf5File::create_column<T>(const std::string&, const Dimensions&, \
-                                               std::uint64_t, int);                   \
+                                               const Dimensions&, Packing, int);      \
+    template void Column::change<T>(std::uint64_t, std::uint64_t, const T*,           \
+                                    std::optional<std::uint64_t>);                    \
     template void Hdf5File::write<T>(const std::string&, const std::vector<T>&, const Dimensions&)
 
 SWIRL_FOR_COLUMNS_OF(double);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,13 @@ template <class T>
 concept ColumnValue = std::same_as<T, double> || std::same_as<T, std::int64_t> ||
     std::same_as<T, std::uint32_t> || std::same_as<T, std::uint8_t>;
 
+/// What lies between the values of a column and its bytes in the file.
+enum class Packing {
+    none,
+    stream,   // a zlib stream that somebody else makes (put_chunk)
+    deflate,  // a byte shuffle and deflate, by the library
+};
+
 class Hdf5File;
 
 /// A dataset. `row` is the shape of one entry along the first dimension.
@@ -37,6 +45,18 @@ class Column {
     /// Adds rows at the end; `count` values of row_shape each.
     template <ColumnValue T>
     void append(const T* values, std::uint64_t count);
+    /// Changes rows that are there; with `component`, only that entry of the last dimension.
+    template <ColumnValue T>
+    void change(std::uint64_t first, std::uint64_t count, const T* values,
+                std::optional<std::uint64_t> component = {});
+    /// Puts a whole chunk into its place as it is to lie in the file, past the library's filters:
+    /// the one that begins at row `first` (and at `component`). `raw`: not compressed, though the
+    /// others may be. Little-endian values, or what the column's deflate filter would make of them.
+    void put_chunk(std::uint64_t first, const void* bytes, std::size_t size, bool raw,
+                   std::optional<std::uint64_t> component = {});
+    /// Of a chunk, rows first.
+    const Dimensions& chunk_shape() const { return chunk_shape_; }
+    Packing packing() const { return packing_; }
     template <ColumnValue T>
     std::vector<T> read(std::uint64_t first, std::uint64_t count) const;
     template <ColumnValue T>
@@ -49,11 +69,13 @@ class Column {
   private:
     friend class Hdf5File;
     struct Handle;
+    struct Selection;
     Column(std::shared_ptr<Handle> handle, std::string name);
     std::shared_ptr<Handle> handle_;
     std::string name_;
     std::uint64_t rows_ = 0;
-    Dimensions row_shape_;
+    Dimensions row_shape_, chunk_shape_;
+    Packing packing_ = Packing::none;
 };
 
 class Hdf5File {
@@ -69,11 +91,11 @@ class Hdf5File {
     bool has(const std::string& name) const;
     std::vector<std::string> names_in(const std::string& group) const;
 
-    /// A column that grows along its first dimension in chunks of `chunk_rows`. `compression`: 0
-    /// none, 1…9 deflate, after a byte shuffle.
+    /// A column that grows along its first dimension in chunks of `chunk_shape`: rows, and for the
+    /// dimensions of a row that it does not name all there is. `level`: of deflate, 1…9.
     template <ColumnValue T>
     Column create_column(const std::string& name, const Dimensions& row_shape,
-                         std::uint64_t chunk_rows, int compression);
+                         const Dimensions& chunk_shape, Packing packing, int level = 1);
     /// A dataset that is written once.
     template <ColumnValue T>
     void write(const std::string& name, const std::vector<T>& values, const Dimensions& shape);
@@ -107,6 +129,9 @@ class Hdf5File {
   private:
     friend class Column;
     struct State;
+    template <class Read>
+    void read_attribute(const std::string& object, const std::string& name, const char* wanted,
+                        Read&& read) const;
     std::shared_ptr<State> state_;
 };
 

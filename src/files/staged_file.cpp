@@ -137,6 +137,12 @@ void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::siz
     if (!write_at(file_, offset, bytes, size))
         throw FileError(
             fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
+#ifdef __linux__
+    // The disk may begin: a flush at the end then finds little left to do.
+    if ((not_yet_sent_ += size) < 8 * 1024 * 1024) return;
+    ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);
+    not_yet_sent_ = 0;
+#endif
 }
 
 void StagedFile::write(std::uint64_t offset, const void* bytes, std::size_t size) {

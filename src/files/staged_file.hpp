@@ -61,6 +61,7 @@ class StagedFile {
     int file_ = -1, journal_ = -1;
     std::uint64_t committed_ = 0, size_ = 0;
     std::map<std::uint64_t, Page> waiting_;  // by page number; all below `committed_`
+    std::uint64_t not_yet_sent_ = 0;         // written, but left to the system's own time
     bool abandoned_ = false;
 };
 

@@ -17,14 +17,18 @@
 //                                        texts: one dataset for each entry of the provenance
 //
 // Units: length = disc radius, mass = disc mass, speed of the container = 1. All columns float64,
-// compressed without loss. `step` is the number of the frame.
+// compressed without loss. `step` is the number of the frame. x, y and z lie in chunks of their
+// own, and those of z are not there at all: HDF5 gives zeros for them.
 //
 // While it is being written the file is called NAME.partial; it gets its name when it is complete.
 // What was written more than a second ago survives a kill: NAME.partial is then a valid file with
 // complete = 0, and --resume carries on with it.
+//
+// A thread of the writer's own compresses and writes; who calls write() only copies a frame, and
+// waits only when three chunks of frames are on their way already. What goes wrong on that thread
+// is thrown by the next call.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -40,8 +44,11 @@ namespace swirl {
 /// Who made a file, from what: name and text, in order ("version", "command", "config", "seed" …).
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
-/// 0: none, fast; 1…9: deflate.
-inline constexpr int default_compression = 1;
+/// 0: none. 1…9: deflate, 1 the quickest. Quick: what repeats from one frame to the next is left
+/// out, and the rest stays as it is (repeat_stream.hpp); deflate to those who read it, as quick as
+/// none to who writes it.
+inline constexpr int quick_compression = -1;
+inline constexpr int default_compression = quick_compression;
 
 class TrajectoryWriter {
   public:
@@ -52,40 +59,23 @@ class TrajectoryWriter {
     /// FileError if it holds fewer.
     static TrajectoryWriter resume(const std::filesystem::path& path, std::uint64_t frames);
 
-    TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
-    TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept = default;
+    /// Unfinished: what was flushed stays.
+    ~TrajectoryWriter();
+    TrajectoryWriter(TrajectoryWriter&&) noexcept;
+    TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
 
     /// Adds a frame; `events`: how many had been executed.
     void write(const Snapshot& snapshot, std::uint64_t events);
-    std::uint64_t frames() const { return frames_; }
+    std::uint64_t frames() const;
     /// Everything written so far survives a kill; `durable`: a power cut too.
     void flush(bool durable = false);
     /// Completes the file and gives it its name.
     void finish();
 
   private:
-    TrajectoryWriter(const std::filesystem::path& path, Hdf5File file);
-    void open_columns();
-    void empty_buffers();
-
-    // Frames gathered here become one write.
-    struct Buffers {
-        std::vector<double> position, velocity, angle, angular_velocity;
-        std::vector<double> time, clock, container_x, container_y, container_vx, container_vy;
-        std::vector<std::int64_t> step, swirls, events;
-    };
-    struct Columns {
-        Column step, time, position, velocity, angle, angular_velocity;
-        Column swirls, clock, events, container_x, container_y, container_vx, container_vy;
-    };
-
-    std::filesystem::path path_;
-    std::unique_ptr<Hdf5File> file_;  // before the columns, which refer to it
-    Columns columns_;
-    Buffers buffers_;
-    std::size_t discs_ = 0;
-    std::uint64_t frames_ = 0, frames_per_chunk_ = 1;
-    std::chrono::steady_clock::time_point last_flush_;
+    class Work;
+    explicit TrajectoryWriter(std::unique_ptr<Work> work);
+    std::unique_ptr<Work> work_;
 };
 
 /// Frames that can be asked for by number: recorded by us, or by a camera.
