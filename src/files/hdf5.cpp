@@ -20,7 +20,18 @@ std::recursive_mutex& library_lock() {
     static std::recursive_mutex lock;
     return lock;
 }
-using Locked = std::lock_guard<std::recursive_mutex>;
+/// The library to oneself. It tells failures to whoever asks, and each thread has to ask it not to
+/// print them: they are ours to tell.
+class Locked {
+  public:
+    explicit Locked(std::recursive_mutex& lock) : guard_(lock) {
+        thread_local const herr_t quiet = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+        (void)quiet;
+    }
+
+  private:
+    const std::lock_guard<std::recursive_mutex> guard_;
+};
 
 // --- HDF5's virtual file driver on top of StagedFile ---------------------------------------------
 
@@ -114,10 +125,7 @@ const H5FD_class_t& driver_class() {
 [[maybe_unused]] const herr_t no_second_try_at_exit = H5dont_atexit();
 
 hid_t driver_id() {
-    static const hid_t id = [] {
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are ours to tell
-        return H5FDregister(&driver_class());
-    }();
+    static const hid_t id = H5FDregister(&driver_class());
     return id;
 }
 

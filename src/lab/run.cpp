@@ -50,7 +50,9 @@ class SampleTimes {
     /// end of a swirl is the beginning of the next, and counts there.
     template <class Look>
     void pass(Snapshot& s, const ContainerPath& path, double clock, Look&& look) {
-        for (double moment; (moment = next_in(s.swirls)) <= clock; ++next_) {
+        if (!due_) due_ = next_in(s.swirls);
+        for (; *due_ <= clock; ++next_, due_ = next_in(s.swirls)) {
+            const double moment = *due_;
             s.clock = moment;
             const Leg& leg = path.leg_at(moment);
             s.container_centre = leg.position_at(moment);
@@ -60,6 +62,7 @@ class SampleTimes {
     }
     void begin_swirl() {
         if (interval_ == 0.0) next_ = 0;
+        due_.reset();
     }
 
     template <class Visitor>
@@ -80,6 +83,7 @@ class SampleTimes {
     int per_period_;
     double period_, interval_;
     std::int64_t next_ = 0;
+    std::optional<double> due_;  // its moment in this swirl, once it has been asked for
 };
 
 /// A trajectory between two events.
