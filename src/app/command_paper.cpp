@@ -26,7 +26,7 @@ void make_movies(const PaperCall& call) {
     settings.out = call.out;
     settings.quick = call.settings.quick;
     settings.seed = call.settings.seed;
-    std::vector<std::filesystem::path> files;
+    PaperMovies made;
     {
         ProgressLine line("movies", call.quiet);
         PaperMoviesControl control;
@@ -34,10 +34,13 @@ void make_movies(const PaperCall& call) {
         control.progress = [&](double fraction, const std::string& name) {
             line.show(fraction, name);
         };
-        files = make_paper_movies(settings, control);
+        made = make_paper_movies(settings, control);
     }
     std::string text;
-    for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
+    if (made.remembered > 0)
+        text = fmt::format("{} of {} movies were there from an earlier call.\n", made.remembered,
+                           made.files.size() - 1);
+    for (const auto& file : made.files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
 }
 

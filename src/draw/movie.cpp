@@ -50,9 +50,11 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
     add({"-i", "pipe:0", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
     switch (format) {
         case MovieFormat::mp4:
-            // Flat drawings gain little from the slower presets.
+            // Flat drawings gain little from the slower presets. What is switched off besides takes
+            // a fifth of this one's time and would make the file a tenth smaller.
             add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", "2",
-                 "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+                 "-x264-params", "subme=1:me=dia:weightp=0:8x8dct=0", "-pix_fmt", "yuv420p",
+                 "-movflags", "+faststart"});
             break;
         case MovieFormat::webm:
             add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used",

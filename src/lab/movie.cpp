@@ -40,7 +40,15 @@ double scale_end(std::vector<double> values) {
         values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
     if (!(*place > 0.0)) return 1.0;
-    return round_step(*place, 1);
+    const double power = std::pow(10.0, std::floor(std::log10(*place)));
+    for (const double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+        if (*place <= step * power * (1.0 + 1e-9)) return step * power;
+    return 10.0 * power;
+}
+
+/// ϖ; of one disc alone its spin, as the paper has it for the minimal model.
+double rotation_of(const Snapshot& s) {
+    return s.size() == 1 ? s.spin[0] : cluster_rotation(s).individual;
 }
 
 /// What a first pass over the swirls finds: curves for the plot, ends of the colour scales.
@@ -58,7 +66,7 @@ struct Survey {
             const double swirls = begin + static_cast<double>(k) / plot_samples;
             if (swirls > end + 1e-9) break;
             const Snapshot s = reel(std::min(swirls, end));
-            const double rotation = cluster_rotation(s).individual / omega;
+            const double rotation = rotation_of(s) / omega;
             curve.time.push_back(swirls);
             curve.raw.push_back(rotation);
             sum += rotation;
@@ -331,7 +339,7 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
             curves.push_back(std::move(curve));
         }
         spec.style.full_spin = scale_end(std::move(survey.spins));
-        spec.style.full_speed = scale_end(std::move(survey.speeds));
+        spec.style.full_speed = appearance.full_speed.value_or(scale_end(std::move(survey.speeds)));
     }
     if (appearance.plot) {
         PlotStyle plot{.from = start,

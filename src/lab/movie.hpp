@@ -20,6 +20,7 @@ namespace swirl {
 struct Appearance {
     std::vector<Frame> frames{Frame::lab};
     Coloring coloring = Coloring::none;
+    std::optional<double> full_speed = {};  // end of the colour scale; else what is seen decides
     bool trails = false;
     double trail_length = 0.3;  // swirls
     bool forces = false;

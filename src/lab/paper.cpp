@@ -14,6 +14,7 @@
 #include "lab/all_cores.hpp"
 #include "lab/failure.hpp"
 #include "lab/measurements.hpp"
+#include "lab/paper_parts.hpp"
 #include "lab/python_script.hpp"
 #include "lab/run_json.hpp"
 #include "lab/version.hpp"
@@ -24,40 +25,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Results that an earlier, interrupted call left in OUT/parts; those of another version do not
-/// count.
-class Parts {
-  public:
-    explicit Parts(const fs::path& out) : folder_(out / "parts") {
-        std::error_code error;
-        fs::create_directories(folder_, error);
-        if (error)
-            throw Failure(fmt::format("The folder '{}' cannot be made: {}.", folder_.string(),
-                                      error.message()));
-    }
-    std::optional<Json> recall(const std::string& key) const {
-        if (key.empty() || !fs::exists(file(key))) return {};
-        const Json part = Json::parse(read_whole_file(file(key)), nullptr, false);
-        const auto says = [&](const char* name, const std::string& text) {
-            return part.contains(name) && part[name] == text;
-        };
-        if (!part.is_object() || !says("key", key) || !says("version", version()) ||
-            !part.contains("result") || !part.contains("seconds") || !part["seconds"].is_number())
-            return {};
-        return part;
-    }
-    Json remember(const std::string& key, const Json& result, double seconds) const {
-        const Json part{
-            {"key", key}, {"version", version()}, {"seconds", seconds}, {"result", result}};
-        write_whole_file(file(key), part.dump() + "\n");
-        return part;
-    }
-
-  private:
-    fs::path file(const std::string& key) const { return folder_ / (key + ".json"); }
-    fs::path folder_;
-};
 
 /// How far all tasks are together, from what each says of itself.
 class StudyProgress {
@@ -155,7 +122,7 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control) {
     const auto begin = std::chrono::steady_clock::now();
-    const Parts parts(settings.out);
+    const PaperParts parts(settings.out);
     PaperResult all;
 
     std::vector<FigurePlan> plans;

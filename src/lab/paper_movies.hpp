@@ -7,6 +7,9 @@
 //
 // The SI calls N = 48 counterrotating also where one friction is missing; what the cluster really
 // does there is measured over the swirls shown and stands on the page.
+//
+// A movie that an earlier call has finished is kept if it would come out the same: same program,
+// same settings, and the file as long as it was (lab/paper_parts.hpp).
 #pragma once
 
 #include <atomic>
@@ -28,8 +31,13 @@ struct PaperMoviesControl {
     std::function<void(double fraction, const std::string& name)> progress;
 };
 
-/// Returns the files, movies.html last. Throws Failure, Interrupted.
-std::vector<std::filesystem::path> make_paper_movies(const PaperMoviesSettings& settings,
-                                                     const PaperMoviesControl& control = {});
+struct PaperMovies {
+    std::vector<std::filesystem::path> files;  // movies.html last
+    std::size_t remembered = 0;                // made by an earlier call
+};
+
+/// Throws Failure, Interrupted.
+PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
+                              const PaperMoviesControl& control = {});
 
 }  // namespace swirl
