@@ -84,7 +84,7 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
     LabelStyle tick{.size = 0.88 * style.type, .color = theme.faint_ink, .align = Align::right};
     const double step =
         round_step(style.highest - style.lowest,
-                   std::max(2, static_cast<int>(inner.height / (1.7 * style.type))));
+                   std::max(3, static_cast<int>(inner.height / (1.7 * style.type))));
     for (double k = std::ceil(style.lowest / step); k * step <= style.highest; k += 1.0) {
         const Vec2 p = place(inner, style, style.from, k * step);
         const bool zero = k == 0.0;
@@ -111,9 +111,6 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
                {inner.x + 0.5 * (inner.width - label_width(canvas, style.time_label, name)),
                 inner.y + inner.height + 2.2 * style.type},
                name);
-    // The name of the quantity stands upright beside its numbers, in the upper left corner.
-    draw_label(canvas, style.vertical_label,
-               {inner.x + 0.5 * style.type, inner.y + 1.35 * style.type}, name);
 }
 
 void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& theme,
@@ -160,6 +157,10 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
                         .halo = theme.floor});
         }
     }
+    // The name of the quantity stands upright in the upper left corner, before all lines.
+    draw_label(canvas, style.vertical_label,
+               {inner.x + 0.5 * style.type, inner.y + 1.35 * style.type},
+               {.size = style.type, .color = theme.ink, .halo = theme.floor});
 }
 
 }  // namespace swirl

@@ -134,25 +134,27 @@ std::optional<Coloring> coloring_named(std::string_view name) {
     return std::nullopt;
 }
 
-void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color) {
+void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color,
+                const std::optional<Color>& rim) {
     const Vec2 along = tip - tail;
     const double length = std::sqrt(dot(along, along));
     const double head = 3.4 * width;
     if (!(length > 0.0) || length < 0.6 * head) return;
     const Vec2 u = (1.0 / length) * along;
-    const Vec2 side = perpendicular(u);
+    const Vec2 side = width * perpendicular(u);
     const Vec2 neck = tip - std::min(head, length) * u;
     cairo_t* cairo = canvas.cairo();
-    canvas.set(color);
-    cairo_set_line_width(cairo, width);
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-    cairo_move_to(cairo, tail.x, tail.y);
-    cairo_line_to(cairo, neck.x + 0.5 * width * u.x, neck.y + 0.5 * width * u.y);
-    cairo_stroke(cairo);
-    cairo_move_to(cairo, tip.x, tip.y);
-    cairo_line_to(cairo, neck.x + 1.5 * width * side.x, neck.y + 1.5 * width * side.y);
-    cairo_line_to(cairo, neck.x - 1.5 * width * side.x, neck.y - 1.5 * width * side.y);
+    for (const Vec2& corner : {tail + 0.5 * side, neck + 0.5 * side, neck + 1.5 * side, tip,
+                               neck - 1.5 * side, neck - 0.5 * side, tail - 0.5 * side})
+        cairo_line_to(cairo, corner.x, corner.y);
     cairo_close_path(cairo);
+    if (rim) {
+        canvas.set(*rim, 0.8);
+        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+        cairo_set_line_width(cairo, 0.7 * width);
+        cairo_stroke_preserve(cairo);
+    }
+    canvas.set(color);
     cairo_fill(cairo);
 }
 
@@ -294,6 +296,14 @@ void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style
         const Snapshot& then = *content.ghosts[k];
         const FrameAt at(then, view.frame);
         const double age = double(k + 1) / double(content.ghosts.size() + 1);
+        // In the lab the dish was elsewhere, too.
+        if (view.frame == Frame::lab) {
+            const double wall = view.pixels_per_unit * then.container_radius;
+            circle(cairo, view.on_page(then.container_centre), wall);
+            cairo_set_line_width(cairo, std::max(0.7, 0.012 * wall));
+            canvas.set(style.theme.wall, 0.1 + 0.3 * age);
+            cairo_stroke(cairo);
+        }
         for (std::size_t i = 0; i < then.size(); ++i) {
             const Color color =
                 then.size() == now.size() ? disc_color(style, content, at, i) : style.theme.disc;
@@ -348,21 +358,22 @@ void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style
     const double omega = full_turn / now.period;
     const Vec2 swirl_centre = at.position({0.0, 0.0});
     const double amplitude = std::sqrt(dot(swirl_centre, swirl_centre));
-    // Both forces on one scale: the largest centrifugal force in the dish is 2.6 radii long.
+    // Both forces on one scale: the largest centrifugal force in the dish is 2 radii long.
     const double largest = omega * omega * (now.container_radius + amplitude);
-    const double length = 2.6 * now.radius[0] * view.pixels_per_unit / largest;
+    const double length = 2.0 * now.radius[0] * view.pixels_per_unit / largest;
     for (std::size_t i : discs) {
         const Vec2 p = at.position(now.position(i));
         const Vec2 v = at.velocity(now.position(i), now.velocity(i));
         const Vec2 centrifugal = (omega * omega) * (p - swirl_centre);
         const Vec2 coriolis = (-2.0 * omega) * perpendicular(v);
         const Vec2 tail = view.on_page(p);
-        const double width = std::max(1.0, 0.13 * view.pixels_per_unit * now.radius[i]);
+        const double width = std::max(1.0, 0.12 * view.pixels_per_unit * now.radius[i]);
         const auto tip = [&](const Vec2& force) {
             return Vec2{tail.x + length * force.x, tail.y - length * force.y};
         };
-        draw_arrow(canvas, tail, tip(centrifugal), width, style.theme.centrifugal);
-        draw_arrow(canvas, tail, tip(coriolis), width, style.theme.coriolis);
+        draw_arrow(canvas, tail, tip(centrifugal), width, style.theme.centrifugal,
+                   style.theme.floor);
+        draw_arrow(canvas, tail, tip(coriolis), width, style.theme.coriolis, style.theme.floor);
     }
 }
 

@@ -88,7 +88,9 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
 void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const SceneContent& content);
 
-/// An arrow from `tail` to `tip`, on the page. Nothing if it is too short to have a head.
-void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color);
+/// An arrow from `tail` to `tip`, on the page; with a rim, it stands out from anything beneath.
+/// Nothing if it is too short to have a head.
+void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color,
+                const std::optional<Color>& rim = std::nullopt);
 
 }  // namespace swirl
