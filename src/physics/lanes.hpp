@@ -179,6 +179,13 @@ SWIRL_INLINE Double8 smaller_of(Double8 a, Double8 b) { return _mm512_min_pd(a, 
 SWIRL_INLINE Double2 smaller_of(Double2 a, Double2 b) { return a < b ? a : b; }
 #endif
 
+template <int W>
+SWIRL_INLINE Lanes<W> smaller(const Lanes<W>& a, const Lanes<W>& b) {
+    Lanes<W> r;
+    for (int p = 0; p < Lanes<W>::parts; ++p) r.part[p] = smaller_of(a.part[p], b.part[p]);
+    return r;
+}
+
 /// The smallest lane (times: no NaN, no −0).
 SWIRL_INLINE double smallest_of(Double2 a) { return smaller(a[0], a[1]); }
 #if SWIRL_REGISTER_BYTES >= 32

@@ -14,10 +14,10 @@
 // or static, and a test looks at the objects.
 #pragma once
 
-#include "physics/collision_law.hpp"
 #include "physics/contact_time.hpp"
 #include "physics/lanes.hpp"
 #include "simulation/event_queue.hpp"
+#include "simulation/execution.hpp"
 #include "simulation/machine.hpp"
 #include "simulation/neighbours.hpp"
 
@@ -28,8 +28,6 @@ struct Prediction {
     double time;
     std::uint32_t partner;
 };
-
-SWIRL_INLINE Flight<double> flight_of(const HotDisc& d) { return {d.position, d.velocity, d.time}; }
 
 /// W discs of a list, side by side.
 template <int W>
@@ -280,11 +278,11 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
 }
 
 [[gnu::noinline]] static Event end_leg(Machine& m) {
-    m.clock = m.legs[m.leg].end;
-    ++m.path_vertex;
-    const Event event{m.swirls, m.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-    if (++m.leg < m.leg_count) {
-        renew_carrier(m, m.carrier.position_at(m.clock), m.clock);
+    const double end = m.legs[m.leg].end;
+    const Vec2 carried = m.carrier.position_at(end);
+    const Event event = take_next_leg(m);
+    if (m.leg != 0) {
+        renew_carrier(m, carried, m.clock);
         if (m.legs[m.leg].turning == 0.0) {
             for (std::uint32_t i = 0; i < m.size; i += 8) renew_eight(m, i, m.clock);
         } else {
@@ -293,19 +291,6 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
         }
         return event;
     }
-    // A new swirl: everybody is brought up to date and all clocks restart, so that times stay
-    // short and precise however long the run.
-    for (std::uint32_t i = 0; i < m.size; ++i) {
-        HotDisc& disc = m.discs[i];
-        m.plan(i).angle = m.plan(i).angle + (m.clock - disc.time) * disc.spin;
-        disc.position = flight_of(disc).position_at(m.clock);
-        disc.time = 0.0;
-        ++disc.changes;
-    }
-    const Vec2 carried = m.carrier.position_at(m.clock);
-    m.leg = 0;
-    m.clock = 0.0;
-    ++m.swirls;
     const Vec2 drift = carried - m.legs[0].start;
     if (m.cells_per_side > 1 && square_root(dot(drift, drift)) * m.cells_per_length > 1.0) {
         // The cells have been carried off the dish.
@@ -321,73 +306,6 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
     }
     predict_all(m, m.clock);
     return event;
-}
-
-/// Brings disc i to time t and gives it its new velocities.
-SWIRL_INLINE void write_back(Machine& m, std::uint32_t i, const Vec2& position, double t,
-                             const Body& body) {
-    HotDisc& disc = m.discs[i];
-    m.plan(i).angle = m.plan(i).angle + (t - disc.time) * disc.spin;
-    const auto store = [](double* to, double a, double b) {
-        *reinterpret_cast<Double2*>(to) = Double2{a, b};
-    };
-    store(&disc.position.x, position.x, position.y);
-    store(&disc.velocity.x, body.velocity.x, body.velocity.y);
-    store(&disc.time, t, disc.radius);
-    disc.spin = body.spin;
-    ++disc.changes;
-}
-
-SWIRL_INLINE Body body_of(const Machine& m, const HotDisc& d) {
-    const DiscKind& kind = m.kinds[d.kind];
-    return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
-}
-
-SWIRL_INLINE Event collide_discs(Machine& m, std::uint32_t a, std::uint32_t b, double t) {
-    if (m.prefetches) prefetch_neighbours(m, b);
-    const std::uint32_t i = a < b ? a : b, j = a < b ? b : a;
-    const Vec2 at_i = flight_of(m.discs[i]).position_at(t);
-    const Vec2 at_j = flight_of(m.discs[j]).position_at(t);
-    Body body_i = body_of(m, m.discs[i]), body_j = body_of(m, m.discs[j]);
-    const Vec2 s = at_j - at_i;
-    const double since_last = t - larger(m.discs[i].time, m.discs[j].time);
-    m.lasting += is_lasting_contact(m.disc_surface, since_last);
-    const Impulse impulse = collide(body_i, body_j, s, at_contact(m.disc_surface, since_last));
-    write_back(m, i, at_i, t, body_i);
-    write_back(m, j, at_j, t, body_j);
-    predict_changed<2>(m, {i, j}, t);
-    ++m.disc_disc;
-    const double distance = square_root(dot(s, s));
-    return {m.swirls,
-            t,
-            EventKind::disc_disc,
-            i,
-            j,
-            {s.x / distance, s.y / distance},
-            impulse,
-            body_i.radius + body_j.radius - distance};
-}
-
-SWIRL_INLINE Event collide_with_wall(Machine& m, std::uint32_t i, double t) {
-    const Leg& leg = m.legs[m.leg];
-    const Vec2 at = flight_of(m.discs[i]).position_at(t);
-    Body body = body_of(m, m.discs[i]), wall = wall_body(leg.velocity_at(t));
-    const Vec2 s = at - leg.position_at(t);
-    const double since_last = t - m.discs[i].time;
-    m.lasting += is_lasting_contact(m.wall_surface, since_last);
-    const Impulse impulse = collide(body, wall, s, at_contact(m.wall_surface, since_last));
-    write_back(m, i, at, t, body);
-    predict_changed<1>(m, {i}, t);
-    ++m.disc_wall;
-    const double distance = square_root(dot(s, s));
-    return {m.swirls,
-            t,
-            EventKind::disc_wall,
-            i,
-            i,
-            {s.x / distance, s.y / distance},
-            impulse,
-            distance - (m.container_radius - body.radius)};
 }
 
 /// Brings the cards in order until the first one is an event that happens, and says when.
@@ -414,8 +332,17 @@ SWIRL_INLINE Event execute(Machine& m, const Next& next) {
     if (next.disc == m.size) return end_leg(m);
     m.clock = next.time;
     const std::uint32_t partner = m.plan(next.disc).partner;
-    if (partner == next.disc) return collide_with_wall(m, partner, next.time);
-    return collide_discs(m, next.disc, partner, next.time);
+    if (partner == next.disc) {
+        const Event event = collide_with_wall(m, partner, next.time);
+        predict_changed<1>(m, {partner}, next.time);
+        return event;
+    }
+    if (m.prefetches) prefetch_neighbours(m, partner);
+    const std::uint32_t i = next.disc < partner ? next.disc : partner;
+    const std::uint32_t j = next.disc < partner ? partner : next.disc;
+    const Event event = collide_discs(m, i, j, next.time);
+    predict_changed<2>(m, {i, j}, next.time);
+    return event;
 }
 
 static Event step(Machine& m) { return execute(m, next_event(m)); }

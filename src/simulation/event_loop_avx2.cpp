@@ -1,5 +1,7 @@
 #include "simulation/event_loop.hpp"
 
+#include "simulation/all_pairs.hpp"
+
 namespace swirl {
-const EventLoop event_loop_avx2{"avx2", start, step, run};
+const EventLoops event_loops_avx2 = event_loops("avx2");
 }  // namespace swirl

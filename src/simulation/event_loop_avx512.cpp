@@ -1,5 +1,7 @@
 #include "simulation/event_loop.hpp"
 
+#include "simulation/all_pairs.hpp"
+
 namespace swirl {
-const EventLoop event_loop_avx512{"avx512", start, step, run};
+const EventLoops event_loops_avx512 = event_loops("avx512");
 }  // namespace swirl

@@ -1,5 +1,7 @@
 #include "simulation/event_loop.hpp"
 
+#include "simulation/all_pairs.hpp"
+
 namespace swirl {
-const EventLoop event_loop_baseline{"baseline", start, step, run};
+const EventLoops event_loops_baseline = event_loops("baseline");
 }  // namespace swirl

@@ -59,6 +59,15 @@ struct Neighbourhood {
 
 inline constexpr std::uint32_t longest_list = 64;
 
+/// The discs of a small dish in columns, for the loop that looks at all of them at once
+/// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
+struct alignas(64) SideBySide {
+    static constexpr std::uint32_t most = 32;
+    double x[most], y[most], vx[most], vy[most], time[most], radius[most];
+    double meeting[most], wall[most];
+    double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
+};
+
 struct Machine {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
     std::uint32_t capacity;  // of a neighbour list; a multiple of 4
@@ -66,6 +75,7 @@ struct Machine {
     HotDisc* discs;
     unsigned char* plans;
     Neighbourhood* neighbourhoods;
+    SideBySide* side_by_side;
     const DiscKind* kinds;
 
     // The tournament (event_queue.hpp).
@@ -112,8 +122,15 @@ struct EventLoop {
     std::uint64_t (*run)(Machine&, std::uint64_t count, std::int64_t swirls, double clock);
 };
 
-extern const EventLoop event_loop_baseline;
-extern const EventLoop event_loop_avx2;
-extern const EventLoop event_loop_avx512;
+/// The loops for one vector width: with neighbour lists (event_loop.hpp), and all pairs for up to 8,
+/// 16, 24 … discs (all_pairs.hpp).
+struct EventLoops {
+    EventLoop lists;
+    EventLoop all_pairs[SideBySide::most / 8];
+};
+
+extern const EventLoops event_loops_baseline;
+extern const EventLoops event_loops_avx2;
+extern const EventLoops event_loops_avx512;
 
 }  // namespace swirl

@@ -15,16 +15,16 @@
 namespace swirl {
 namespace {
 
-const EventLoop& event_loop(Width width) {
+const EventLoops& event_loops(Width width) {
 #if defined(__x86_64__)
     if (width == Width::best)
         width = has_width(Width::avx512) ? Width::avx512
                 : has_width(Width::avx2) ? Width::avx2
                                          : Width::baseline;
-    if (width == Width::avx512) return event_loop_avx512;
-    if (width == Width::avx2) return event_loop_avx2;
+    if (width == Width::avx512) return event_loops_avx512;
+    if (width == Width::avx2) return event_loops_avx2;
 #endif
-    return event_loop_baseline;
+    return event_loops_baseline;
 }
 
 /// Memory for columns, aligned to cache lines.
@@ -83,9 +83,11 @@ struct Simulation::Storage {
 };
 
 Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const Tuning& tuning)
-    : loop(&event_loop(tuning.width)), legs(scene.path.legs) {
+    : loop(&event_loops(tuning.width).lists), legs(scene.path.legs) {
     Machine& m = machine;
     m.size = static_cast<std::uint32_t>(scene.discs.size());
+    const bool all_pairs = tuning.cells_per_side == 0 && m.size <= SideBySide::most;
+    if (all_pairs) loop = &event_loops(tuning.width).all_pairs[(m.size - 1) / 8];
     m.legs = legs.data();
     m.leg_count = static_cast<std::uint32_t>(legs.size());
     m.leg = progress.leg;
@@ -106,12 +108,12 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
         largest = larger(largest, d.radius);
     }
     m.smallest_radius = smallest;
-    m.capacity = list_capacity(largest / smallest);
+    m.capacity = all_pairs ? 0 : list_capacity(largest / smallest);
     m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
     m.longest_freedom = largest;  // until lay_cells
     m.prefetches = m.size > 4000;
     allocate(scene.discs.size());
-    lay_cells(scene, tuning.cells_per_side);
+    if (!all_pairs) lay_cells(scene, tuning.cells_per_side);
     place(scene);
     loop->start(m);
 }
@@ -120,6 +122,10 @@ void Simulation::Storage::allocate(std::size_t size) {
     Machine& m = machine;
     m.discs = columns.add<HotDisc>(size + 1);
     m.plans = columns.add<unsigned char>((size + 1) * m.plan_bytes);
+    if (m.capacity == 0) {
+        m.side_by_side = columns.add<SideBySide>(1);
+        return;
+    }
     m.neighbourhoods = columns.add<Neighbourhood>(size);
     std::size_t entries = size;
     do {
@@ -172,6 +178,15 @@ void Simulation::Storage::place(const Scene& scene) {
     m.kinds = kinds.data();
     const double nowhere = std::numeric_limits<double>::quiet_NaN();
     m.discs[m.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0, 0, 0};
+    if (m.side_by_side == nullptr) return;
+    for (std::uint32_t k = 0; k < SideBySide::most; ++k) {
+        SideBySide& all = *m.side_by_side;
+        const bool somebody = k < m.size;
+        all.x[k] = all.y[k] = somebody ? 0.0 : nowhere;
+        all.radius[k] = somebody ? m.discs[k].radius : 0.0;
+        all.nobody[k] = somebody ? 0.0 : never;
+        all.meeting[k] = all.wall[k] = never;
+    }
 }
 
 Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)

@@ -43,7 +43,9 @@ enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
 
 /// Changes the speed, never a bit.
 struct Tuning {
-    int cells_per_side = 0;  // of the neighbour grid; 0 chooses by the density, 1 is all pairs
+    /// Of the grid in which neighbours are found; 1 is no grid. 0 chooses by the density, and looks
+    /// at all pairs, without neighbour lists, where the discs are few.
+    int cells_per_side = 0;
     Width width = Width::best;
 };
 
