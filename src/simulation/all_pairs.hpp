@@ -269,10 +269,11 @@ constexpr EventLoop loop(const char* width) {
 
 }  // namespace all_pairs
 
-constexpr EventLoops event_loops(const char* width) {
+constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
     return {{width, start, step, run},
             {all_pairs::loop<1>(width), all_pairs::loop<2>(width), all_pairs::loop<3>(width),
-             all_pairs::loop<4>(width)}};
+             all_pairs::loop<4>(width), all_pairs::loop<5>(width)},
+            few};
 }
 
 }  // namespace SWIRL_TARGET

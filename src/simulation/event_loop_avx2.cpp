@@ -3,5 +3,5 @@
 #include "simulation/all_pairs.hpp"
 
 namespace swirl {
-const EventLoops event_loops_avx2 = event_loops("avx2");
+const EventLoops event_loops_avx2 = event_loops("avx2", 32);
 }  // namespace swirl

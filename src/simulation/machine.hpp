@@ -62,7 +62,7 @@ inline constexpr std::uint32_t longest_list = 64;
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
 struct alignas(64) SideBySide {
-    static constexpr std::uint32_t most = 32;
+    static constexpr std::uint32_t most = 40;
     double x[most], y[most], vx[most], vy[most], time[most], radius[most];
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
@@ -122,11 +122,12 @@ struct EventLoop {
     std::uint64_t (*run)(Machine&, std::uint64_t count, std::int64_t swirls, double clock);
 };
 
-/// The loops for one vector width: with neighbour lists (event_loop.hpp), and all pairs for up to 8,
-/// 16, 24 … discs (all_pairs.hpp).
+/// The loops for one vector width: with neighbour lists (event_loop.hpp), and all pairs for up to
+/// 8, 16, 24 … discs (all_pairs.hpp).
 struct EventLoops {
     EventLoop lists;
     EventLoop all_pairs[SideBySide::most / 8];
+    std::uint32_t few;  // up to this many discs, all pairs are the faster (docs/performance.md)
 };
 
 extern const EventLoops event_loops_baseline;

@@ -83,11 +83,12 @@ struct Simulation::Storage {
 };
 
 Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const Tuning& tuning)
-    : loop(&event_loops(tuning.width).lists), legs(scene.path.legs) {
+    : legs(scene.path.legs) {
+    const EventLoops& loops = event_loops(tuning.width);
     Machine& m = machine;
     m.size = static_cast<std::uint32_t>(scene.discs.size());
-    const bool all_pairs = tuning.cells_per_side == 0 && m.size <= SideBySide::most;
-    if (all_pairs) loop = &event_loops(tuning.width).all_pairs[(m.size - 1) / 8];
+    const bool all_pairs = tuning.cells_per_side == 0 && m.size <= loops.few;
+    loop = all_pairs ? &loops.all_pairs[(m.size - 1) / 8] : &loops.lists;
     m.legs = legs.data();
     m.leg_count = static_cast<std::uint32_t>(legs.size());
     m.leg = progress.leg;

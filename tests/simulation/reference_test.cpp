@@ -49,9 +49,18 @@ class EveryWidth : public ::testing::TestWithParam<Width> {
     Tuning tuning(int cells = 0) const { return {cells, GetParam()}; }
 };
 
+// Without a grid (0 cells), a few discs go by all pairs; one cell has neighbour lists.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInThePaperDish) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
         expect_same_trajectory(paper_scene(n), 100000, tuning());
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAtEveryNumberOfVectors) {
+    for (const std::size_t n : {8u, 9u, 16u, 17u, 24u, 25u, 32u, 33u, 40u, 41u})
+        expect_same_trajectory(paper_scene(n), 3000, tuning());
+}
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhereDiscsAreFew) {
+    for (const std::size_t n : {1u, 2u, 5u, 28u})
+        expect_same_trajectory(paper_scene(n), 20000, tuning(1));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
     expect_same_trajectory(paper_scene(40, 0.0, 0.0), 30000, tuning());
@@ -59,17 +68,23 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
     expect_same_trajectory(mixture_scene(), 100000, tuning());
     expect_same_trajectory(mixture_scene(), 30000, tuning(3));
+    expect_same_trajectory(mixture_scene(20), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     Scene scene = paper_scene(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     expect_same_trajectory(scene, 10000, tuning());
+    expect_same_trajectory(scene, 5000, tuning(1));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
     Scene scene = paper_scene(40);
     scene.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     scene.wall_surface = {0.8, 0.8, 0.2, 1e-3};
     expect_same_trajectory(scene, 30000, tuning());
+    // Discs that stay together when they meet may meet again at once.
+    Scene sticky = paper_scene(28);
+    sticky.disc_surface = sticky.wall_surface = {1.0, 0.0, 0.0, 0.05};
+    expect_same_trajectory(sticky, 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
     expect_same_trajectory(gas_scene(200, 0.6), 8000, tuning());

@@ -13,8 +13,8 @@ LIBRARIES = os.environ["SWIRL_LIBRARIES"]
 
 # Library, member: the symbols (demangled) that it may define.
 ALLOWED = {
-    ("libswirl_simulation.a", "event_loop_avx2.cpp.o"): ["swirl::event_loop_avx2"],
-    ("libswirl_simulation.a", "event_loop_avx512.cpp.o"): ["swirl::event_loop_avx512"],
+    ("libswirl_simulation.a", "event_loop_avx2.cpp.o"): ["swirl::event_loops_avx2"],
+    ("libswirl_simulation.a", "event_loop_avx512.cpp.o"): ["swirl::event_loops_avx512"],
     ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::rotation_sums"],
     ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::rotation_sums"],
 }

@@ -2,6 +2,6 @@
 #include "simulation/machine.hpp"
 
 namespace swirl {
-const EventLoop event_loop_avx2{};
-const EventLoop event_loop_avx512{};
+const EventLoops event_loops_avx2{};
+const EventLoops event_loops_avx512{};
 }  // namespace swirl
