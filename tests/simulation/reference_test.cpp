@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "simulation/plain_grid.hpp"
 #include "simulation/scenes.hpp"
 
 namespace swirl {
@@ -16,8 +17,9 @@ namespace {
 }
 
 /// Runs both and compares every event's time, partners and impulse, and all discs at the end.
+template <class Plain = ReferenceLoop>
 void expect_same_trajectory(const Scene& scene, int events, const Tuning& tuning) {
-    ReferenceLoop plain(scene);
+    Plain plain(scene);
     Simulation engine(scene, {}, tuning);
     for (int k = 0; k < events; ++k) {
         const Event expected = plain.step(), found = engine.step();
@@ -89,6 +91,45 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
     expect_same_trajectory(gas_scene(200, 0.6), 8000, tuning());
     expect_same_trajectory(gas_scene(200, 0.05), 4000, tuning());
+}
+
+// Many discs, against a second plain loop that has cells and a queue (plain_grid.hpp); that one
+// against the first, where that is possible.
+TEST(PlainGrid, IsTheReferenceBitForBit) {
+    const Scene scene = paper_scene(48);
+    ReferenceLoop all_pairs(scene);
+    PlainGrid grid(scene);
+    for (int k = 0; k < 20000; ++k) {
+        const Event expected = all_pairs.step(), found = grid.step();
+        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+        ASSERT_EQ(expected.i, found.i) << "event " << k;
+        ASSERT_EQ(expected.j, found.j) << "event " << k;
+    }
+}
+Scene large_dish(std::size_t n) {
+    const double scale = square_root(static_cast<double>(n) / 48.0);
+    return scene_of({unit_disc()}, n, scale * paper_container_radius,
+                    polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides), 1.0,
+                    1.0);
+}
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInADenseGas) {
+    if (sanitized) GTEST_SKIP() << "two hundred thousand events";
+    expect_same_trajectory<PlainGrid>(gas_scene(10000, 0.7), 200000, tuning());
+}
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinGas) {
+    expect_same_trajectory<PlainGrid>(gas_scene(2000, 0.2), 20000, tuning());
+}
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
+    if (sanitized) GTEST_SKIP() << "a million events";
+    expect_same_trajectory<PlainGrid>(large_dish(10000), 200000, tuning());
+}
+TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfTenThousand) {
+    if (sanitized) GTEST_SKIP() << "a million events";
+    expect_same_trajectory<PlainGrid>(gas_scene(10000, 0.7), 1000000, {});
+}
+TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfAHundredThousand) {
+    if (sanitized) GTEST_SKIP() << "a million events";
+    expect_same_trajectory<PlainGrid>(large_dish(100000), 1000000, {});
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryWidth,
