@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -88,23 +89,27 @@ int Ffmpeg::end() {
     return status;
 }
 
-std::string Ffmpeg::last_words() const {
+std::string Ffmpeg::said() const {
     std::array<char, 4096> text{};
-    const off_t size = ::lseek(complaints_, 0, SEEK_END);
-    const off_t from =
-        size > static_cast<off_t>(text.size()) ? size - static_cast<off_t>(text.size()) : 0;
-    const ssize_t count = ::pread(complaints_, text.data(), text.size(), from);
-    std::string words(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-    while (!words.empty() && (words.back() == '\n' || words.back() == '\r')) words.pop_back();
-    const std::size_t line = words.rfind('\n');
-    return line == std::string::npos ? words : words.substr(line + 1);
+    const ssize_t count = ::pread(complaints_, text.data(), text.size(), 0);
+    return std::string(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+}
+
+std::string Ffmpeg::complaint() const {
+    std::string line = said();
+    line.resize(std::min(line.find_first_of("\r\n"), line.size()));
+    // "[libx264 @ 0x5581…] " tells nobody anything.
+    const std::size_t end = line.find("] ");
+    if (line.starts_with('[') && line.find(" @ 0x") < end && end != line.npos)
+        line.erase(0, end + 2);
+    return line;
 }
 
 std::string Ffmpeg::how_it_ended(int status) const {
     const std::string how = WIFSIGNALED(status)
                                 ? "was killed by signal " + std::to_string(WTERMSIG(status))
                                 : "ended with code " + std::to_string(WEXITSTATUS(status));
-    const std::string words = last_words();
+    const std::string words = complaint();
     return words.empty() ? how + "." : how + " and said: " + words;
 }
 

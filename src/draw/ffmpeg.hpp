@@ -25,8 +25,10 @@ class Ffmpeg {
     int socket() const { return socket_; }
     /// Closes our end, waits for its end, and gives its status as waitpid() does.
     int end();
-    /// The last line it said.
-    std::string last_words() const;
+    /// What it said, from the beginning.
+    std::string said() const;
+    /// The first line of that: the cause; consequences follow.
+    std::string complaint() const;
     /// "ended with code 1 and said: …", to complete a sentence.
     std::string how_it_ended(int status) const;
 

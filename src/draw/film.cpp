@@ -88,7 +88,7 @@ std::shared_ptr<const Image> Film::decode(std::int64_t number) {
     }
     while (next_ <= number) {
         if (!read_picture()) {
-            const std::string words = ffmpeg_->last_words();
+            const std::string words = ffmpeg_->complaint();
             throw DrawFailure("The camera's picture " + std::to_string(next_) + " in " + pattern_ +
                               " cannot be read" + (words.empty() ? "." : ": " + words));
         }

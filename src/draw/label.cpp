@@ -111,7 +111,14 @@ void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle
                   Visit&& visit) {
     for (const Run& run : runs) {
         const double advance = advance_of(cairo, run, style);
-        visit(run, x);
+        double left = x;
+        if (style.even_digits && is_digit(run)) {
+            // Narrow digits in the middle of their place.
+            cairo_text_extents_t own;
+            cairo_text_extents(cairo, run.text.c_str(), &own);
+            left += 0.5 * (advance - own.x_advance);
+        }
+        visit(run, left);
         x += advance;
     }
 }

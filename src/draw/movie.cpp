@@ -153,7 +153,7 @@ void MovieWriter::finish() {
     const int status = ffmpeg_->end();
     const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     // ffmpeg has been seen to end with code 0 after it could not write everything.
-    const bool complained = ffmpeg_->last_words().find("No space left") != std::string::npos;
+    const bool complained = ffmpeg_->said().find("No space left") != std::string::npos;
     if (!well || complained) fail(status);
     finished_ = true;
     if (std::rename(aside_.c_str(), path_.c_str()) == 0) return;

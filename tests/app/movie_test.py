@@ -1,6 +1,8 @@
 """swirl movie, tried from outside."""
 
 import os
+import re
+import shlex
 import signal
 import struct
 import subprocess
@@ -9,6 +11,19 @@ import time
 import unittest
 
 SWIRL = os.environ["SWIRL"]
+SOURCE = os.environ["SWIRL_SOURCE"]
+
+
+def documented_calls():
+    """The words of every `swirl movie` and `swirl picture` in the documents that needs no file."""
+    for name in ("README.md", "docs/pictures.md"):
+        with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
+            text = file.read().replace("\\\n", " ")
+        for line in text.splitlines():
+            if line.startswith(("./swirl movie ", "./swirl picture ")):
+                words = shlex.split(line, comments=True)[1:]
+                if not words[1].endswith((".h5", ".csv")):
+                    yield words
 
 
 def swirl(*arguments, **more):
@@ -85,6 +100,51 @@ class MovieTest(unittest.TestCase):
         names = sorted(os.listdir(self.path("frames")))
         self.assertEqual(names, [f"frame-{k:06d}.png" for k in (1, 2, 3)])
         self.assertEqual(png_size(self.path("frames/frame-000001.png")), (65, 33))
+
+    def test_tiny_and_huge_movies_in_both_themes(self):
+        for size, theme, more in (("16x16", "light", ["--frame", "both", "--plot", "--trails"]),
+                                  ("16x4096", "dark", ["--frame", "m", "--forces", "--plot"]),
+                                  ("3840x2160", "light", ["--frame", "both", "--color", "speed"])):
+            out = self.path("x.mp4")
+            result = swirl("--discs", "12", "--seconds", "0.1", "--fps", "20", "--start", "1",
+                           "--size", size, "--theme", theme, "--out", out, *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(probe(out, "stream=width,height,nb_read_frames"),
+                             size.replace("x", ",") + ",2")
+
+    def test_what_the_documents_call_works(self):
+        calls = list(documented_calls())
+        self.assertGreater(len(calls), 8)
+        for words in calls:
+            if "docs/swirl.gif" in words:
+                continue
+            words = [os.path.basename(w) if "/" in w else w for w in words]
+            for name, value in (("--size", "160x90"), ("--seconds", "0.1"), ("--start", "1")):
+                if name not in words and not (words[0] == "picture" and name != "--size"):
+                    words += [name, value]
+            with self.subTest(" ".join(words)):
+                result = subprocess.run([SWIRL, *words], capture_output=True, text=True,
+                                        timeout=120, cwd=self.folder)
+                self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_the_looping_picture_of_the_readme_comes_from_the_listed_call(self):
+        call, = [words for words in documented_calls() if "docs/swirl.gif" in words]
+        call[call.index("docs/swirl.gif")] = self.path("swirl.gif")
+        result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
+            self.assertIn("](docs/swirl.gif)", file.read())
+        entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
+        made = self.path("swirl.gif")
+        kept = os.path.join(SOURCE, "docs", "swirl.gif")
+        self.assertEqual(probe(made, entries), "gif,480,300,20/1,80")
+        self.assertEqual(probe(kept, entries), probe(made, entries))
+        self.assertLess(max(os.path.getsize(made), os.path.getsize(kept)), 1.5e6)
+        # Fonts and versions of cairo may differ, discs may not: the two look the same.
+        seen = subprocess.run(["ffmpeg", "-v", "info", "-i", made, "-i", kept, "-lavfi", "psnr",
+                               "-f", "null", "-"], capture_output=True, text=True, check=True).stderr
+        found = re.search(r"PSNR.* min:(\S+)", seen)
+        self.assertGreater(float(found.group(1)), 25.0, "make docs/swirl.gif anew, as listed")
 
     def test_without_ffmpeg_it_says_how_to_get_it(self):
         result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),

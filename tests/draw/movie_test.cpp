@@ -176,6 +176,22 @@ TEST_F(Movie, AnFfmpegThatFailsAtTheEndIsAClearError) {
     EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
 }
 
+TEST_F(Movie, AFullDiskIsAClearErrorAndLeavesNoFile) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    for (const std::string ending : {"mp4", "webm", "gif"}) {
+        const std::string file = path("x.") + ending;
+        fs::create_symlink("/dev/full", file + ".partial");
+        try {
+            make(file, {64, 48}, 25, 20);
+            FAIL() << "it was written: " << ending;
+        } catch (const DrawFailure& failure) {
+            EXPECT_NE(std::string(failure.what()).find("No space left"), std::string::npos)
+                << failure.what();
+        }
+        EXPECT_TRUE(fs::is_empty(folder_)) << ending;
+    }
+}
+
 TEST_F(Movie, AFolderThatIsNotThereIsAClearError) {
     EXPECT_THROW(make(path("no/such/x.mp4"), {64, 48}, 30, 3), DrawFailure);
 }
