@@ -49,7 +49,7 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand) {
     subcommand.add_flag("--trails", texts->trails, "draw where the discs come from")->group(group);
     subcommand
         .add_option("--trail-length", texts->trail_length,
-                    "how far trails reach back, in swirls [0.3]")
+                    "draw them, reaching back so many swirls [0.3]")
         ->type_name("SWIRLS")
         ->group(group);
     subcommand
@@ -88,12 +88,14 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
         throw WrongCall(fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
     look.theme = *theme;
     look.size = texts.size.empty() ? otherwise : size_from(texts.size);
-    if (!(texts.trail_length > 0.0) || texts.trail_length > 100.0)
-        throw WrongCall(
-            fmt::format("--trail-length is {}, but it must be above 0 and at most 100 swirls.",
-                        texts.trail_length));
-    look.trail_length = texts.trail_length;
-    look.trails = texts.trails;
+    if (texts.trail_length) {
+        if (!(*texts.trail_length > 0.0) || *texts.trail_length > 100.0)
+            throw WrongCall(
+                fmt::format("--trail-length is {}, but it must be above 0 and at most 100 swirls.",
+                            *texts.trail_length));
+        look.trail_length = *texts.trail_length;
+    }
+    look.trails = texts.trails || texts.trail_length;
     look.forces = texts.forces;
     look.plot = texts.plot;
     look.turned = texts.turned;

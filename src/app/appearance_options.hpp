@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "lab/movie.hpp"
@@ -13,7 +14,7 @@ namespace swirl {
 /// As given; appearance() reads it.
 struct AppearanceTexts {
     std::string frame, color = "none", theme = "dark", title, size;
-    double trail_length = 0.3;
+    std::optional<double> trail_length;
     bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
 };
 

@@ -59,6 +59,17 @@ std::string in_words(const CLI::App& app, const CLI::ParseError& error) {
             return option + " is given more than once, but it must be given once." + help;
         return option + " needs a value after it." + help;
     }
+    if (dynamic_cast<const CLI::ConversionError*>(&error)) {
+        // "Could not convert: --fps = 59.94"
+        const std::string what = error.what();
+        const std::size_t colon = what.find(": "), equals = what.find(" = ");
+        if (colon < equals && equals != what.npos) {
+            const std::string value = what.substr(equals + 3);
+            return what.substr(colon + 2, equals - colon - 2) + " is '" + value +
+                   "', but it must be a " +
+                   (swirl::read_number(value) ? "whole number." : "number.") + help;
+        }
+    }
     return std::string(error.what()) + "." + help;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -28,6 +29,7 @@ std::string first_bytes(const std::string& file) {
     if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
     std::string bytes(8, '\0');
     stream.read(bytes.data(), 8);
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;
 }
 
@@ -55,7 +57,14 @@ bool is_trajectory(const std::string& file) {
 }
 
 Tracks read_tracks(const std::string& file) {
-    return first_bytes(file).starts_with("ITEM:") ? read_lammps_dump(file) : read_trackpy_csv(file);
+    const std::string begin = first_bytes(file);
+    if (begin.starts_with("ITEM:")) return read_lammps_dump(file);
+    if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
+        throw Failure(fmt::format(
+            "'{}' is neither a trajectory of swirl (HDF5), nor a table of trackpy (CSV), nor a "
+            "LAMMPS text dump.",
+            file));
+    return read_trackpy_csv(file);
 }
 
 TrackScale track_scale(const TrackTexts& texts, const std::string& fps, const std::string& file) {
