@@ -59,25 +59,37 @@ std::string measured_text(const nlohmann::ordered_json& measured) {
     return text;
 }
 
-/// With nothing but a checkpoint to go on, it says what run it is.
-void take_parameters_from_checkpoint(const RunCall& call) {
+/// With nothing but a checkpoint to go on, it says what run it is, and what its call asked for.
+void take_call_from_checkpoint(const RunCall& call,
+                               const std::map<std::string, std::string*>& others) {
     const auto checkpoint = call.recording->texts.find("checkpoint");
     if (!call.recording->resume || checkpoint == call.recording->texts.end() ||
         !call.parameters->empty())
         return;
-    *call.parameters = parameters_in(
-        nlohmann::ordered_json::parse(configuration_in_checkpoint(checkpoint->second)));
+    const KeptCall kept = call_in_checkpoint(checkpoint->second);
+    *call.parameters = parameters_in(nlohmann::ordered_json::parse(kept.configuration));
+    for (const auto& [name, text] : kept.options) {
+        const auto other = others.find(name);
+        if (other == others.end())
+            call.recording->texts.try_emplace(name, text);
+        else if (other->second->empty())
+            *other->second = text;
+    }
 }
 
 void run_and_report(RunCall& call) {
     if (call.measure == "help") return print_all(measurement_list_text());
-    const std::map<std::string, std::string*> others{{"json", &call.json}};
+    const std::map<std::string, std::string*> others{
+        {"json", &call.json}, {"measure", &call.measure}, {"tables", &call.tables}};
     const std::string config_text = take_config_file(*call.recording, *call.parameters, others);
-    take_parameters_from_checkpoint(call);
+    take_call_from_checkpoint(call, others);
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
     RunMeasurements measurements(config, measurements_of(call));
     RunFiles files = run_files(*call.recording, config, call.json);
+    files.call = call.recording->texts;
+    for (const auto& [name, text] : others)
+        if (!text->empty()) files.call[name] = *text;
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
     if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));

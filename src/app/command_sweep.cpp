@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <map>
 
 #include "app/commands.hpp"
 #include "app/output.hpp"
@@ -13,6 +14,7 @@
 #include "files/file_error.hpp"
 #include "files/whole_file.hpp"
 #include "lab/failure.hpp"
+#include "lab/measurements.hpp"
 #include "lab/slurm.hpp"
 #include "lab/sweep.hpp"
 
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, seeds, part, threads, nodes, cpus;
+    std::string config_file, out, seeds, measure, frames, part, threads, nodes, cpus;
     SlurmJob job;
     bool status = false, slurm = false, rest = false, dry_run = false, quiet = false;
 };
@@ -44,7 +46,10 @@ void take_config_file(SweepCall& call) {
         throw WrongCall(fmt::format(
             "There is no plan '{}'; lists can be given as options too, as in --discs 5:48.",
             call.config_file));
-    std::vector<std::string> names{"seeds"};
+    const std::map<std::string, std::string*> others{
+        {"seeds", &call.seeds}, {"measure", &call.measure}, {"frames", &call.frames}};
+    std::vector<std::string> names;
+    for (const auto& [name, target] : others) names.push_back(name);
     for (const RunParameter& p : run_parameters()) names.push_back(p.name);
     Config config;
     try {
@@ -68,17 +73,19 @@ void take_config_file(SweepCall& call) {
             if (!text.empty()) text += ',';
             text += value;
         }
-        if (name != "seeds")
+        const auto other = others.find(name);
+        if (other == others.end())
             call.parameters->try_emplace(name, text);
-        else if (call.seeds.empty())
-            call.seeds = text;
+        else if (other->second->empty())
+            *other->second = text;
     }
 }
 
 SweepPlan plan_of(SweepCall& call) {
     if (!call.config_file.empty()) take_config_file(call);
     // Without a plan: the one that is there.
-    if (call.parameters->empty() && call.seeds.empty()) {
+    if (call.parameters->empty() && call.seeds.empty() && call.measure.empty() &&
+        call.frames.empty()) {
         std::error_code ignored;
         if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
             throw WrongCall(
@@ -86,7 +93,10 @@ SweepPlan plan_of(SweepCall& call) {
                 "5:48 --mu 0.1,0.5,1.");
         return read_plan(call.out);
     }
-    return make_plan(*call.parameters, whole("seeds", call.seeds, 1, 1'000'000));
+    SweepPlan plan = make_plan(*call.parameters, whole("seeds", call.seeds, 1, 1'000'000));
+    if (!call.measure.empty()) plan.measure = read_measurement_list(call.measure);
+    plan.frames = static_cast<int>(whole("frames", call.frames, 0, 1'000'000));
+    return plan;
 }
 
 SweepShare share_of(const SweepCall& call) {
@@ -149,6 +159,9 @@ void sweep(SweepCall& call) {
             for (const std::string& value : axis.values) text += " " + value;
             text += "\n";
         }
+        if (!plan.measure.empty())
+            text += fmt::format("  measure: {}\n", fmt::join(plan.measure, " "));
+        if (plan.frames > 0) text += fmt::format("  frames per swirl: {}\n", plan.frames);
         return print_all(text + fmt::format("  replicas: {}\n", plan.replicas));
     }
     make_folder(call.out);
@@ -191,6 +204,9 @@ void add_sweep_command(CLI::App& subcommand) {
         ->required();
     text("--seeds", call->seeds, "N", "replicas of each point, with seeds of their own [1]",
          sweep_group);
+    text("--measure", call->measure, "LIST", "as for swirl run: slip,pinned,… or all", sweep_group);
+    text("--frames", call->frames, "N",
+         "record every run, N frames per swirl, in DIR/trajectories [no recording]", sweep_group);
     text("--threads", call->threads, "N", "runs at the same time [one for each core]", sweep_group);
     subcommand.add_flag("--status", call->status, "only say what is done, running, failed")
         ->group(sweep_group);

@@ -8,10 +8,10 @@
 //     clock      f64   time since the start of the current swirl
 //     kind       u8    0 disc–disc, 1 disc–wall, 2 path vertex
 //     i, j       u32   the discs, i < j; j = i for the wall; both 0 at a path vertex
-//     normal_x, normal_y               f64  unit vector from i to j, or from i outwards to the wall
-//     normal_impulse                   f64  on j (on the wall) along the normal; i gets the
-//     opposite tangential_impulse               f64  on j along (normal_y, −normal_x) sticks     u8
-//     1: the contact's slip was stopped, 0: it slid
+//     normal_x, normal_y f64  unit vector from i to j, or from i outwards to the wall
+//     normal_impulse     f64  on j (on the wall) along the normal; i gets the opposite
+//     tangential_impulse f64  on j along (normal_y, −normal_x)
+//     sticks     u8    1: the contact's slip was stopped, 0: it slid
 //   /parameters  attributes: period, swirl_end, container_radius, complete; texts: provenance
 //
 // Replaying. A disc moves uniformly between its events, from the state it got at its last one:

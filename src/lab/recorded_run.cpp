@@ -163,7 +163,8 @@ class Recorder {
         state(run_state);
         for (const Gatherer& gatherer : gatherers_) gatherer.keep(state);
         const Json about{{"version", version()},
-                         {"identity", identity(config_, files_, gatherers_)}};
+                         {"identity", identity(config_, files_, gatherers_)},
+                         {"call", files_.call}};
         write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
         last_kept_ = Clock::now();
     }
@@ -191,8 +192,10 @@ void forget_checkpoint(const RunFiles& files) {
     if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
 }
 
-std::string configuration_in_checkpoint(const std::filesystem::path& checkpoint) {
-    return Json::parse(read_checkpoint(checkpoint).about).at("identity").at("parameters").dump();
+KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
+    const Json about = Json::parse(read_checkpoint(checkpoint).about);
+    return {about.at("identity").at("parameters").dump(),
+            about.value("call", ParameterTexts())};
 }
 
 Provenance provenance_of(const RunConfig& config, const std::string& command,
@@ -203,7 +206,7 @@ Provenance provenance_of(const RunConfig& config, const std::string& command,
             {"config", config_text},
             {"parameters", config_json(config).dump()},
             {"seed", fmt::format("{}", config.seed)},
-            {"generator", "SplitMix64"}};
+            {"generator", random_generator}};
 }
 
 }  // namespace swirl

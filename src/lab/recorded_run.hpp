@@ -12,6 +12,7 @@
 #include "files/state_archive.hpp"
 #include "files/trajectory.hpp"
 #include "lab/run.hpp"
+#include "lab/run_parameters.hpp"
 
 namespace swirl {
 
@@ -34,6 +35,8 @@ struct RunFiles {
     bool checkpoint_needed = true;
     std::function<void(const std::string&)> complain;
     bool resume = false;  // from the checkpoint, if it is there
+    /// Options and what was given, kept in the checkpoint for who resumes with nothing else.
+    ParameterTexts call;
 };
 
 /// Something that gathers while the run goes on, and must be kept with it. `name` says what; a run
@@ -44,8 +47,12 @@ struct Gatherer {
     std::function<void(StateReader&)> resume;
 };
 
-/// What a checkpoint says about the run it belongs to: the text of config_json().
-std::string configuration_in_checkpoint(const std::filesystem::path& checkpoint);
+/// What a checkpoint says about the run it belongs to.
+struct KeptCall {
+    std::string configuration;  // the text of config_json()
+    ParameterTexts options;     // RunFiles::call
+};
+KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 
 /// Throws FileError, or WrongCall if the checkpoint belongs to another run. The files get their
 /// names when the run is complete; the checkpoint stays until forget_checkpoint(), so that nothing

@@ -113,7 +113,8 @@ Json result_json(const RunResult& r) {
             {"events_per_second", r.events_per_second()},
             {"warnings", warnings(r)},
             {"version", version()},
-            {"build", build_description()}};
+            {"build", build_description()},
+            {"generator", random_generator}};
 }
 
 }  // namespace swirl

@@ -20,6 +20,7 @@
 #include "files/whole_file.hpp"
 #include "lab/all_cores.hpp"
 #include "lab/failure.hpp"
+#include "lab/measurements.hpp"
 #include "lab/recorded_run.hpp"
 #include "lab/run_json.hpp"
 #include "lab/version.hpp"
@@ -95,7 +96,20 @@ class Claim {
 Json plan_json(const SweepPlan& plan) {
     Json axes = Json::object();
     for (const SweepAxis& axis : plan.axes) axes[axis.name] = axis.values;
-    return {{"format", result_format}, {"axes", axes}, {"replicas", plan.replicas}};
+    Json json{{"format", result_format}, {"axes", axes}, {"replicas", plan.replicas}};
+    if (!plan.measure.empty()) json["measure"] = plan.measure;
+    if (plan.frames > 0) json["frames"] = plan.frames;
+    return json;
+}
+
+/// The call that does one point by itself: what `swirl verify` and a reader need.
+std::string command_of(const SweepPlan& plan, const RunConfig& config) {
+    std::string command = "swirl run";
+    for (const auto& [name, value] : parameters_in(config_json(config)))
+        command += fmt::format(" --{} {}", name, value);
+    if (!plan.measure.empty())
+        command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
+    return command;
 }
 
 std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
@@ -207,6 +221,10 @@ class SweepWork {
         RunFiles files;
         files.checkpoint = folder_ / "checkpoints" / (number_of(point) + ".checkpoint");
         files.resume = true;
+        if (plan_.frames > 0)
+            files.trajectory = folder_ / "trajectories" / (number_of(point) + ".h5");
+        files.frames.per_swirl = std::max(plan_.frames, 1);
+        RunMeasurements measurements(config, plan_.measure);
         RunControl run_control;
         run_control.stop = control_.stop;
         double counted = 0.0;
@@ -216,12 +234,18 @@ class SweepWork {
             counted = p.fraction;
             counted_events = p.events;
         };
-        const RunResult result = run_recorded(config, files, run_control, {});
+        measurements.attach_to(run_control);
+        const std::string command = command_of(plan_, config);
+        const RunResult result =
+            run_recorded(config, files, run_control, provenance_of(config, command, plan_text_),
+                         measurements.gatherers());
         if (!result.complete) return false;
         count(1.0 - counted, result.events.total() - counted_events);
 
         Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
         json.update(result_json(result));
+        json["command"] = command;
+        if (!plan_.measure.empty()) json["measured"] = measurements.results();
         writer_.write(number_of(point) + ".json", json.dump() + "\n",
                       [files, claim] { forget_checkpoint(files); });
         const std::lock_guard lock(mutex_);
@@ -238,6 +262,7 @@ class SweepWork {
 
     const fs::path folder_;
     const SweepPlan& plan_;
+    const std::string plan_text_ = plan_json(plan_).dump();
     const SweepShare share_;
     const SweepControl& control_;
     ResultWriter writer_;
@@ -251,8 +276,19 @@ constexpr const char* estimators[] = {"by_event", "by_time", "rigid_by_event", "
 
 struct PointResult {
     bool there = false;
-    double mean[4], error[4], energy, periods;
+    /// The four estimators of the rotation, then the numbers that were measured.
+    std::vector<std::pair<std::string, Estimate>> quantities;
+    double energy = 0.0, periods = 0.0;
     std::string state_hash;
+
+    /// The quantity of this name; nearly always it is the one in this place.
+    Estimate quantity(std::size_t place, const std::string& name) const {
+        if (place < quantities.size() && quantities[place].first == name)
+            return quantities[place].second;
+        for (const auto& [other, estimate] : quantities)
+            if (other == name) return estimate;
+        return {.mean = not_known, .error = not_known};
+    }
 };
 
 PointResult read_result(const fs::path& file) {
@@ -272,11 +308,14 @@ PointResult read_result(const fs::path& file) {
         return value.is_number() ? value.get<double>() : not_known;
     };
     try {
-        for (int k = 0; k < 4; ++k) {
-            const Json& estimate = json.at("rotation").at(estimators[k]);
-            result.mean[k] = number(estimate.at("mean"));
-            result.error[k] = number(estimate.at("error"));
+        for (const char* name : estimators) {
+            const Json& found = json.at("rotation").at(name);
+            result.quantities.emplace_back(name, Estimate{.mean = number(found.at("mean")),
+                                                          .error = number(found.at("error"))});
         }
+        if (const auto measured = json.find("measured"); measured != json.end())
+            for (auto& quantity : measured_numbers(*measured))
+                result.quantities.push_back(std::move(quantity));
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
         result.state_hash = json.at("state_hash").get<std::string>();
@@ -287,6 +326,22 @@ PointResult read_result(const fs::path& file) {
                         file.string()));
     }
     return result;
+}
+
+Table::Cell cell_of(const std::string& text) {
+    if (const auto whole = read_whole_number(text)) return *whole;
+    if (const auto number = read_number(text)) return *number;
+    return text;
+}
+
+/// Mean and standard error over replicas; a single one has the error from its blocks.
+Estimate over_replicas(const std::vector<Estimate>& found) {
+    if (found.size() == 1) return found.front();
+    const auto n = static_cast<double>(found.size());
+    double mean = 0.0, squares = 0.0;
+    for (const Estimate& e : found) mean += e.mean / n;
+    for (const Estimate& e : found) squares += (e.mean - mean) * (e.mean - mean);
+    return {.mean = mean, .error = std::sqrt(squares / (n * (n - 1.0)))};
 }
 
 }  // namespace
@@ -379,6 +434,8 @@ SweepPlan read_plan(const fs::path& folder) {
         for (const auto& [name, values] : json.at("axes").items())
             plan.axes.push_back({name, values.get<std::vector<std::string>>()});
         plan.replicas = json.at("replicas").get<std::int64_t>();
+        plan.measure = json.value("measure", std::vector<std::string>());
+        plan.frames = json.value("frames", 0);
         for (const SweepAxis& axis : plan.axes)
             if (axis.values.empty()) throw FileError("");
         if (plan.replicas < 1) throw FileError("");
@@ -390,7 +447,9 @@ SweepPlan read_plan(const fs::path& folder) {
 
 void write_plan(const fs::path& folder, const SweepPlan& plan) {
     std::error_code error;
-    for (const char* part : {"results", "running", "failures", "checkpoints"})
+    std::vector<const char*> parts{"results", "running", "failures", "checkpoints"};
+    if (plan.frames > 0) parts.push_back("trajectories");
+    for (const char* part : parts)
         if (fs::create_directories(folder / part, error); error)
             throw Failure(fmt::format("The folder '{}' cannot be made: {}.",
                                       (folder / part).string(), error.message()));
@@ -438,12 +497,17 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
             if (done[p]) results[p] = read_result(result_file(folder, p));
     });
 
-    std::vector<std::string> columns;
+    std::vector<std::string> columns, quantities(std::begin(estimators), std::end(estimators));
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
     columns.insert(columns.end(), {"replicas", "periods", "energy"});
-    for (const char* name : estimators) {
+    if (const auto some = std::find_if(results.begin(), results.end(),
+                                       [](const PointResult& r) { return r.there; });
+        some != results.end())
+        for (std::size_t k = quantities.size(); k < some->quantities.size(); ++k)
+            quantities.push_back(some->quantities[k].first);
+    for (const std::string& name : quantities) {
         columns.push_back(name);
-        columns.push_back(std::string(name) + "_error");
+        columns.push_back(name + "_error");
     }
     columns.push_back("state_hash");
     Table table(columns);
@@ -457,15 +521,7 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         if (there.empty()) continue;
         std::vector<Table::Cell> row;
         const ParameterTexts texts = plan.parameters(first);
-        for (const SweepAxis& axis : plan.axes) {
-            const std::string& text = texts.at(axis.name);
-            if (const auto whole = read_whole_number(text))
-                row.emplace_back(*whole);
-            else if (const auto number = read_number(text))
-                row.emplace_back(*number);
-            else
-                row.emplace_back(text);
-        }
+        for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
         double periods = 0.0, energy = 0.0;
         std::string hashes;
         for (const PointResult* r : there) {
@@ -476,13 +532,12 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         row.emplace_back(std::int64_t(there.size()));
         row.emplace_back(periods);
         row.emplace_back(energy);
-        for (int k = 0; k < 4; ++k) {
-            double mean = 0.0, squares = 0.0;
-            for (const PointResult* r : there) mean += r->mean[k] / n;
-            for (const PointResult* r : there) squares += (r->mean[k] - mean) * (r->mean[k] - mean);
-            row.emplace_back(mean);
-            row.emplace_back(there.size() == 1 ? there[0]->error[k]
-                                               : std::sqrt(squares / (n * (n - 1.0))));
+        for (std::size_t k = 0; k < quantities.size(); ++k) {
+            std::vector<Estimate> found;
+            for (const PointResult* r : there) found.push_back(r->quantity(k, quantities[k]));
+            const Estimate together = over_replicas(found);
+            row.emplace_back(together.mean);
+            row.emplace_back(together.error);
         }
         row.emplace_back(there.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes)));
         table.add(std::move(row));

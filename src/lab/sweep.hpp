@@ -5,6 +5,7 @@
 //     DIR/running/000012       somebody works on it: locked by that process as long as it lives
 //     DIR/failures/000012.txt  why it could not be done; tried again by the next call
 //     DIR/checkpoints/         of points that take longer than a minute
+//     DIR/trajectories/000012.h5  frames, if the plan asks for them
 //
 // So any number of processes, on any number of machines that share the folder, may work on it, be
 // killed, and start again. A point done twice gives the same bytes but for the time it took.
@@ -37,6 +38,8 @@ struct SweepAxis {
 struct SweepPlan {
     std::vector<SweepAxis> axes;  // every parameter that was given, in order
     std::int64_t replicas = 1;
+    std::vector<std::string> measure;  // measurements of every run (measurements.hpp)
+    int frames = 0;                    // per swirl, of the trajectory of every run; 0: none
 
     std::size_t points() const;
     /// The parameters of a point, without its seed.
@@ -88,8 +91,9 @@ SweepOutcome run_sweep(const std::filesystem::path& folder, const SweepPlan& pla
                        const SweepShare& share, const SweepControl& control);
 
 /// One row for each combination of parameters: mean over the replicas that are done, and its
-/// standard error (over the replicas; for a single one, from its blocks). The same bytes whoever
-/// did the work. Throws FileError for a result that is damaged or of another version.
+/// standard error (over the replicas; for a single one, from its blocks), of the rotation and of
+/// every number that was measured. The same bytes whoever did the work. Throws FileError for a
+/// result that is damaged or of another version.
 Table collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
 }  // namespace swirl

@@ -10,4 +10,7 @@ std::string version();
 /// Compiler, its version, and the flags that decide about the numbers.
 std::string build_description();
 
+/// What makes random numbers out of a seed (simulation/random.hpp).
+inline constexpr const char* random_generator = "SplitMix64";
+
 }  // namespace swirl

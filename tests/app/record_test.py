@@ -11,8 +11,8 @@ import unittest
 
 from program import SWIRL, InFolder, swirl
 
-RUN = ["run", "--discs", "24", "--events", "300000", "--warmup", "5", "--seed", "3", "--frames", "40",
-       "--checkpoint-every", "0.02", "--compression", "0", "--measure", "radial,pinned"]
+RUN = ["run", "--discs", "24", "--events", "100000", "--warmup", "5", "--seed", "3", "--frames", "120",
+       "--checkpoint-every", "0.01", "--compression", "0", "--measure", "radial,pinned"]
 
 
 def without_time(file):
@@ -36,32 +36,34 @@ class Recorded(InFolder):
         self.assertEqual(sorted(os.listdir(self.path("whole"))), ["e.h5", "r.json", "t.h5"])
         return without_time(self.path("whole/r.json"))
 
-    def data_of(self, file):
-        """What an HDF5 file holds, whatever the order of its bytes."""
+    def data_of(self, *files):
+        """What HDF5 files hold, whatever the order of their bytes: a text for each."""
         dump = subprocess.run(["/usr/bin/python3", "-c", """
 import h5py, hashlib, sys
-f = h5py.File(sys.argv[1], 'r')
-def show(name, x):
-    if isinstance(x, h5py.Dataset) and name != 'parameters/command':
-        print(name, x.shape, hashlib.sha256(x[()].tobytes() if x.shape else bytes(x[()])).hexdigest())
-f.visititems(show)
-print(sorted(f['parameters'].attrs.items()))
-""", file], capture_output=True, text=True)
+for file in sys.argv[1:]:
+    f = h5py.File(file, 'r')
+    text = []
+    def show(name, x):
+        if isinstance(x, h5py.Dataset) and name != 'parameters/command':
+            data = x[()].tobytes() if x.shape else bytes(x[()])
+            text.append(f'{name} {x.shape} {hashlib.sha256(data).hexdigest()}')
+    f.visititems(show)
+    print(text, sorted(f['parameters'].attrs.items()))
+""", *files], capture_output=True, text=True)
         if "No module named 'h5py'" in dump.stderr:
             self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
         self.assertEqual(dump.returncode, 0, dump.stderr)
-        return dump.stdout
+        return dump.stdout.splitlines()
 
-    def kill_until_done(self, folder, kills, seed):
+    def kill_until_done(self, folder, kills, choose, longest):
         """Kills at random moments, resumes each time; the number of kills that hit."""
-        choose = random.Random(seed)
         hits = 0
         for attempt in range(1000):
             process = subprocess.Popen([SWIRL, *self.arguments(folder)], stdout=subprocess.DEVNULL,
                                        stderr=subprocess.PIPE, text=True)
             try:
                 complaint = process.communicate(
-                    timeout=choose.uniform(0.03, 0.4) if hits < kills else 100)[1]
+                    timeout=choose.uniform(0.001, longest) if hits < kills else 100)[1]
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
@@ -74,65 +76,154 @@ print(sorted(f['parameters'].attrs.items()))
             return hits
         self.fail("never done")
 
-    def killed_and_resumed(self, kills, seed):
+    def test_killed_at_fifty_random_moments_and_resumed_it_ends_with_the_same_bits(self):
+        begin = time.monotonic()
         whole = self.reference()
-        wanted = [self.data_of(self.path("whole/" + name)) for name in ("t.h5", "e.h5")]
-        hits = 0
-        for round_ in range(20):
-            folder = self.path(f"killed{round_}")
-            hits += self.kill_until_done(folder, kills - hits, seed + round_)
+        # From before it has begun to when it is nearly done, however fast the machine is.
+        longest = 0.9 * (time.monotonic() - begin)
+        wanted = self.data_of(self.path("whole/t.h5"), self.path("whole/e.h5"))
+        choose = random.Random(1)
+        hits, folders = 0, []
+        while hits < 50:
+            folder = self.path(f"killed{len(folders)}")
+            folders.append(folder)
+            hits += self.kill_until_done(folder, 50 - hits, choose, longest)
             self.assertEqual(without_time(os.path.join(folder, "r.json")), whole)
-            for name, data in zip(("t.h5", "e.h5"), wanted):
-                self.assertEqual(self.data_of(os.path.join(folder, name)), data)
             left = [f for f in os.listdir(folder) if not f.endswith(".partial")]
             self.assertEqual(sorted(left), ["e.h5", "r.json", "t.h5"])
-            if hits >= kills:
-                return
-        self.assertGreater(hits, 0)
+        found = self.data_of(*(f"{folder}/{name}" for folder in folders for name in ("t.h5", "e.h5")))
+        self.assertEqual(found, wanted * len(folders))
 
-    def test_killed_at_random_moments_and_resumed_it_ends_with_the_same_bits(self):
-        self.killed_and_resumed(kills=6, seed=1)
-
-    @unittest.skipUnless(os.environ.get("SWIRL_SLOW"), "minutes; with SWIRL_SLOW=1")
-    def test_fifty_kills(self):
-        self.killed_and_resumed(kills=50, seed=100)
+    def stopped_at_its_first_checkpoint(self, arguments, folder, how):
+        """Starts a run and sends it a signal once there is a checkpoint; code, what it said."""
+        process = subprocess.Popen([SWIRL, *arguments], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        checkpoint = os.path.join(folder, "r.json.checkpoint")
+        while process.poll() is None and not os.path.exists(checkpoint):
+            time.sleep(0.001)
+        process.send_signal(how)
+        complaint = process.communicate(timeout=60)[1]
+        return process.returncode, complaint
 
     def test_ctrl_c_and_resume(self):
         whole = self.reference()
-        process = subprocess.Popen([SWIRL, *self.arguments(self.path("f"))],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.1)
-        process.send_signal(signal.SIGTERM)
-        complaint = process.communicate(timeout=60)[1]
-        if process.returncode == 130:
-            self.assertIn("--resume goes on", complaint)
-            self.assertFalse(os.path.exists(self.path("f/t.h5")))
-            # The checkpoint alone says which run it is.
-            self.assertEqual(swirl(*self.arguments(self.path("f"))).returncode, 0)
-        self.assertEqual(without_time(self.path("f/r.json")), whole)
+        for attempt in range(30):  # on a busy machine the run may be over before the signal comes
+            folder = self.path(f"f{attempt}")
+            code, complaint = self.stopped_at_its_first_checkpoint(
+                self.arguments(folder), folder, signal.SIGINT if attempt % 2 else signal.SIGTERM)
+            if code != 0:
+                break
+        self.assertEqual(code, 130, complaint)
+        self.assertIn("--resume goes on", complaint)
+        self.assertFalse(os.path.exists(folder + "/t.h5"))
+        # The checkpoint alone says which run it is, and what was asked for.
+        done = swirl("run", "--checkpoint", folder + "/r.json.checkpoint", "--resume", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(without_time(folder + "/r.json"), whole)
+        self.assertEqual(sorted(os.listdir(folder)), ["e.h5", "r.json", "t.h5"])
 
     def test_a_damaged_checkpoint_is_refused(self):
         folder = self.path("f")
-        swirl(*self.arguments(folder), "--periods", 1)
-        process = subprocess.Popen([SWIRL, *self.arguments(folder)], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
+        arguments = [a if a != "100000" else "1e9" for a in self.arguments(folder)]
+        self.stopped_at_its_first_checkpoint(arguments, folder, signal.SIGKILL)
         checkpoint = os.path.join(folder, "r.json.checkpoint")
-        for _ in range(2000):
-            if os.path.exists(checkpoint):
-                break
-            time.sleep(0.005)
-        process.kill()
-        process.wait()
-        if not os.path.exists(checkpoint):
-            self.skipTest("the run was over before it could be killed")
         with open(checkpoint, "r+b") as opened:
             opened.seek(700)
             byte = opened.read(1)
             opened.seek(700)
             opened.write(bytes([byte[0] ^ 1]))
-        done = swirl(*self.arguments(folder))
+        done = swirl(*arguments)
         self.assertEqual(done.returncode, 1)
         self.assertIn("is damaged", done.stderr)
+
+
+class Clock(InFolder):
+    """The time of day may jump, as it does when a clock is set: nothing here may go by it."""
+
+    JUMPS = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <sys/time.h>
+#include <time.h>
+static long jump(void) { static long calls; return ++calls % 2 ? 100000 : -100000; }
+int clock_gettime(clockid_t clock, struct timespec* t) {
+    static int (*real)(clockid_t, struct timespec*);
+    if (!real) real = (int (*)(clockid_t, struct timespec*))dlsym(RTLD_NEXT, "clock_gettime");
+    const int result = real(clock, t);
+    if (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE) t->tv_sec += jump();
+    return result;
+}
+int gettimeofday(struct timeval* t, void* zone) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    t->tv_sec = now.tv_sec;
+    t->tv_usec = now.tv_nsec / 1000;
+    return 0;
+}
+time_t time(time_t* to) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    if (to) *to = now.tv_sec;
+    return now.tv_sec;
+}
+"""
+
+    def jumping(self):
+        """An environment in which the time of day goes a day forwards and back at every look."""
+        with open(self.path("jumps.c"), "w") as source:
+            source.write(self.JUMPS)
+        compiled = subprocess.run(["gcc", "-shared", "-fPIC", "-O1", "-o", self.path("jumps.so"),
+                                   self.path("jumps.c"), "-ldl"], capture_output=True, text=True)
+        self.assertEqual(compiled.returncode, 0, compiled.stderr)
+        environment = {"LD_PRELOAD": self.path("jumps.so")}
+        seen = subprocess.run(["/usr/bin/python3", "-c",
+                               "import time; print(abs(time.time() - time.time()) > 1e5)"],
+                              env={**os.environ, **environment}, capture_output=True, text=True)
+        self.assertEqual(seen.stdout, "True\n", "the clock does not jump: " + seen.stderr)
+        return environment
+
+    def test_a_run_and_its_checkpoints_do_not_notice(self):
+        environment = self.jumping()
+        folder = self.path("f")
+        os.mkdir(folder)
+        arguments = [*RUN, "--trajectory", folder + "/t.h5", "--json", folder + "/r.json", "--quiet"]
+        whole = swirl(*arguments)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        calm = without_time(folder + "/r.json")
+        # Killed when its first checkpoint is there: they do come, and are good for resuming.
+        long = [a if a != "100000" else "2e6" for a in arguments]
+        process = subprocess.Popen([SWIRL, *long], env={**os.environ, **environment},
+                                   stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while not os.path.exists(folder + "/r.json.checkpoint"):
+            self.assertIsNone(process.poll(), "the run was over without a checkpoint")
+            self.assertLess(time.monotonic(), deadline, "no checkpoint within a minute")
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        os.remove(folder + "/r.json.checkpoint")
+        again = swirl(*arguments, environment=environment)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(without_time(folder + "/r.json"), calm)
+        with open(folder + "/r.json") as opened:
+            self.assertTrue(0 < json.load(opened)["seconds"] < 100)
+
+    def test_a_sweep_does_not_notice_nor_does_it_go_by_the_dates_of_files(self):
+        environment = self.jumping()
+        plan = ["sweep", "--discs", "5:10", "--events", "3000", "--quiet", "--out"]
+        self.assertEqual(swirl(*plan, self.path("calm")).returncode, 0)
+        self.assertEqual(swirl(*plan, self.path("a"), "--part", "1/2",
+                               environment=environment).returncode, 0)
+        for k, name in enumerate(sorted(os.listdir(self.path("a/results")))):
+            date = (0, 4e9)[k % 2]  # 1970, 2096
+            os.utime(self.path("a/results/" + name), (date, date))
+        os.utime(self.path("a/plan.json"), (4e9, 4e9))
+        done = swirl(*plan, self.path("a"), environment=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("6 of 6 runs done", swirl("sweep", "--out", self.path("a"), "--status").stdout)
+        tables = [swirl("collect", self.path(name), "--csv", "-").stdout for name in ("a", "calm")]
+        self.assertEqual(tables[0], tables[1])
+        self.assertEqual(len(tables[0].splitlines()), 7)
 
 
 class Disk(InFolder):
@@ -169,30 +260,118 @@ class Disk(InFolder):
         self.assertEqual(without_time(roomy + "/r.json"), without_time(whole + "/r.json"))
         self.assertEqual(swirl("verify", roomy + "/t.h5").returncode, 0)
 
-    def test_full_while_writing_a_result(self):
-        disk = self.small_disk("64k")
+    def fill(self, disk):
         with open(disk + "/filler", "wb", buffering=0) as filler:
             try:
                 while filler.write(bytes(4096)):
                     pass
             except OSError:
                 pass
+
+    def test_full_while_writing_a_checkpoint_the_one_before_is_whole(self):
+        disk = self.small_disk("256k")
+        arguments = ["run", "--discs", "24", "--events", "1e7", "--checkpoint-every", "0.02",
+                     "--checkpoint", disk + "/c", "--quiet"]
+        process = subprocess.Popen([SWIRL, *arguments], stderr=subprocess.PIPE, text=True)
+        while not os.path.exists(disk + "/c"):
+            self.assertIsNone(process.poll(), "over without a checkpoint")
+            time.sleep(0.001)
+        self.fill(disk)
+        complaint = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, complaint)
+        self.assertIn("No space left on device", complaint)
+        self.assertEqual(complaint.count("\n"), 1)
+        self.assertEqual(sorted(os.listdir(disk)), ["c", "filler"])
+        # The one before is good: with room again the run goes on from it.
+        os.remove(disk + "/filler")
+        process = subprocess.Popen([SWIRL, *arguments, "--resume"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGTERM)
+        complaint = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, complaint)
+        self.assertIn("--resume goes on", complaint)
+
+    def test_full_while_a_sweep_writes_results_what_is_done_is_done(self):
+        disk = self.small_disk("256k")
+        plan = ["sweep", "--discs", "5:30", "--seeds", "20", "--events", "3000", "--quiet", "--out"]
+        done = swirl(*plan, disk + "/s")  # 520 results of 4 kB
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("No space left on device", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        there = [name for name in os.listdir(disk + "/s/results") if name.endswith(".json")]
+        for name in there:
+            with open(f"{disk}/s/results/{name}") as opened:
+                json.load(opened)
+        roomy = self.path("roomy")
+        shutil.copytree(disk + "/s", roomy)
+        self.assertEqual(swirl(*plan, roomy).returncode, 0)
+        self.assertEqual(swirl(*plan, self.path("whole")).returncode, 0)
+        tables = [swirl("collect", self.path(name), "--csv", "-").stdout for name in
+                  ("roomy", "whole")]
+        self.assertEqual(tables[0], tables[1])
+
+    def test_full_while_writing_a_result(self):
+        disk = self.small_disk("64k")
+        self.fill(disk)
         done = swirl("run", "--discs", 5, "--events", 100, "--json", disk + "/r.json", "--quiet")
         self.assertEqual(done.returncode, 1)
         self.assertIn("No space left on device", done.stderr)
         self.assertEqual(os.listdir(disk), ["filler"])
 
+    def disturbed(self, arguments, what, **more):
+        """Something happens to a run, or a sweep, that would take for ever; what it says then."""
+        process = subprocess.Popen([SWIRL, *arguments, "--quiet"], stderr=subprocess.PIPE, text=True,
+                                   **more)
+        time.sleep(0.3)
+        self.assertIsNone(process.poll())
+        what()
+        complaint = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, complaint)
+        self.assertEqual(complaint.count("\n"), 1, complaint)
+        return complaint
+
     def test_a_folder_that_vanishes_is_an_error_and_no_crash(self):
         folder = self.path("f")
+        run = ["run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.1",
+               "--checkpoint", folder + "/c"]
+        for more in ([], ["--trajectory", folder + "/t.h5"]):
+            os.mkdir(folder)
+            self.assertIn("No such file or directory",
+                          self.disturbed(run + more, lambda: shutil.rmtree(folder)))
+        sweep = ["sweep", "--discs", "5:48", "--seeds", "1000", "--events", "10000", "--out", folder]
+
+        def vanish():
+            while os.path.exists(folder):
+                shutil.rmtree(folder, ignore_errors=True)  # while it is being written to
+
+        self.assertIn("No such file or directory", self.disturbed(sweep, vanish))
+
+    def test_a_folder_that_turns_read_only_is_an_error_and_no_crash(self):
+        if os.geteuid() != 0:
+            self.skipTest("becoming somebody who may not write everywhere needs root")
+        nobody = 65534
+        os.chmod(self.folder, 0o755)
+        try:
+            subprocess.run([SWIRL, "--version"], user=nobody, capture_output=True)
+        except PermissionError:
+            self.skipTest("nobody else may run the program where it lies")
+        folder = self.path("f")
         os.mkdir(folder)
-        process = subprocess.Popen(
-            [SWIRL, "run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.3",
-             "--checkpoint", folder + "/c", "--quiet"], stderr=subprocess.PIPE, text=True)
-        time.sleep(0.1)
-        shutil.rmtree(folder)
-        complaint = process.communicate(timeout=60)[1]
-        self.assertEqual(process.returncode, 1)
-        self.assertIn("No such file or directory", complaint)
+        os.chown(folder, nobody, -1)
+
+        def lock_all():
+            for entered, _, _ in os.walk(folder):
+                os.chmod(entered, 0o555)
+
+        run = ["run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.1",
+               "--checkpoint", folder + "/c"]
+        self.assertIn("Permission denied", self.disturbed(run, lock_all, user=nobody))
+        self.assertEqual(os.listdir(folder), ["c"])  # the last good one
+        os.chmod(folder, 0o755)
+        sweep = ["sweep", "--discs", "5:48", "--seeds", "1000", "--events", "10000", "--out",
+                 folder + "/s"]
+        self.assertIn("Permission denied", self.disturbed(sweep, lock_all, user=nobody))
 
     def test_a_folder_that_is_read_only_is_an_error_before_the_run(self):
         # /proc takes no files, even from root.

@@ -44,29 +44,69 @@ class Sweep(InFolder):
                                "--quiet").returncode, 0)
         self.assertEqual(self.table(self.path("a")), table)
 
-    def test_killed_at_random_moments_and_started_again_it_does_what_is_missing(self):
+    def test_killed_at_fifty_random_moments_and_started_again_it_does_what_is_missing(self):
+        begin = time.monotonic()
         table = self.whole()
+        # From before it has begun to when it is nearly done, however fast the machine is.
+        longest = 0.5 * (time.monotonic() - begin)
         choose = random.Random(5)
-        hits = 0
-        for _ in range(200):
-            process = subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],
-                                       stderr=subprocess.DEVNULL)
-            try:
-                process.wait(timeout=choose.uniform(0.02, 0.5) if hits < 10 else 100)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-                hits += 1
-                for name in os.listdir(self.path("a/results")) if os.path.isdir(
-                        self.path("a/results")) else []:
-                    if name.endswith(".json"):
-                        with open(self.path("a/results/" + name)) as result:
-                            json.load(result)
-                continue
-            break
-        self.assertEqual(process.returncode, 0)
-        self.assertEqual(self.table(self.path("a")), table)
-        self.assertEqual(len(os.listdir(self.path("a/results"))), POINTS)  # no leftovers
+        hits, folders = 0, []
+        while hits < 50:
+            folder = self.path(f"killed{len(folders)}")
+            folders.append(folder)
+            for _ in range(1000):
+                process = subprocess.Popen([SWIRL, *PLAN, "--out", folder],
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                try:
+                    complaint = process.communicate(
+                        timeout=choose.uniform(0.001, longest) if hits < 50 else 100)[1]
+                    break
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    process.communicate()
+                    hits += 1
+                if os.path.isdir(folder + "/results"):
+                    for name in os.listdir(folder + "/results"):
+                        if name.endswith(".json"):
+                            with open(f"{folder}/results/{name}") as result:
+                                json.load(result)
+            self.assertEqual(process.returncode, 0, complaint)
+            self.assertEqual(len(os.listdir(folder + "/results")), POINTS)  # no leftovers
+            self.assertEqual(self.table(folder), table)
+
+    def test_measurements_and_recordings_come_along(self):
+        plan = ["sweep", "--discs", "8,20", "--seeds", "2", "--events", "20000", "--measure",
+                "slip,radial", "--frames", "4", "--quiet", "--out", self.path("a")]
+        self.assertEqual(swirl(*plan).returncode, 0)
+        with open(self.path("a/results/000003.json")) as opened:
+            result = json.load(opened)
+        self.assertEqual(result["generator"], "SplitMix64")
+        # The command in a result is that of the result.
+        alone = swirl(*result["command"].split()[1:], "--json", "-", "--quiet")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        alone = json.loads(alone.stdout)
+        for part in ("state_hash", "rotation", "measured", "config"):
+            self.assertEqual(alone[part], result[part])
+        rows = [line.split(",") for line in self.table(self.path("a")).splitlines()]
+        column = rows[0].index("slip.cluster")
+        self.assertEqual(rows[0][column + 1], "slip.cluster_error")
+        slips = []
+        for point in (2, 3):
+            with open(self.path(f"a/results/{point:06}.json")) as opened:
+                slips.append(json.load(opened)["measured"]["slip"]["cluster"]["mean"])
+        self.assertAlmostEqual(float(rows[2][column]), sum(slips) / 2, delta=1e-12)
+        self.assertAlmostEqual(float(rows[2][column + 1]), abs(slips[0] - slips[1]) / 2, delta=1e-12)
+        self.assertEqual(sorted(os.listdir(self.path("a/trajectories"))),
+                         [f"{point:06}.h5" for point in range(4)])
+        done = swirl("verify", self.path("a/trajectories/000003.h5"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # The folder knows what its plan asks for.
+        os.remove(self.path("a/results/000003.json"))
+        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
+        self.assertEqual([line.split(",") for line in self.table(self.path("a")).splitlines()], rows)
+        done = swirl(*[word.replace("slip,radial", "slip") for word in plan])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds another sweep", done.stderr)
 
     def test_two_at_once_on_one_folder(self):
         table = self.whole()

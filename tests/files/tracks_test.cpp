@@ -1,0 +1,208 @@
+#include "files/tracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "files/file_error.hpp"
+#include "files/scratch.hpp"
+
+namespace swirl {
+namespace {
+
+Tracks tracks_in(const std::string& text) {
+    const Scratch scratch;
+    write_quickly(scratch / "tracks.csv", text);
+    return read_trackpy_csv(scratch / "tracks.csv");
+}
+Tracks dump_in(const std::string& text) {
+    const Scratch scratch;
+    write_quickly(scratch / "a.dump", text);
+    return read_lammps_dump(scratch / "a.dump");
+}
+template <class Read>
+std::string refusal(Read read, const std::string& text) {
+    try {
+        read(text);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// One frame of one disc at (x, y) pixels.
+Snapshot seen(double x, double y, const TrackScale& scale, int frame = 0) {
+    const std::string text = "frame,particle,x,y\n" + std::to_string(frame) + ",0," +
+                             std::to_string(x) + "," + std::to_string(y) + "\n";
+    return series_of(tracks_in(text), scale).frame(0);
+}
+
+TEST(TrackpyTable, ReadsColumnsInAnyOrderAmongOthersAndRowsInAnyOrder) {
+    const Tracks tracks = tracks_in(
+        "mass,y,x,frame,particle,ep\n"
+        "9,20.5,10,1.0,7,\n"
+        "9,4,3,0,7,\n"
+        "9,2,1,0,3,\n"
+        "9,8,7,1,3,nan\r\n"
+        "\n");
+    ASSERT_EQ(tracks.frames.size(), 2u);
+    EXPECT_TRUE(tracks.y_down);
+    EXPECT_EQ(tracks.filled, 0u);
+    for (const auto& frame : tracks.frames) EXPECT_EQ(frame.id, (std::vector<std::int64_t>{3, 7}));
+    EXPECT_EQ(tracks.frames[0].number, 0);
+    EXPECT_EQ(tracks.frames[1].number, 1);
+    EXPECT_EQ(tracks.frames[0].position[1].x, 3.0);
+    EXPECT_EQ(tracks.frames[1].position[1].y, 20.5);
+    EXPECT_EQ(tracks.frames[1].position[0].x, 7.0);
+}
+
+TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
+    const auto refused = [](const std::string& text) { return refusal(tracks_in, text); };
+    const std::string head = "frame,particle,x,y\n";
+    EXPECT_NE(refused("").find("a header line with frame, particle, x, y"), std::string::npos);
+    EXPECT_NE(refused(head).find("holds no positions"), std::string::npos);
+    for (const char* missing : {"particle,x,y\n0,1,2\n", "frame,x,y\n0,1,2\n",
+                                "frame,particle,y\n0,0,1\n", "frame;particle;x;y\n0;0;1;2\n"})
+        EXPECT_NE(refused(missing).find("line 1: the header must name the columns"),
+                  std::string::npos)
+            << missing;
+    EXPECT_NE(refused(head + "0,0,1,2\n0,1,nan,2\n").find("line 3: 'nan' is not a finite number"),
+              std::string::npos);
+    EXPECT_NE(refused(head + "0,0,,2\n").find("line 2: '' is not a finite number"),
+              std::string::npos);
+    EXPECT_NE(refused(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
+    EXPECT_NE(refused(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"), std::string::npos);
+    EXPECT_NE(refused(head + "0,0,1\n").find("line 2: 3 values, but the header names 4 columns"),
+              std::string::npos);
+    EXPECT_NE(refused(head + "0,5,1,2\n1,5,1,2\n0,5,1,2\n")
+                  .find("line 4: particle 5 appears twice "
+                        "in frame 0"),
+              std::string::npos);
+}
+
+TEST(TrackpyTable, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
+    // Missing in frames 1 … 5; and then in six frames.
+    const Tracks tracks = tracks_in("frame,particle,x,y\n0,0,0,12\n6,0,6,0\n13,0,0,0\n");
+    EXPECT_EQ(tracks.filled, 5u);
+    ASSERT_EQ(tracks.frames.size(), 8u);
+    for (int k = 0; k <= 6; ++k) {
+        EXPECT_EQ(tracks.frames[std::size_t(k)].number, k);
+        // Thirds and sixths: one rounding.
+        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].x, k, 1e-14);
+        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].y, 12 - 2 * k, 1e-14);
+    }
+    EXPECT_EQ(tracks.frames[7].number, 13);
+}
+
+TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
+    TrackScale scale;
+    scale.pixels_per_radius = 20.0;
+    scale.swirl_centre = {500.0, 400.0};
+    const Snapshot s = seen(540.0, 370.0, scale);
+    EXPECT_EQ(s.position(0).x, 2.0);
+    EXPECT_EQ(s.position(0).y, 1.5);
+    EXPECT_TRUE(std::isnan(s.spin[0]));
+    scale.clockwise = true;  // mirrored, so that the swirl runs counter-clockwise
+    EXPECT_EQ(seen(540.0, 370.0, scale).position(0).x, -2.0);
+    EXPECT_EQ(seen(540.0, 370.0, scale).position(0).y, 1.5);
+}
+
+TEST(TrackScale, FramesPerTimeAndThePeriodGiveTheClock) {
+    TrackScale scale;
+    scale.frames_per_time = 10.0;
+    scale.period = 4.0;
+    const Snapshot s = seen(0.0, 0.0, scale, 93);  // at time 9.3
+    EXPECT_EQ(s.swirls, 2);
+    EXPECT_DOUBLE_EQ(s.clock, 1.3);
+    EXPECT_EQ(s.period, 4.0);
+}
+
+TEST(TrackScale, TheContainerIsWhereTheSwirlPutsIt) {
+    TrackScale scale;
+    scale.frames_per_time = 8.0;
+    scale.period = 1.0;
+    scale.amplitude = 3.0;
+    scale.phase = pi / 2.0;
+    scale.container_radius = 8.5;
+    // A quarter of a period after having been at the top: to the left, moving down.
+    const Snapshot s = seen(0.0, 0.0, scale, 2);
+    EXPECT_EQ(s.container_radius, 8.5);
+    EXPECT_NEAR(s.container_centre.x, -3.0, 1e-14);
+    EXPECT_NEAR(s.container_centre.y, 0.0, 1e-14);
+    EXPECT_NEAR(s.container_velocity.x, 0.0, 1e-13);
+    EXPECT_NEAR(s.container_velocity.y, -3.0 * 2.0 * pi, 1e-13);
+}
+
+TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
+    TrackScale scale;
+    scale.frames_per_time = 2.0;
+    scale.pixels_per_radius = 10.0;
+    const auto series = series_of(
+        tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,10,-20\n2,0,40,-20\n2,1,5,5\n"), scale);
+    ASSERT_EQ(series.frames, 3u);
+    EXPECT_FALSE(series.same_discs);
+    EXPECT_EQ(series.frame(0).vx[0], 2.0);
+    EXPECT_EQ(series.frame(0).vy[0], 4.0);  // up
+    EXPECT_EQ(series.frame(1).vx[0], 4.0);
+    EXPECT_EQ(series.frame(1).vy[0], 2.0);
+    EXPECT_EQ(series.frame(2).vx[0], 6.0);
+    EXPECT_EQ(series.frame(2).vx[1], 0.0);  // seen once only
+}
+
+// (ΩΔt)²/6 is what a central difference misses of a circular motion.
+TEST(TrackScale, TheVelocityOfACircularMotionMissesWhatTheHeaderSays) {
+    std::string text = "frame,particle,x,y\n";
+    const double step = 2.0 * pi / 50.0;
+    for (int k = 0; k < 3; ++k)
+        text += std::to_string(k) + ",0," + std::to_string(1e6 * std::cos(k * step)) + "," +
+                std::to_string(-1e6 * std::sin(k * step)) + "\n";
+    TrackScale scale;
+    scale.frames_per_time = 50.0;
+    scale.pixels_per_radius = 1e6;
+    const Snapshot s = series_of(tracks_in(text), scale).frame(1);
+    const double speed = std::hypot(s.vx[0], s.vy[0]) / (2.0 * pi);
+    EXPECT_NEAR(1.0 - speed, step * step / 6.0, 1e-5);  // the next term is (ΩΔt)⁴/120 = 2e-6
+}
+
+const std::string dump_head =
+    "ITEM: TIMESTEP\n4\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff pp\n-1 1\n-1 1\n-1 1\n";
+
+TEST(LammpsDump, ReadsWhatIsGiven) {
+    const Tracks tracks = dump_in(dump_head +
+                                  "ITEM: ATOMS id type x y vx vy radius mass omegaz\n"
+                                  "9 1 1.5 2.5 3.5 4.5 1.25 7 -1\n"
+                                  "2 1 0 1 2 3 1 6 0.5\n");
+    ASSERT_EQ(tracks.frames.size(), 1u);
+    const TrackFrame& f = tracks.frames[0];
+    EXPECT_FALSE(tracks.y_down);
+    EXPECT_EQ(f.number, 4);
+    EXPECT_EQ(f.id, (std::vector<std::int64_t>{2, 9}));
+    EXPECT_EQ(f.position[1].x, 1.5);
+    EXPECT_EQ(f.velocity[1].y, 4.5);
+    EXPECT_EQ(f.radius, (std::vector<double>{1.0, 1.25}));
+    EXPECT_EQ(f.mass, (std::vector<double>{6.0, 7.0}));
+    EXPECT_EQ(f.spin, (std::vector<double>{0.5, -1.0}));
+    EXPECT_TRUE(dump_in(dump_head + "ITEM: ATOMS id xu yu\n1 0 0\n2 1 1\n").frames[0].mass.empty());
+}
+
+TEST(LammpsDump, RefusesWithTheLine) {
+    const auto refused = [](const std::string& text) { return refusal(dump_in, text); };
+    EXPECT_NE(refused("").find("holds no frames"), std::string::npos);
+    EXPECT_NE(refused("1,2,3\n").find("line 1: this is not a LAMMPS text dump"), std::string::npos);
+    EXPECT_NE(refused(dump_head + "ITEM: ATOMS type x y\n").find("columns id, x and y"),
+              std::string::npos);
+    EXPECT_NE(refused(dump_head + "ITEM: ATOMS id x y\n1 0 0\n").find("where an atom was expected"),
+              std::string::npos);
+    EXPECT_NE(
+        refused(dump_head + "ITEM: ATOMS id x y\n1 0 0\n1 1 1\n").find("atom 1 appears twice"),
+        std::string::npos);
+    EXPECT_NE(refused(dump_head + "ITEM: ATOMS id x y\n1 0 inf\n2 1 1\n").find("line 10: 'inf'"),
+              std::string::npos);
+    const std::string frame = dump_head + "ITEM: ATOMS id x y\n1 0 0\n2 1 1\n";
+    EXPECT_NE(refused(frame + frame).find("the time steps do not ascend"), std::string::npos);
+    EXPECT_NE(refused("ITEM: TIMESTEP\n0\nITEM: ATOMS id x y\n").find("is missing before"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace swirl
