@@ -194,8 +194,7 @@ void forget_checkpoint(const RunFiles& files) {
 
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
     const Json about = Json::parse(read_checkpoint(checkpoint).about);
-    return {about.at("identity").at("parameters").dump(),
-            about.value("call", ParameterTexts())};
+    return {about.at("identity").at("parameters").dump(), about.value("call", ParameterTexts())};
 }
 
 Provenance provenance_of(const RunConfig& config, const std::string& command,
