@@ -24,6 +24,8 @@ def without_time(file):
 
 
 class Recorded(InFolder):
+    in_memory = True
+
     def arguments(self, folder):
         os.makedirs(folder, exist_ok=True)
         return [*RUN, "--trajectory", os.path.join(folder, "t.h5"),
@@ -294,8 +296,8 @@ class Disk(InFolder):
 
     def test_full_while_a_sweep_writes_results_what_is_done_is_done(self):
         disk = self.small_disk("256k")
-        plan = ["sweep", "--discs", "5:30", "--seeds", "20", "--events", "3000", "--quiet", "--out"]
-        done = swirl(*plan, disk + "/s")  # 520 results of 4 kB
+        plan = ["sweep", "--discs", "5:30", "--seeds", "6", "--events", "1000", "--quiet", "--out"]
+        done = swirl(*plan, disk + "/s")  # 156 results of 4 kB
         self.assertEqual(done.returncode, 1)
         self.assertIn("No space left on device", done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1)

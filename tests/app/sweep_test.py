@@ -14,6 +14,8 @@ POINTS = 48
 
 
 class Sweep(InFolder):
+    in_memory = True
+
     def table(self, folder):
         done = swirl("collect", folder, "--csv", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
