@@ -86,7 +86,7 @@ void make_and_report(const MovieCall& call) {
                         where, result.frames, double(result.frames) / config.frames_per_second,
                         config.frames_per_second, config.pace, short_duration(seconds()),
                         result.frames / seconds()));
-    if (!call.quiet) print_all(remark_on(config.footage));
+    if (!call.quiet) print_all(remark_on(config.footage, config.appearance));
     if (!result.complete)
         throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
                                       result.frames, config.frames, where));

@@ -37,7 +37,7 @@ void draw_and_report(const PictureCall& call) {
     if (!call.quiet)
         print_all(fmt::format("{}: swirl {:g}, {}x{} pixels.\n", call.out, config.at,
                               config.appearance.size.width, config.appearance.size.height) +
-                  remark_on(config.footage));
+                  remark_on(config.footage, config.appearance));
 }
 
 void add_picture_command(CLI::App& subcommand) {

@@ -9,6 +9,7 @@
 #include "draw/film.hpp"
 #include "draw/label.hpp"
 #include "lab/failure.hpp"
+#include "lab/measurements.hpp"
 
 namespace swirl {
 namespace {
@@ -144,11 +145,20 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     return dishes;
 }
 
-std::string remark_on(const std::vector<Footage>& footage) {
-    for (const Footage& dish : footage)
+std::string remark_on(const std::vector<Footage>& footage, const Appearance& appearance) {
+    std::string remarks;
+    for (const Footage& dish : footage) {
         if (!dish.knows_orientation)
-            return "The recording tells no orientation of the discs, so they have no hands.\n";
-    return "";
+            remarks += "The recording tells no orientation of the discs, so they have no hands.\n";
+        const double frames = dish.frames_per_swirl;
+        if (appearance.coloring == Coloring::pinned && frames > 0.0 &&
+            (frames < 0.8 * looks_per_swirl || frames > 1.25 * looks_per_swirl))
+            remarks += fmt::format(
+                "There are {:.0f} frames per swirl; the criteria for pinned discs are made for "
+                "{}.\n",
+                frames, looks_per_swirl);
+    }
+    return remarks;
 }
 
 }  // namespace swirl

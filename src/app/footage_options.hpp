@@ -11,6 +11,7 @@
 
 #include "app/track_options.hpp"
 #include "lab/footage.hpp"
+#include "lab/movie.hpp"
 #include "lab/run_parameters.hpp"
 
 namespace swirl {
@@ -31,7 +32,7 @@ std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand);
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<Footage> footage(const FootageTexts& texts);
 
-/// What is missing in what was shown, as a line for the report; empty if nothing is.
-std::string remark_on(const std::vector<Footage>& footage);
+/// What a recording does not tell well enough for what was shown, in lines for the report.
+std::string remark_on(const std::vector<Footage>& footage, const Appearance& appearance);
 
 }  // namespace swirl

@@ -450,6 +450,11 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
     cairo_line_to(cairo, tip.x + height * u.x - 0.6 * height * side.x,
                   tip.y + height * u.y - 0.6 * height * side.y);
     cairo_close_path(cairo);
+    if (content.backdrop) {
+        cairo_set_line_width(cairo, 3.0 * line);
+        canvas.set(theme.floor, 0.85);
+        cairo_stroke_preserve(cairo);
+    }
     canvas.set(theme.ink);
     cairo_fill(cairo);
     if (!labelled) return;
@@ -462,7 +467,7 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
         draw_label(canvas, "$M$", {middle.x, middle.y + 0.34 * type}, centred);
     } else {
         LabelStyle outside = label;
-        outside.halo = std::nullopt;
+        if (!content.backdrop) outside.halo = std::nullopt;
         draw_label(canvas, "$M$", middle, outside);
     }
 }

@@ -175,6 +175,9 @@ Footage recorded(const SnapshotSeries& series, const std::string& caption) {
     const auto known = [](const std::vector<double>& values) {
         return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
     };
+    if (*footage.to > *footage.from)
+        footage.frames_per_swirl =
+            static_cast<double>(series.frames - 1) / (*footage.to - *footage.from);
     footage.knows_spin = known(first.spin);
     footage.knows_orientation = known(first.angle);
     return footage;

@@ -42,7 +42,7 @@ struct Footage {
     std::function<Reel()> open_between = {};
     /// Where there are pictures of a camera: starts a pass over them.
     std::function<BackdropReel()> open_backdrop = {};
-    double frames_per_swirl = 0.0;  // of the camera, where there is one
+    double frames_per_swirl = 0.0;  // of a recording; 0: as many as one likes
 };
 
 /// Exact states at exact times.

@@ -208,8 +208,12 @@ class CameraTest(InFolder):
         self.assert_good(self.call("picture", "--trails", "--at", 0.3, "--out", out))
         self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out",
                                    self.path("x.mp4")))
-        wrong = self.call("picture", "--color", "pinned", "--out", out)
-        self.assert_wrong_call(wrong, "not the same in every frame")
+        every = self.call("picture", "--color", "pinned", "--at", 0.1, "--out", out)
+        self.assert_wrong_call(every, "not the same in every frame")
+        self.record(14)
+        few = self.call("picture", "--color", "pinned", "--at", 0.1, "--out", out)
+        self.assert_good(few)
+        self.assertIn("40 frames per swirl", few.stdout)
 
     def test_wrong_calls(self):
         self.record(3)

@@ -187,6 +187,72 @@ TEST(Turns, AddUpTheRotation) {
     EXPECT_NEAR(turns_until(curve, 0.0, 10.0), -2.5, 1e-12);
 }
 
+Tracks some_tracks(bool all_the_time) {
+    Tracks tracks;
+    tracks.y_down = true;
+    for (int k = 0; k < 5; ++k) {
+        TrackFrame frame;
+        frame.number = 10 + k;
+        frame.id = {3, 8};
+        frame.position = {{100.0 + 10.0 * k, 50.0}, {120.0, 60.0}};
+        if (!all_the_time && k >= 3) {
+            frame.id = {8};
+            frame.position.erase(frame.position.begin());
+        }
+        tracks.frames.push_back(frame);
+    }
+    return tracks;
+}
+
+TrackScale some_scale() {
+    TrackScale scale;
+    scale.frames_per_time = 2.0;
+    scale.pixels_per_radius = 10.0;
+    scale.swirl_centre = {100.0, 50.0};
+    scale.period = 4.0;  // eight frames for a swirl
+    scale.amplitude = 1.0;
+    scale.container_radius = 8.0;
+    return scale;
+}
+
+TEST(TrackedFootage, IsShownFromItsFirstFrameToItsLast) {
+    const Footage footage = tracked(some_tracks(true), some_scale(), "tracks");
+    EXPECT_NEAR(*footage.from, 10.0 / 8.0, 1e-12);
+    EXPECT_NEAR(*footage.to, 14.0 / 8.0, 1e-12);
+    EXPECT_NEAR(footage.frames_per_swirl, 8.0, 1e-12);
+    EXPECT_FALSE(footage.knows_spin);
+    EXPECT_FALSE(footage.knows_orientation);
+    EXPECT_FALSE(footage.ids);
+    // The same discs all the time: between two frames they move in straight lines.
+    EXPECT_NEAR(footage.open()(11.5 / 8.0).position(0).x, 1.5, 1e-12);
+}
+
+TEST(TrackedFootage, WhereDiscsComeAndGoTheNearestFrameIsShownWithTheirNames) {
+    const Footage footage = tracked(some_tracks(false), some_scale(), "tracks");
+    const Reel reel = footage.open();
+    EXPECT_NEAR(reel(11.4 / 8.0).position(0).x, 1.0, 1e-12);
+    EXPECT_NEAR(reel(11.6 / 8.0).position(0).x, 2.0, 1e-12);
+    EXPECT_EQ(footage.ids(11.6 / 8.0), (std::vector<std::int64_t>{3, 8}));
+    EXPECT_EQ(reel(13.0 / 8.0).size(), 1u);
+    EXPECT_EQ(footage.ids(13.0 / 8.0), (std::vector<std::int64_t>{8}));
+    Appearance appearance;
+    EXPECT_FALSE(problem({footage}, appearance));
+    appearance.coloring = Coloring::pinned;
+    EXPECT_TRUE(problem({footage}, appearance));
+    appearance.coloring = Coloring::spin;
+    EXPECT_TRUE(problem({footage}, appearance));
+}
+
+TEST(TrackedFootage, PicturesThatAreNotThereAreNamedBeforehand) {
+    try {
+        tracked(some_tracks(true), some_scale(), "tracks", "/no/such/%03d.png", 5);
+        FAIL() << "there were pictures";
+    } catch (const Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("/no/such/015.png"), std::string::npos)
+            << failure.what();
+    }
+}
+
 TEST_F(Recording, AStroboscopicPictureNeedsItsFirstInstant) {
     PictureConfig config;
     config.footage = {recorded(path("run.h5"))};
