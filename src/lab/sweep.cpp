@@ -55,42 +55,79 @@ std::vector<bool> present(const fs::path& folder, std::string_view ending, std::
     return there;
 }
 
-/// The right to work on a point, as long as this process lives. Only a courtesy: work done twice
-/// does no harm.
-class Claim {
+/// Who works on what: as long as a process does a point, it has the point's byte of one file
+/// locked. One file for all, because a file system may take its time for files that come and go.
+/// Only a courtesy: work done twice does no harm.
+class Claims {
   public:
-    static std::shared_ptr<Claim> on(const fs::path& folder, std::size_t point) {
-        const fs::path file = folder / "running" / number_of(point);
-        const int handle = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (handle < 0)
-            throw FileError(
-                fmt::format("'{}' could not be written: {}.", file.string(), system_reason()));
-        if (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
-            ::close(handle);
-            return nullptr;
-        }
-        return std::make_shared<Claim>(file, handle);
+    explicit Claims(const fs::path& folder)
+        : handle_(::open((folder / "claims").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+        if (handle_ < 0)
+            throw FileError(fmt::format("'{}' could not be written: {}.",
+                                        (folder / "claims").string(), system_reason()));
     }
-    Claim(fs::path file, int handle) : file_(std::move(file)), handle_(handle) {}
-    ~Claim() {
-        ::unlink(file_.c_str());
-        ::close(handle_);
-    }
-    Claim(const Claim&) = delete;
-    Claim& operator=(const Claim&) = delete;
+    ~Claims() { ::close(handle_); }
+    Claims(const Claims&) = delete;
+    Claims& operator=(const Claims&) = delete;
 
-    /// Somebody holds it, anywhere.
-    static bool is_held(const fs::path& file) {
-        const int handle = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
-        if (handle < 0) return false;
-        const bool held = ::flock(handle, LOCK_SH | LOCK_NB) != 0;
-        ::close(handle);
-        return held;
+    /// False if another process works on the point.
+    bool take(std::size_t point) {
+        struct flock lock = on(point, 1, F_WRLCK);
+        return ::fcntl(handle_, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
+    }
+    void give_back(std::size_t point) {
+        struct flock lock = on(point, 1, F_UNLCK);
+        ::fcntl(handle_, F_OFD_SETLK, &lock);
+    }
+
+    /// The points that somebody works on.
+    static std::vector<bool> taken(const fs::path& folder, std::size_t points) {
+        std::vector<bool> taken(points, false);
+        const int handle = ::open((folder / "claims").c_str(), O_RDWR | O_CLOEXEC);
+        for (std::size_t from = 0; handle >= 0 && from < points;) {
+            struct flock lock = on(from, points - from, F_WRLCK);
+            if (::fcntl(handle, F_OFD_GETLK, &lock) != 0 || lock.l_type == F_UNLCK) break;
+            const auto first = static_cast<std::size_t>(lock.l_start);
+            const std::size_t end =
+                lock.l_len > 0 ? std::min(points, first + static_cast<std::size_t>(lock.l_len))
+                               : points;
+            std::fill(taken.begin() + std::ptrdiff_t(std::min(first, points)),
+                      taken.begin() + std::ptrdiff_t(end), true);
+            from = std::max(end, from + 1);
+        }
+        if (handle >= 0) ::close(handle);
+        return taken;
     }
 
   private:
-    fs::path file_;
+    static struct flock on(std::size_t point, std::size_t count, int type) {
+        struct flock lock {};
+        lock.l_type = static_cast<short>(type);
+        lock.l_whence = SEEK_SET;
+        lock.l_start = static_cast<off_t>(point);
+        lock.l_len = static_cast<off_t>(count);
+        return lock;
+    }
+
     int handle_;
+};
+
+/// One point's claim, given back in the end.
+class Claim {
+  public:
+    static std::shared_ptr<Claim> on(const std::shared_ptr<Claims>& claims, std::size_t point) {
+        if (!claims->take(point)) return nullptr;
+        return std::make_shared<Claim>(claims, point);
+    }
+    Claim(std::shared_ptr<Claims> claims, std::size_t point)
+        : claims_(std::move(claims)), point_(point) {}
+    ~Claim() { claims_->give_back(point_); }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+
+  private:
+    std::shared_ptr<Claims> claims_;
+    std::size_t point_;
 };
 
 Json plan_json(const SweepPlan& plan) {
@@ -102,14 +139,14 @@ Json plan_json(const SweepPlan& plan) {
     return json;
 }
 
-/// The call that does one point by itself: what `swirl verify` and a reader need.
-std::string command_of(const SweepPlan& plan, const RunConfig& config) {
+/// The call that does one point by itself.
+std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
     std::string command = "swirl run";
-    for (const auto& [name, value] : parameters_in(config_json(config)))
-        command += fmt::format(" --{} {}", name, value);
+    for (const auto& [name, value] : plan.parameters(point))
+        if (name != "seed") command += fmt::format(" --{} {}", name, value);
     if (!plan.measure.empty())
         command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
-    return command;
+    return command + fmt::format(" --seed {}", seed);
 }
 
 std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
@@ -164,6 +201,7 @@ class SweepWork {
           plan_(plan),
           share_(share),
           control_(control),
+          claims_(std::make_shared<Claims>(folder)),
           writer_(folder / "results") {}
 
     SweepOutcome operator()() {
@@ -188,7 +226,7 @@ class SweepWork {
 
     void try_point(std::size_t point) {
         if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
-        const std::shared_ptr<Claim> claim = Claim::on(folder_, point);
+        const std::shared_ptr<Claim> claim = Claim::on(claims_, point);
         if (!claim) {
             const std::lock_guard lock(mutex_);
             ++outcome_.elsewhere;
@@ -206,7 +244,7 @@ class SweepWork {
         }
         const fs::path note = folder_ / "failures" / (number_of(point) + ".txt");
         if (failure.empty()) {
-            ::unlink(note.c_str());
+            if (failed_before_[point]) ::unlink(note.c_str());
             return;
         }
         write_whole_file(note, failure + "\n");
@@ -235,15 +273,17 @@ class SweepWork {
             counted_events = p.events;
         };
         measurements.attach_to(run_control);
-        const std::string command = command_of(plan_, config);
+        const std::string command = command_of(plan_, point, config.seed);
+        Provenance provenance;  // only recordings need it
+        if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
         const RunResult result =
-            run_recorded(config, files, run_control, provenance_of(config, command, plan_text_),
-                         measurements.gatherers());
+            run_recorded(config, files, run_control, provenance, measurements.gatherers());
         if (!result.complete) return false;
         count(1.0 - counted, result.events.total() - counted_events);
 
         Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
-        json.update(result_json(result));
+        Json found = result_json(result);
+        for (auto& [name, value] : found.items()) json[name] = std::move(value);
         json["command"] = command;
         if (!plan_.measure.empty()) json["measured"] = measurements.results();
         writer_.write(number_of(point) + ".json", json.dump() + "\n",
@@ -265,6 +305,8 @@ class SweepWork {
     const std::string plan_text_ = plan_json(plan_).dump();
     const SweepShare share_;
     const SweepControl& control_;
+    const std::shared_ptr<Claims> claims_;
+    const std::vector<bool> failed_before_ = present(folder_ / "failures", ".txt", plan_.points());
     ResultWriter writer_;
     std::mutex mutex_;
     SweepOutcome outcome_;
@@ -291,8 +333,18 @@ struct PointResult {
     }
 };
 
+/// Keeps what a table needs of a result; building the rest would take most of the time.
+bool needed(int depth, Json::parse_event_t event, Json& parsed) {
+    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
+    static constexpr std::string_view parts[] = {"format",  "version",    "rotation", "energy",
+                                                 "periods", "state_hash", "measured"};
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (depth == 3) return key != "effective_samples" && key != "blocks";  // of a rotation
+    return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
 PointResult read_result(const fs::path& file) {
-    const Json json = Json::parse(read_whole_file(file), nullptr, false);
+    const Json json = Json::parse(read_whole_file(file), needed, false);
     if (json.is_discarded() || !json.is_object())
         throw FileError(
             fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
@@ -304,6 +356,7 @@ PointResult read_result(const fs::path& file) {
             result_format));
     PointResult result;
     result.there = true;
+    result.quantities.reserve(std::size(estimators));
     const auto number = [](const Json& value) {
         return value.is_number() ? value.get<double>() : not_known;
     };
@@ -447,7 +500,7 @@ SweepPlan read_plan(const fs::path& folder) {
 
 void write_plan(const fs::path& folder, const SweepPlan& plan) {
     std::error_code error;
-    std::vector<const char*> parts{"results", "running", "failures", "checkpoints"};
+    std::vector<const char*> parts{"results", "failures", "checkpoints"};
     if (plan.frames > 0) parts.push_back("trajectories");
     for (const char* part : parts)
         if (fs::create_directories(folder / part, error); error)
@@ -469,11 +522,11 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     status.points = plan.points();
     const std::vector<bool> done = present(folder / "results", ".json", status.points);
     const std::vector<bool> failed = present(folder / "failures", ".txt", status.points);
-    const std::vector<bool> claimed = present(folder / "running", "", status.points);
+    const std::vector<bool> claimed = Claims::taken(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
         if (done[point])
             ++status.done;
-        else if (claimed[point] && Claim::is_held(folder / "running" / number_of(point)))
+        else if (claimed[point])
             ++status.running;
         else if (failed[point])
             ++status.failed;

@@ -2,7 +2,7 @@
 //
 //     DIR/plan.json            what is to be done; written once
 //     DIR/results/000012.json  point 12 is done: complete when it is there (written aside, renamed)
-//     DIR/running/000012       somebody works on it: locked by that process as long as it lives
+//     DIR/claims               byte 12 is locked by who works on point 12, as long as he lives
 //     DIR/failures/000012.txt  why it could not be done; tried again by the next call
 //     DIR/checkpoints/         of points that take longer than a minute
 //     DIR/trajectories/000012.h5  frames, if the plan asks for them

