@@ -63,7 +63,7 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
             break;
         case MovieFormat::gif:
             add({"-filter_threads", "1", "-filter_complex",
-                 "split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];"
+                 "split[a][b];[a]palettegen=max_colors=128:stats_mode=full[p];"
                  "[b][p]paletteuse=dither=none:diff_mode=rectangle",
                  "-loop", "0"});
             break;

@@ -82,9 +82,12 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
     cairo_fill(cairo);
 
     LabelStyle tick{.size = 0.88 * style.type, .color = theme.faint_ink, .align = Align::right};
-    const double step =
-        round_step(style.highest - style.lowest,
-                   std::max(3, static_cast<int>(inner.height / (1.7 * style.type))));
+    int parts = std::max(2, static_cast<int>(inner.height / (1.7 * style.type)));
+    double step = round_step(style.highest - style.lowest, parts);
+    // One number makes no scale.
+    while (parts < 64 &&
+           std::floor(style.highest / step) - std::ceil(style.lowest / step) + 1.0 < 2.0)
+        step = round_step(style.highest - style.lowest, parts *= 2);
     for (double k = std::ceil(style.lowest / step); k * step <= style.highest; k += 1.0) {
         const Vec2 p = place(inner, style, style.from, k * step);
         const bool zero = k == 0.0;
