@@ -19,7 +19,8 @@ class Bench(InFolder):
         self.assertEqual(len(rows), 8)
         for row in rows.values():
             self.assertGreater(row["rate"], 0)
-            self.assertLess(row["bytes_per_disc"], 300)
+            # Lanes are filled up, which counts where the discs are few.
+            self.assertLess(row["bytes_per_disc"], 300 + 4000 / row["discs"])
         dish = rows["dish, mu = 1", 48]
         self.assertGreater(dish["ratio"], 1)  # the plain loop never wins at N = 48
         self.assertAlmostEqual(dish["ratio"], dish["rate"] / dish["plain_rate"])
