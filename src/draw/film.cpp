@@ -90,7 +90,7 @@ std::shared_ptr<const Image> Film::decode(std::int64_t number) {
         if (!read_picture()) {
             const std::string words = ffmpeg_->complaint();
             throw DrawFailure("The camera's picture " + std::to_string(next_) + " in " + pattern_ +
-                              " cannot be read" + (words.empty() ? "." : ": " + words));
+                              " cannot be read: " + (words.empty() ? "there are no more." : words));
         }
         ++next_;
     }

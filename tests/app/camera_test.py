@@ -191,6 +191,12 @@ class CameraTest(InFolder):
             made.append(frames)
         self.assertEqual(len(made[0]), 6)
         self.assertTrue(made[0] == made[1])
+        subprocess.run(["ffmpeg", "-v", "error", "-i", self.path("seen.avi"), "-frames:v", "4",
+                        "-c", "copy", self.path("short.avi")], check=True)
+        short = self.call("movie", "--over", self.path("short.avi"), "--out", self.path("x.mp4"),
+                          over=False)
+        self.assertEqual(short.returncode, 1)
+        self.assertIn("there are no more", short.stderr)
 
     def test_jpeg_pictures_are_read_too(self):
         self.record(5)
