@@ -1,12 +1,14 @@
 // swirl verify: runs again what a result says it is, and compares.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
 #include "app/stop_signal.hpp"
+#include "files/event_log.hpp"
 #include "files/trajectory.hpp"
 #include "files/whole_file.hpp"
 #include "lab/failure.hpp"
@@ -94,13 +96,54 @@ void verify_trajectory(const std::string& file, bool quiet) {
     if (!quiet) print_all(fmt::format("The same, bit for bit: {} frames.\n", reader.frames()));
 }
 
+bool same_events(const Event& a, const Event& b) {
+    return a.swirls == b.swirls && a.clock == b.clock && a.kind == b.kind && a.i == b.i &&
+           a.j == b.j && a.normal.x == b.normal.x && a.normal.y == b.normal.y &&
+           a.impulse.normal == b.impulse.normal && a.impulse.tangential == b.impulse.tangential &&
+           a.impulse.sticks == b.impulse.sticks;
+}
+
+/// Every event against the engine's, and the state that they lead to against its state.
+void verify_event_log(const std::string& file, bool quiet) {
+    EventLogReader log(file);
+    Simulation simulation(make_scene(config_in(file, log.provenance("parameters"))));
+    Replay replay(log.initial(), log.swirl_end());
+    ProgressLine line("again", quiet);
+    const auto refuse = [&](std::uint64_t event, const char* what) {
+        throw Failure(fmt::format("'{}' differs from event {} on: {}.{}", file, event, what,
+                                  of_version(log.provenance("version"))));
+    };
+    if (log.initial().size() != simulation.size()) refuse(0, "another number of discs");
+    constexpr std::uint64_t at_once = 1 << 16;
+    for (std::uint64_t first = 0; first < log.events(); first += at_once) {
+        if (stop_signal().load()) throw Interrupted("Stopped before the last event.");
+        std::uint64_t k = first;
+        for (const Event& event : log.read(first, std::min(at_once, log.events() - first))) {
+            if (!same_events(event, simulation.step())) refuse(k, "another event happens now");
+            replay.apply(event);
+            ++k;
+        }
+        line.show(double(k) / double(log.events()), fmt::format("event {}", k));
+    }
+    for (std::size_t i = 0; i < simulation.size(); ++i) {
+        const Disc a = replay.discs()[i], b = simulation.disc(i);
+        if (a.position.x != b.position.x || a.position.y != b.position.y ||
+            a.velocity.x != b.velocity.x || a.velocity.y != b.velocity.y || a.angle != b.angle ||
+            a.spin != b.spin || a.time != b.time)
+            refuse(0, "the state that the events lead to is another");
+    }
+    line.clear();
+    if (!quiet) print_all(fmt::format("The same, bit for bit: {} events.\n", log.events()));
+}
+
 void add_verify_command(CLI::App& subcommand) {
     struct Verify {
         std::string file;
         bool quiet = false;
     };
     const auto call = std::make_shared<Verify>();
-    subcommand.add_option("file", call->file, "a result (JSON) or a trajectory (HDF5)")
+    subcommand
+        .add_option("file", call->file, "a result (JSON), a trajectory or an event log (HDF5)")
         ->type_name("FILE")
         ->required();
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
@@ -108,8 +151,9 @@ void add_verify_command(CLI::App& subcommand) {
     subcommand.callback([call] {
         std::ifstream stream(call->file, std::ios::binary);
         if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", call->file));
-        if (stream.get() == 0x89) return verify_trajectory(call->file, call->quiet);
-        verify_result(call->file, call->quiet);
+        if (stream.get() != 0x89) return verify_result(call->file, call->quiet);
+        if (is_event_log(call->file)) return verify_event_log(call->file, call->quiet);
+        verify_trajectory(call->file, call->quiet);
     });
 }
 

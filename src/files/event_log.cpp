@@ -54,11 +54,13 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
     file.write("/initial/moment_of_inertia", initial.inertia, {n});
     file.create_group("/events");
     const Packing packing = compression == 0 ? Packing::none : Packing::deflate;
+    // Quick: hardly a bit of a normal or an impulse can be foreseen.
+    const Packing of_numbers = compression > 0 ? Packing::deflate : Packing::none;
     const int level = std::max(compression, 1);
     file.create_column<std::int64_t>("/events/swirls", {}, {chunk}, packing, level);
     for (const char* name :
          {"clock", "normal_x", "normal_y", "normal_impulse", "tangential_impulse"})
-        file.create_column<double>(std::string("/events/") + name, {}, {chunk}, packing, level);
+        file.create_column<double>(std::string("/events/") + name, {}, {chunk}, of_numbers, level);
     for (const char* name : {"i", "j"})
         file.create_column<std::uint32_t>(std::string("/events/") + name, {}, {chunk}, packing,
                                           level);
@@ -142,6 +144,10 @@ void EventLogWriter::finish() {
     file_->close();
     file_.reset();
     give_final_name(partial_name(path_), path_);
+}
+
+bool is_event_log(const std::filesystem::path& path) {
+    return Hdf5File(path, StagedFile::Mode::read).has("/events/clock");
 }
 
 EventLogReader::EventLogReader(const std::filesystem::path& path)

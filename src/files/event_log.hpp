@@ -78,6 +78,9 @@ class EventLogWriter {
     std::chrono::steady_clock::time_point last_flush_;
 };
 
+/// Throws FileError if it is no HDF5 file.
+bool is_event_log(const std::filesystem::path& path);
+
 class EventLogReader {
   public:
     explicit EventLogReader(const std::filesystem::path& path);

@@ -96,6 +96,27 @@ for file in sys.argv[1:]:
         found = self.data_of(*(f"{folder}/{name}" for folder in folders for name in ("t.h5", "e.h5")))
         self.assertEqual(found, wanted * len(folders))
 
+    def test_verify_runs_result_recording_and_log_again_and_names_what_differs(self):
+        self.reference()
+        for name in ("r.json", "t.h5", "e.h5"):
+            done = swirl("verify", self.path("whole/" + name))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("The same, bit for bit", done.stdout)
+        changed = subprocess.run(["/usr/bin/python3", "-c", """
+import h5py, sys
+f = h5py.File(sys.argv[1], 'r+')
+f['events/normal_impulse'][70000] *= 1 + 2**-52
+f = h5py.File(sys.argv[2], 'r+')
+f['particles/trajectory/velocity/value'][1000, 3, 1] *= 1 + 2**-52
+""", self.path("whole/e.h5"), self.path("whole/t.h5")], capture_output=True, text=True)
+        if "No module named 'h5py'" in changed.stderr:
+            self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
+        self.assertEqual(changed.returncode, 0, changed.stderr)
+        for name, where in (("e.h5", "event 70000 on"), ("t.h5", "frame 1000 on")):
+            done = swirl("verify", self.path("whole/" + name))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("differs from " + where, done.stderr)
+
     def stopped_at_its_first_checkpoint(self, arguments, folder, how):
         """Starts a run and sends it a signal once there is a checkpoint; code, what it said."""
         process = subprocess.Popen([SWIRL, *arguments], stdout=subprocess.DEVNULL,
