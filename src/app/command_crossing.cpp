@@ -52,6 +52,7 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
             {"tolerance", settings.tolerance},
             {"points", points},
             {"runs", s.runs},
+            {"runs_that_drift", s.drifting},
             {"events", s.events},
             {"seconds", s.seconds},
             {"config", config_json(settings.config)},
@@ -92,6 +93,11 @@ void find(CrossingCall& call) {
         text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
                                                  with_commas(search.events),
                                                  short_duration(search.seconds));
+    if (search.drifting > 0)
+        text += fmt::format(
+            "{} of the runs had not reached a steady state after the warm-up; a longer --warmup, "
+            "or --warmup auto, would be right.\n",
+            search.drifting);
     const std::string json = search_json(call.settings, search).dump(2) + "\n";
     if (json_to_stdout) {
         print_all(json);

@@ -6,6 +6,7 @@
 #include "app/output.hpp"
 #include "app/progress_line.hpp"
 #include "app/stop_signal.hpp"
+#include "lab/failure.hpp"
 #include "lab/paper.hpp"
 #include "lab/paper_movies.hpp"
 #include "lab/run_parameters.hpp"
@@ -44,6 +45,16 @@ void make_movies(const PaperCall& call) {
     print_all(text);
 }
 
+/// What could be made is there; what could not makes the call a failure.
+void refuse_missing(const PaperResult& result) {
+    std::string names;
+    for (const MadeFigure& figure : result.figures)
+        if (!figure.problem.empty())
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", figure.name);
+    if (!names.empty())
+        throw Failure(fmt::format("Could not be made: {}; see above for why.", names));
+}
+
 void make_paper(PaperCall& call) {
     call.settings.out = call.out;
     if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
@@ -80,6 +91,8 @@ void make_paper(PaperCall& call) {
     if (call.figures.empty())
         for (const auto& file : write_report(result, call.settings, command_line()))
             files.push_back(file);
+    if (result.failed > 0)
+        text += fmt::format("{} of the runs failed; their places are empty.\n", result.failed);
     text += fmt::format("{} runs{} in {}.\n", result.tasks,
                         result.remembered > 0
                             ? fmt::format(", {} of them from an earlier call,", result.remembered)
@@ -87,6 +100,7 @@ void make_paper(PaperCall& call) {
                         short_duration(result.seconds));
     for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
+    refuse_missing(result);
 }
 
 std::string figure_list() {
@@ -106,7 +120,10 @@ void add_paper_command(CLI::App& subcommand) {
                         "fewer points and shorter runs: the shape in a minute");
     subcommand.add_flag("--movies", call->movies,
                         "the paper's numerical videos, and movies.html that plays them");
-    subcommand.add_option("--events", call->events, "length of every run [1e6 as in the paper]")
+    subcommand
+        .add_option("--events", call->events,
+                    "length of a run [1e6 as in the paper, quick 2e5]; what is counted in swirls "
+                    "becomes shorter or longer by the same factor")
         ->type_name("NUMBER");
     subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");

@@ -35,6 +35,7 @@ class Search {
         search.crossing = find_crossing(search.points);
         search.events = events_;
         search.runs = runs_;
+        search.drifting = drifting_;
         search.within_tolerance = good_enough();
         search.seconds = seconds();
         return search;
@@ -162,6 +163,7 @@ class Search {
             sum.weight += weight;
             ++sum.runs;
             ++runs_;
+            drifting_ += r.steady_state() == SteadyState::Verdict::drifting ? 1 : 0;
         }
     }
 
@@ -184,6 +186,7 @@ class Search {
     std::map<std::int64_t, Sum> sums_;
     std::mutex mutex_;
     std::uint64_t events_ = 0, runs_ = 0;
+    std::int64_t drifting_ = 0;
 };
 
 }  // namespace

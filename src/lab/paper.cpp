@@ -15,6 +15,7 @@
 #include "lab/failure.hpp"
 #include "lab/measurements.hpp"
 #include "lab/paper_parts.hpp"
+#include "lab/paper_points.hpp"
 #include "lab/python_script.hpp"
 #include "lab/run_json.hpp"
 #include "lab/version.hpp"
@@ -119,81 +120,153 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
             }};
 }
 
+std::int64_t PaperSettings::swirls(std::int64_t by_default, std::int64_t least) const {
+    const double share =
+        static_cast<double>(events_of_a_run()) / static_cast<double>(events_by_default());
+    const double swirls = std::round(static_cast<double>(by_default) * share);
+    return std::max(least, static_cast<std::int64_t>(swirls));
+}
+
+namespace {
+
+/// What is to be done for all figures together, what of it is known already, and what is left.
+struct Work {
+    std::map<std::string, PaperTask> tasks;
+    std::map<std::string, Json> results;
+    std::vector<const PaperTask*> left;         // the most costly first
+    std::map<std::string, std::string> served;  // by another task
+
+    Work(const std::vector<FigurePlan>& plans, const PaperParts& parts) {
+        for (const FigurePlan& plan : plans)
+            for (const PaperTask& task : plan.tasks) tasks.emplace(task.key, task);
+        for (const auto& [key, task] : tasks) {
+            if (auto known = parts.recall(key))
+                results[key] = std::move(*known);
+            else if (!task.served_by.empty() && tasks.contains(task.served_by))
+                served[key] = task.served_by;
+            else if (auto larger = parts.recall(task.served_by))
+                results[key] = std::move(*larger);
+            else
+                left.push_back(&task);
+        }
+        std::stable_sort(left.begin(), left.end(),
+                         [](const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; });
+    }
+    double cost() const {
+        return std::accumulate(left.begin(), left.end(), 0.0,
+                               [](double sum, const PaperTask* t) { return sum + t->cost; });
+    }
+};
+
+/// One task; a failure of its run is a result too, but not one to remember.
+Json result_of(const PaperTask& task, const PaperControl& control, const PaperParts& parts,
+               StudyProgress& progress) {
+    const auto started = std::chrono::steady_clock::now();
+    try {
+        const Json result = work_on(task, control, progress);
+        return parts.remember(task.key, result, seconds_since(started));
+    } catch (const Failure& failure) {
+        return {{"seconds", seconds_since(started)}, {"result", {{"failed", failure.what()}}}};
+    }
+}
+
+/// What a reader must know of the runs of a figure: which of them failed, how many drift.
+std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results) {
+    std::vector<std::string> remarks;
+    std::size_t drifting = 0, too_short = 0, judged = 0;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        if (failed(results[k]))
+            remarks.push_back(fmt::format("The run '{}' failed, and its place is empty: {}",
+                                          plan.tasks[k].key,
+                                          results[k]["failed"].get<std::string>()));
+        const Json& verdict = at(results[k], {"steady_state", "verdict"});
+        if (!verdict.is_string()) continue;
+        ++judged;
+        drifting += verdict == "drifting" ? 1 : 0;
+        too_short += verdict == "too short to tell" ? 1 : 0;
+    }
+    if (drifting + too_short > 0)
+        remarks.push_back(fmt::format(
+            "{} of the {} runs {} not shown to be steady after the warm-up ({} still drift, {} "
+            "are too short to tell): marked in the figure, and in the column steady_state.",
+            drifting + too_short, judged, drifting + too_short == 1 ? "is" : "are", drifting,
+            too_short));
+    return remarks;
+}
+
+MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
+                    const std::map<std::string, Json>& results, const fs::path& out) {
+    std::vector<Json> in_order;
+    for (const PaperTask& task : plan.tasks) in_order.push_back(results.at(task.key)["result"]);
+    MadeFigure made{figure.name, figure.description, {}};
+    const std::vector<std::string> remarks = remarks_on(plan, in_order);
+    try {
+        made.outcome = plan.finish(in_order, out);
+    } catch (const Failure& failure) {
+        made.problem = failure.what();
+    }
+    auto& findings = made.outcome.findings;
+    findings.insert(findings.end(), remarks.begin(), remarks.end());
+    return made;
+}
+
+void draw(MadeFigure& made, const FigurePlan& plan) {
+    if (plan.script.empty() || !made.problem.empty()) return;
+    auto& files = made.outcome.files;
+    try {
+        const std::vector<fs::path> drawn = draw_figure(plan.script, files.front());
+        files.insert(files.end(), drawn.begin(), drawn.end());
+    } catch (const Failure& failure) {
+        made.problem = failure.what();
+    }
+}
+
+}  // namespace
+
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control) {
     const auto begin = std::chrono::steady_clock::now();
     const PaperParts parts(settings.out);
-    PaperResult all;
-
     std::vector<FigurePlan> plans;
-    std::map<std::string, PaperTask> tasks;
-    for (const PaperFigure& figure : figures) {
-        plans.push_back(figure.plan(settings));
-        for (const PaperTask& task : plans.back().tasks) tasks.emplace(task.key, task);
-    }
-    std::map<std::string, Json> results;
-    std::vector<const PaperTask*> left;
-    std::map<std::string, std::string> served;  // by another task
-    for (const auto& [key, task] : tasks) {
-        if (auto known = parts.recall(key))
-            results[key] = std::move(*known);
-        else if (!task.served_by.empty() && tasks.contains(task.served_by))
-            served[key] = task.served_by;
-        else if (auto larger = parts.recall(task.served_by))
-            results[key] = std::move(*larger);
-        else
-            left.push_back(&task);
-    }
-    all.tasks = tasks.size();
-    all.remembered = results.size();
-    std::stable_sort(left.begin(), left.end(),
-                     [](const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; });
+    for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
+    Work work(plans, parts);
+    PaperResult all;
+    all.tasks = work.tasks.size();
+    all.remembered = work.results.size();
 
-    const double total =
-        std::accumulate(left.begin(), left.end(), 0.0,
-                        [](double sum, const PaperTask* t) { return sum + t->cost; });
-    StudyProgress progress(control, total);
+    StudyProgress progress(control, work.cost());
     std::mutex results_mutex;
     try {
         on_all_cores(
-            left.size(),
+            work.left.size(),
             [&](std::size_t k) {
                 if (stopped(control)) throw_interrupted(settings);
-                const auto started = std::chrono::steady_clock::now();
-                const Json result = work_on(*left[k], control, progress);
-                Json part = parts.remember(left[k]->key, result, seconds_since(started));
+                Json part = result_of(*work.left[k], control, parts, progress);
                 const std::lock_guard lock(results_mutex);
-                results[left[k]->key] = std::move(part);
+                all.failed += failed(part["result"]) ? 1 : 0;
+                work.results[work.left[k]->key] = std::move(part);
             },
             control.threads);
     } catch (const Interrupted&) {
         throw_interrupted(settings);
     }
+    for (const auto& [key, part] : work.results) all.task_seconds += part["seconds"].get<double>();
+    for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
 
-    for (const auto& [key, part] : results) all.task_seconds += part["seconds"].get<double>();
-    for (const auto& [key, larger] : served) results[key] = results.at(larger);
-
-    for (std::size_t f = 0; f < plans.size(); ++f) {
-        std::vector<Json> in_order;
-        for (const PaperTask& task : plans[f].tasks)
-            in_order.push_back(results.at(task.key)["result"]);
-        all.figures.push_back(
-            {figures[f].name, figures[f].description, plans[f].finish(in_order, settings.out)});
-    }
+    for (std::size_t f = 0; f < plans.size(); ++f)
+        all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
     // The drawings are independent too, and take a second each.
-    std::vector<std::vector<fs::path>> drawn(plans.size());
     on_all_cores(
         plans.size(),
         [&](std::size_t f) {
             if (stopped(control)) throw_interrupted(settings);
-            if (!plans[f].script.empty())
-                drawn[f] = draw_figure(plans[f].script, all.figures[f].outcome.files.front());
+            draw(all.figures[f], plans[f]);
         },
         control.threads);
-    for (std::size_t f = 0; f < plans.size(); ++f) {
-        auto& files = all.figures[f].outcome.files;
-        files.insert(files.end(), drawn[f].begin(), drawn[f].end());
-    }
+    for (MadeFigure& made : all.figures)
+        if (!made.problem.empty())
+            made.outcome.findings.push_back(
+                fmt::format("This figure could not be made: {}", made.problem));
     all.seconds = seconds_since(begin);
     return all;
 }
@@ -218,6 +291,7 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"defaults", config_json(paper_run(settings))},
                      {"runs", result.tasks},
                      {"runs_of_earlier_calls", result.remembered},
+                     {"runs_that_failed", result.failed},
                      {"seconds", result.seconds},
                      {"seconds_on_one_core", result.task_seconds},
                      {"figures", figures}};

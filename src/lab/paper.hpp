@@ -17,12 +17,15 @@ namespace swirl {
 
 struct PaperSettings {
     bool quick = false;  // fewer points, shorter runs: the shape of the figure in a minute
-    std::optional<std::int64_t> events;  // of every run, where a figure gives no reason of its own
+    std::optional<std::int64_t> events;  // of a run of the paper; shortens all others likewise
     std::filesystem::path out = "out";
     std::uint64_t seed = 1;
 
     /// Of one run of the paper: its 10^6, or fewer.
-    std::int64_t events_of_a_run() const { return events.value_or(quick ? 200'000 : 1'000'000); }
+    std::int64_t events_of_a_run() const { return events.value_or(events_by_default()); }
+    std::int64_t events_by_default() const { return quick ? 200'000 : 1'000'000; }
+    /// A length in swirls, as many times shorter or longer as --events makes the other runs.
+    std::int64_t swirls(std::int64_t by_default, std::int64_t least) const;
 };
 
 /// One piece of work. Its result is remembered in OUT/parts/KEY.json, so a study that was
@@ -46,6 +49,7 @@ struct FigureOutcome {
 struct FigurePlan {
     std::vector<PaperTask> tasks;
     /// Gets the results in the order of the tasks; writes the tables into the folder.
+    /// That of a task whose run failed is {"failed": why}, and leaves a hole.
     std::function<FigureOutcome(const std::vector<nlohmann::ordered_json>& results,
                                 const std::filesystem::path& out)>
         finish;
@@ -73,17 +77,19 @@ struct PaperControl {
 struct MadeFigure {
     std::string name, description;
     FigureOutcome outcome;
+    std::string problem = {};  // why there is no such figure; empty: there is
 };
 
 struct PaperResult {
     std::vector<MadeFigure> figures;
-    std::size_t tasks = 0, remembered = 0;
+    std::size_t tasks = 0, remembered = 0, failed = 0;
     double seconds = 0.0;
     double task_seconds = 0.0;  // of all pieces, each on one core, those remembered included
 };
 
 /// Makes the figures: tasks on all cores, tables, drawings. Throws Interrupted when stopped; what
-/// was done until then is remembered.
+/// was done until then is remembered. A run that fails leaves a hole in its figures, a figure that
+/// cannot be made is missing; the findings say so, and the rest is made.
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control);
 

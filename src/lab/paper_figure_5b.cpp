@@ -79,16 +79,15 @@ FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     const std::vector<Point> points = points_of_5b(settings);
     for (const Point& p : points) {
         RunConfig config = paper_config(settings, p.friction, p.discs);
-        config.warmup = settings.quick ? 150 : 300;
-        const double measured = settings.quick ? 1e5 : 1e6;  // events
-        config.periods =
-            *config.warmup +
-            std::max<std::int64_t>(
-                settings.quick ? 50 : 200,
-                static_cast<std::int64_t>(measured / expected_events_per_swirl(config)));
-        plan.tasks.push_back(varied_point(
-            fmt::format("steady_{}_N{}_{}periods", p.friction.name, p.discs, *config.periods),
-            config));
+        config.warmup = settings.swirls(settings.quick ? 150 : 300, 2);
+        const auto measured = static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) /
+                                                        expected_events_per_swirl(config));
+        const std::int64_t least = settings.quick ? 50 : 200;
+        config.periods = *config.warmup + settings.swirls(std::max(least, measured), 3);
+        plan.tasks.push_back(
+            varied_point(fmt::format("steady_{}_N{}_{}of{}periods", p.friction.name, p.discs,
+                                     *config.warmup, *config.periods),
+                         config));
     }
     plan.finish = [points](const std::vector<Json>& results, const std::filesystem::path& out) {
         return finish("5b-steady", points, results, out);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lab/crossing_search.hpp"
 #include "lab/failure.hpp"
@@ -139,7 +140,7 @@ FigurePlan plan_figure_transient(const PaperSettings& settings) {
     plan.script = "figure_transient.py";
     const std::vector<std::int64_t> numbers =
         settings.quick ? std::vector<std::int64_t>{48} : std::vector<std::int64_t>{40, 44, 46, 48};
-    const std::int64_t swirls = settings.quick ? 200 : 600;
+    const std::int64_t swirls = settings.swirls(settings.quick ? 200 : 600, 20);
     for (const std::int64_t n : numbers)
         for (int s = 0; s < seeds_of_the_transient; ++s) {
             RunConfig config = paper_config(settings, no_disc_friction, n);
@@ -161,10 +162,12 @@ FigurePlan plan_figure_transient(const PaperSettings& settings) {
                 double events = 0.0;
                 for (int s = 0; s < seeds_of_the_transient; ++s) {
                     const Json& one = results[k * seeds_of_the_transient + std::size_t(s)];
+                    if (failed(one)) continue;
                     varpi.push_back(number(one["varpi"][std::size_t(t)]));
                     spins.push_back(number(one["spin"][std::size_t(t)]));
-                    events += number(one["events"][std::size_t(t)]) / seeds_of_the_transient;
+                    events += number(one["events"][std::size_t(t)]);
                 }
+                events /= static_cast<double>(varpi.size());
                 const Estimate v = estimate_of(varpi), w = estimate_of(spins);
                 table.add({numbers[k], t + 1, v.mean, v.error, w.mean, w.error, events});
                 if (t < swirls / 10) early += v.mean / static_cast<double>(swirls / 10);
@@ -210,6 +213,7 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
                  const CrossingSearch found = search_crossing(search, inner);
                  const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
                  return Json{{"crosses", crosses},
+                             {"drifting", found.drifting},
                              {"discs", found.crossing.discs},
                              {"error", found.crossing.error},
                              {"lower", found.crossing.lower},
@@ -220,14 +224,16 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
              }});
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table(
-            {"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs", "events"});
+        Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
+                     "events", "drifting_runs", "steady_state"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < frictions.size(); ++k) {
             const Json& r = results[k];
+            if (failed(r)) continue;
             table.add({frictions[k], std::int64_t{r["crosses"].get<bool>()}, number(r["discs"]),
-                       number(r["error"]), number(r["lower"]), number(r["upper"]),
-                       r["runs"].get<std::int64_t>(), r["events"].get<std::int64_t>()});
+                       number(r["error"]), number(r["lower"]), number(r["upper"]), whole(r["runs"]),
+                       whole(r["events"]), whole(r["drifting"]),
+                       std::string(r["drifting"] == 0 ? "steady" : "drifting")});
             outcome.findings.push_back(
                 fmt::format("μ = {}: {}", frictions[k], r["report"].get<std::string>()));
         }
@@ -276,7 +282,9 @@ FigurePlan plan_figure_polygon(const PaperSettings& settings) {
         for (const int m : sides) {
             RunConfig config = paper_config(settings, high_friction, n);
             // Corners are events too: swirls, not events, so that every path gets the same time.
-            config.periods = n == 28 ? (settings.quick ? 300 : 2000) : (settings.quick ? 60 : 300);
+            const std::int64_t swirls =
+                n == 28 ? (settings.quick ? 300 : 2000) : (settings.quick ? 60 : 300);
+            config.periods = settings.swirls(swirls, 5);
             if (m > 0)
                 config.sides = m;
             else
@@ -337,7 +345,7 @@ Json energy_series(const RunConfig& config, const RunControl& outer) {
 FigurePlan plan_figure_energy(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_energy.py";
-    const std::int64_t discs = 28, swirls = settings.quick ? 100 : 400;
+    const std::int64_t discs = 28, swirls = settings.swirls(settings.quick ? 100 : 400, 10);
     const std::vector<int> sides{6, 30, 300, 0};
     for (const int m : sides) {
         RunConfig config = paper_config(settings, {"", "", 0.0, 0.0}, discs);
@@ -356,6 +364,7 @@ FigurePlan plan_figure_energy(const PaperSettings& settings) {
         Table table({"sides", "discs", "swirl", "energy", "invariant"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < sides.size(); ++k) {
+            if (failed(results[k])) continue;
             const Json &energy = results[k]["energy"], &invariant = results[k]["invariant"];
             for (std::size_t t = 0; t < energy.size(); ++t)
                 table.add({std::int64_t{sides[k]}, discs, static_cast<std::int64_t>(t),
@@ -387,35 +396,19 @@ FigurePlan plan_figure_map(const PaperSettings& settings) {
         for (const double mu_wall : frictions) {
             if (mu_disc == 0.0 && mu_wall == 0.0) continue;  // no steady state there
             RunConfig config = paper_config(settings, {"", "", mu_disc, mu_wall}, 48);
-            config.warmup = settings.quick ? 30 : 100;
-            config.periods = *config.warmup + (settings.quick ? 60 : 200);
+            config.warmup = settings.swirls(settings.quick ? 30 : 100, 2);
+            config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 4);
             points.emplace_back(mu_disc, mu_wall);
-            PaperTask task = varied_point(
-                fmt::format("map_d{}_w{}_{}periods", mu_disc, mu_wall, *config.periods), config);
-            // A point that cannot be run to its end (collisions without number in no time) stays
-            // empty, and the map says so.
-            task.work = [work = task.work](const RunControl& control) {
-                try {
-                    return work(control);
-                } catch (const Failure& failure) {
-                    return Json{{"failed", failure.what()}};
-                }
-            };
-            plan.tasks.push_back(std::move(task));
+            plan.tasks.push_back(varied_point(fmt::format("map_d{}_w{}_{}of{}periods", mu_disc,
+                                                          mu_wall, *config.warmup, *config.periods),
+                                              config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"mu_disc", "mu_wall", "discs"}, rotation_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < points.size(); ++k) {
             std::vector<Table::Cell> row{points[k].first, points[k].second, std::int64_t{48}};
-            if (results[k].contains("failed")) {
-                row.resize(3 + rotation_columns().size(), not_known);
-                outcome.findings.push_back(fmt::format("μ_d = {}, μ_w = {} could not be run: {}",
-                                                       points[k].first, points[k].second,
-                                                       results[k]["failed"].get<std::string>()));
-            } else {
-                add_rotation(row, results[k]);
-            }
+            add_rotation(row, results[k]);
             table.add(std::move(row));
         }
         outcome.files.push_back(out / "figure_map.csv");

@@ -43,9 +43,9 @@ void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& 
                  const Json& result) {
     for (const std::string& name : names) {
         const std::size_t dot = name.find('.');
-        const Json& value = result["measured"][name.substr(0, dot)][name.substr(dot + 1)];
-        row.emplace_back(number(value["mean"]));
-        row.emplace_back(number(value["error"]));
+        const std::string measurement = name.substr(0, dot), quantity = name.substr(dot + 1);
+        for (const char* what : {"mean", "error"})
+            row.emplace_back(number(at(result, {"measured", measurement, quantity, what})));
     }
 }
 
@@ -96,7 +96,7 @@ std::string first_and_last(const std::string& what, const Friction& friction,
     std::string text;
     std::size_t first = points.size(), last = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        if (points[k].friction.name != friction.name) continue;
+        if (points[k].friction.name != friction.name || failed(results[k])) continue;
         first = std::min(first, k);
         last = k;
     }
@@ -104,6 +104,7 @@ std::string first_and_last(const std::string& what, const Friction& friction,
         const Json& v = results[k]["measured"][measurement][quantity];
         return with_error(number(v["mean"]), number(v["error"]));
     };
+    if (first == points.size()) return fmt::format("{} ({}): no runs.", what, friction.words);
     return fmt::format("{} ({}): {} at N = {}, {} at N = {}.", what, friction.words, value(first),
                        points[first].discs, value(last), points[last].discs);
 }
@@ -185,15 +186,16 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
         const std::vector<std::string> angles{"becoming_pinned", "becoming_free",
                                               "becoming_pinned_by_collisions",
                                               "becoming_free_by_collisions", "share"};
-        std::vector<std::string> heads = joined({"discs"}, columns);
+        std::vector<std::string> heads = joined({"discs", "steady_state"}, columns);
         for (const std::string& angle : angles)
             heads = joined(std::move(heads), {angle, angle + "_error"});
         Table table(heads);
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
+            if (failed(results[k])) continue;
             const Json& measured = results[k]["measured"];
             for (std::size_t r = 0; r < measured["profile"]["theta"].size(); ++r) {
-                std::vector<Table::Cell> row{numbers[k]};
+                std::vector<Table::Cell> row{numbers[k], steadiness(results[k])};
                 for (const std::string& column : columns)
                     row.emplace_back(number(measured["profile"][column][r]));
                 for (const std::string& angle : angles) {

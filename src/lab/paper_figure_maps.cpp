@@ -2,6 +2,7 @@
 // rotating (N = 28) and a counterrotating dish (N = 48), both frictions 1.
 #include <fmt/format.h>
 
+#include "lab/failure.hpp"
 #include "lab/paper_figures.hpp"
 #include "lab/paper_points.hpp"
 #include "lab/run_report.hpp"
@@ -19,11 +20,12 @@ FigureOutcome write_maps(const std::string& name, const std::string& measurement
                          const std::vector<std::string>& columns,
                          const std::vector<std::int64_t>& numbers, const std::vector<Json>& results,
                          const fs::path& out) {
-    Table table(joined({"discs"}, columns));
+    Table table(joined({"discs", "steady_state"}, columns));
     for (std::size_t k = 0; k < numbers.size(); ++k) {
+        if (failed(results[k])) continue;
         const Json& map = results[k]["measured"][measurement];
         for (std::size_t r = 0; r < map[columns.front()].size(); ++r) {
-            std::vector<Table::Cell> row{numbers[k]};
+            std::vector<Table::Cell> row{numbers[k], steadiness(results[k])};
             for (const std::string& column : columns) row.emplace_back(number(map[column][r]));
             table.add(std::move(row));
         }
@@ -37,19 +39,21 @@ FigureOutcome write_maps(const std::string& name, const std::string& measurement
 /// Density and flow in one table: the rows of the one have no flow, those of the other no density.
 FigureOutcome write_both(const std::string& name, std::int64_t discs, const Json& result,
                          const fs::path& out) {
-    Table table({"map", "discs", "x", "y", "density", "density_error", "u_x", "u_x_error", "u_y",
-                 "u_y_error", "visits"});
+    if (failed(result)) throw Failure("its only run failed.");
+    Table table({"map", "discs", "steady_state", "x", "y", "density", "density_error", "u_x",
+                 "u_x_error", "u_y", "u_y_error", "visits"});
     const Json& density = result["measured"]["density"];
     for (std::size_t r = 0; r < density["x"].size(); ++r)
-        table.add({std::string("density"), discs, number(density["x"][r]), number(density["y"][r]),
-                   number(density["by_time"][r]), number(density["by_time_error"][r]), not_known,
-                   not_known, not_known, not_known, not_known});
+        table.add({std::string("density"), discs, steadiness(result), number(density["x"][r]),
+                   number(density["y"][r]), number(density["by_time"][r]),
+                   number(density["by_time_error"][r]), not_known, not_known, not_known, not_known,
+                   not_known});
     const Json& flow = result["measured"]["flow"];
     for (std::size_t r = 0; r < flow["x"].size(); ++r)
-        table.add({std::string("flow"), discs, number(flow["x"][r]), number(flow["y"][r]),
-                   not_known, not_known, number(flow["u_x"][r]), number(flow["u_x_error"][r]),
-                   number(flow["u_y"][r]), number(flow["u_y_error"][r]),
-                   number(flow["visits"][r])});
+        table.add({std::string("flow"), discs, steadiness(result), number(flow["x"][r]),
+                   number(flow["y"][r]), not_known, not_known, number(flow["u_x"][r]),
+                   number(flow["u_x_error"][r]), number(flow["u_y"][r]),
+                   number(flow["u_y_error"][r]), number(flow["visits"][r])});
     FigureOutcome outcome;
     outcome.files.push_back(out / ("figure_" + name + ".csv"));
     table.write(outcome.files.back());

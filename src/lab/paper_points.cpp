@@ -64,15 +64,23 @@ PaperTask varied_point(const std::string& name, const RunConfig& config) {
     return run_task(fmt::format("varied_{}_seed{}", name, config.seed), config);
 }
 
+bool failed(const Json& result) { return result.is_object() && result.contains("failed"); }
+
+const Json& at(const Json& result, std::initializer_list<std::string_view> path) {
+    static const Json nothing;
+    const Json* here = &result;
+    for (const std::string_view name : path) {
+        if (!here->is_object() || !here->contains(name)) return nothing;
+        here = &here->at(std::string(name));
+    }
+    return *here;
+}
+
 double number(const Json& value) { return value.is_number() ? value.get<double>() : not_known; }
 
-Estimate estimate(const Json& value) {
-    Estimate e;
-    e.mean = number(value["mean"]);
-    e.error = number(value["error"]);
-    e.effective_samples = number(value["effective_samples"]);
-    e.blocks = value["blocks"].get<std::size_t>();
-    return e;
+std::string steadiness(const Json& result) {
+    const Json& verdict = at(result, {"steady_state", "verdict"});
+    return verdict.is_string() ? verdict.get<std::string>() : "failed";
 }
 
 std::vector<std::string> rotation_columns() {
@@ -86,23 +94,29 @@ std::vector<std::string> rotation_columns() {
             "state_hash"};
 }
 
+Table::Cell whole(const Json& value) {
+    if (value.is_number_integer()) return value.get<std::int64_t>();
+    return not_known;
+}
+
 void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     for (const char* which : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"}) {
-        row.emplace_back(number(r["rotation"][which]["mean"]));
-        row.emplace_back(number(r["rotation"][which]["error"]));
+        row.emplace_back(number(at(r, {"rotation", which, "mean"})));
+        row.emplace_back(number(at(r, {"rotation", which, "error"})));
     }
-    row.emplace_back(number(r["rotation"]["by_event"]["effective_samples"]));
-    row.emplace_back(r["events"]["total"].get<std::int64_t>());
-    row.emplace_back(number(r["periods"]));
-    row.emplace_back(r["warmup"]["periods"].get<std::int64_t>());
-    row.emplace_back(r["steady_state"]["verdict"].get<std::string>());
-    row.emplace_back(r["config"]["seed"].get<std::int64_t>());
-    row.emplace_back(r["state_hash"].get<std::string>());
+    row.emplace_back(number(at(r, {"rotation", "by_event", "effective_samples"})));
+    row.push_back(whole(at(r, {"events", "total"})));
+    row.emplace_back(number(at(r, {"periods"})));
+    row.push_back(whole(at(r, {"warmup", "periods"})));
+    row.emplace_back(steadiness(r));
+    row.push_back(whole(at(r, {"config", "seed"})));
+    const Json& hash = at(r, {"state_hash"});
+    row.emplace_back(hash.is_string() ? hash.get<std::string>() : "");
 }
 
 RotationPoint rotation_point(double x, const Json& r, const char* average) {
-    const Json& rotation = r["rotation"][average];
-    return {x, number(rotation["mean"]), number(rotation["error"])};
+    return {x, number(at(r, {"rotation", average, "mean"})),
+            number(at(r, {"rotation", average, "error"}))};
 }
 
 std::string crossing_sentence(std::span<const RotationPoint> curve) {
@@ -129,7 +143,7 @@ void write_crossings(const std::vector<NamedCurve>& curves, const std::filesyste
         const Crossing c = find_crossing(curve.points);
         RotationPoint lowest{not_known, not_known, not_known};
         for (const RotationPoint& p : curve.points)
-            if (!(p.mean >= lowest.mean)) lowest = p;
+            if (std::isfinite(p.mean) && !(p.mean >= lowest.mean)) lowest = p;
         const char* const verdict =
             c.verdict == Crossing::Verdict::crosses                 ? "crosses"
             : c.verdict == Crossing::Verdict::always_rotates        ? "always rotates"

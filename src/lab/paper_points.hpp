@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lab/paper.hpp"
@@ -48,15 +50,27 @@ PaperTask varied_point(const std::string& name, const RunConfig& config);
 
 // --- reading results ------------------------------------------------------------------------
 
+/// Is it that of a run that failed?
+bool failed(const nlohmann::ordered_json& result);
+
+/// result["a"]["b"]…, or null if there is no such thing, as in the result of a run that failed.
+const nlohmann::ordered_json& at(const nlohmann::ordered_json& result,
+                                 std::initializer_list<std::string_view> path);
+
 /// What JSON has as null is not known: NaN.
 double number(const nlohmann::ordered_json& value);
-Estimate estimate(const nlohmann::ordered_json& value);
+/// The same for a cell of a table that holds a whole number.
+Table::Cell whole(const nlohmann::ordered_json& value);
 
-/// Columns of the rotation, in the order of add_rotation().
+/// Columns of the rotation, in the order of add_rotation(); empty for a run that failed.
 std::vector<std::string> rotation_columns();
 void add_rotation(std::vector<Table::Cell>& row, const nlohmann::ordered_json& result);
 
-/// The point of a curve: "by_event" or "by_time".
+/// "steady", "drifting", "too short to tell", or "failed".
+std::string steadiness(const nlohmann::ordered_json& result);
+
+/// The point of a curve: "by_event" or "by_time". Not known for a run that failed, and then no
+/// crossing looks at it.
 RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);
 
 /// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or that it does not, and why.

@@ -39,6 +39,13 @@ Budget budget_of(const Snapshot& s) {
     return {K, K - 2.0 * pi / s.period * L};
 }
 
+/// Mean spin of the discs, in units of Ω.
+double mean_spin(const Snapshot& s) {
+    double sum = 0.0;
+    for (const double spin : s.spin) sum += spin;
+    return sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
+}
+
 /// The equally spaced moments of a swirl, one after the other. Until the next event the state of
 /// the last snapshot holds, so a look at a moment in between needs nothing but its clock.
 class SampleTimes {
@@ -172,6 +179,7 @@ class Run {
         visit(seconds_before_, warm_, rotation_times_, in_warmup_, after_warmup_);
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
+        visit(spin_in_warmup_, spin_after_, next_question_);
         for (SampleTimes& times : caller_times_) visit(times);
     }
 
@@ -233,8 +241,10 @@ class Run {
 
     void step() {
         const Event event = simulation_.step();
-        rotation_times_.pass(snapshot_, path_, event.clock,
-                             [&](const Snapshot& s) { average().look_in_time(s); });
+        rotation_times_.pass(snapshot_, path_, event.clock, [&](const Snapshot& s) {
+            average().look_in_time(s);
+            spin().add(mean_spin(s));
+        });
         for (std::size_t k = 0; k < caller_times_.size(); ++k)
             caller_times_[k].pass(snapshot_, path_, event.clock, control_.samplers[k].look);
 
@@ -250,6 +260,7 @@ class Run {
         rotation_times_.begin_swirl();
         for (SampleTimes& times : caller_times_) times.begin_swirl();
         average().close_block();
+        spin().close_block();
         if (!warm_ && warm_now()) {
             warm_ = true;
             result_.warmup = simulation_.swirls();
@@ -259,13 +270,23 @@ class Run {
     }
 
     /// At the end of a swirl: is the warm-up over?
-    bool warm_now() const {
+    bool warm_now() {
+        if (config_.warmup_found) return found_warm() || fraction() >= 0.5;
         if (config_.warmup) return simulation_.swirls() >= *config_.warmup;
         return simulation_.swirls() >= default_warmup || fraction() >= 0.2;
     }
 
+    /// Asked ever more seldom: the answer takes time that grows with the number of swirls.
+    bool found_warm() {
+        if (simulation_.swirls() < next_question_) return false;
+        next_question_ += std::max<std::int64_t>(10, next_question_ / 10);
+        return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
+               beginning_is_forgotten(spin_in_warmup_.series().block_means());
+    }
+
     /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
     ClusterRotation& average() { return warm_ ? after_warmup_ : in_warmup_; }
+    BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
 
     void finish() {
         // A run too short for a single whole swirl still has a mean, though no error.
@@ -278,6 +299,7 @@ class Run {
                 periods(), *config_.warmup));
         result_.rotation = average().estimates();
         result_.steady = find_steady_state(average().by_event().block_means());
+        result_.steady_spin = find_steady_state(spin().series().block_means());
         result_.events = simulation_.events();
         result_.periods = periods();
         const Budget end = budget_of(snapshot_);
@@ -298,6 +320,8 @@ class Run {
     double periods_at_mark_ = periods();
     double seconds_before_ = 0.0;  // by the runs that this one resumes
     ClusterRotation in_warmup_, after_warmup_;
+    BlockMean spin_in_warmup_, spin_after_;
+    std::int64_t next_question_ = least_blocks_of_a_steady_state;  // at this swirl: warm?
     bool warm_;
     RunResult result_;
 };

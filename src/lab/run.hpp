@@ -26,6 +26,7 @@ struct RunResult {
     EventCounts warmup_events;   // the events in them
     RotationEstimates rotation;  // in units of Ω, lab frame; by_event is the paper's average
     SteadyState steady;          // of the rotation by event, after the warm-up
+    SteadyState steady_spin;     // of the mean spin of the discs, which may take much longer
     double max_overlap = 0.0;    // largest overlap met at a contact: a rounding error
     /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
     double energy_at_start = 0.0, energy = 0.0;
@@ -35,6 +36,13 @@ struct RunResult {
     std::uint64_t state_hash = 0;
     double seconds = 0.0;
 
+    /// Steady if both are, drifting if either is.
+    SteadyState::Verdict steady_state() const {
+        using Verdict = SteadyState::Verdict;
+        for (const Verdict v : {Verdict::drifting, Verdict::too_short})
+            if (steady.verdict == v || steady_spin.verdict == v) return v;
+        return Verdict::steady;
+    }
     double events_per_second() const {
         return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
     }

@@ -46,6 +46,9 @@ struct RunConfig {
     /// Whole swirls left out of every average. Not in the paper. Not set: `default_warmup` of them,
     /// or the first fifth of the run if that is shorter.
     std::optional<std::int64_t> warmup;
+    /// The warm-up ends when rotation and mean spin have forgotten how they began
+    /// (measure/statistics.hpp), at the latest after half of the run; `warmup` is not set.
+    bool warmup_found = false;
 
     std::uint64_t seed = 1;
 

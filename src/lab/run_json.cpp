@@ -66,6 +66,7 @@ Json config_json(const RunConfig& c) {
     else
         json["events"] = c.events;
     if (c.warmup) json["warmup"] = *c.warmup;
+    if (c.warmup_found) json["warmup"] = "auto";
     return json;
 }
 
@@ -96,13 +97,19 @@ Json result_json(const RunResult& r) {
             {"complete", r.complete},
             {"events", counts_json(r.events)},
             {"periods", r.periods},
-            {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
+            {"warmup",
+             {{"periods", r.warmup},
+              {"events", r.warmup_events.total()},
+              {"found", r.config.warmup_found}}},
             {"rotation",
              {{"by_event", estimate_json(r.rotation.by_event)},
               {"by_time", estimate_json(r.rotation.by_time)},
               {"rigid_by_event", estimate_json(r.rotation.rigid_by_event)},
               {"rigid_by_time", estimate_json(r.rotation.rigid_by_time)}}},
-            {"steady_state", {{"verdict", word(r.steady.verdict)}, {"drift", r.steady.drift}}},
+            {"steady_state",
+             {{"verdict", word(r.steady_state())},
+              {"drift", r.steady.drift},
+              {"drift_of_the_spin", r.steady_spin.drift}}},
             {"max_overlap", r.max_overlap},
             {"energy", r.energy},
             {"energy_at_start", r.energy_at_start},

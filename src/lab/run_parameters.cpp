@@ -42,6 +42,13 @@ std::optional<std::int64_t> whole(const ParameterTexts& given, std::string_view 
     return value;
 }
 
+std::optional<std::int64_t> warmup_from(const ParameterTexts& given) {
+    const auto text = text_of(given, "warmup");
+    if (text && !read_whole_number(*text))
+        unreadable("warmup", *text, "a whole number of swirls, for example 20, or auto");
+    return whole(given, "warmup");
+}
+
 /// Names are multiples of m r²; a number is the moment of inertia itself.
 double inertia_from(std::string_view text, double mass, double radius) {
     if (text == "paper") return paper_inertia * mass * radius * radius;
@@ -171,8 +178,10 @@ const std::vector<RunParameter>& run_parameters() {
         {"sides", "M", "sides of the polygon [30]", "The container"},
         {"events", "NUMBER", "length of the run in events of all kinds [1e6]", "The run"},
         {"periods", "NUMBER", "length of the run in swirls, instead of --events", "The run"},
-        {"warmup", "PERIODS",
-         "swirls at the start that do not count [20, or a fifth of the run if that is shorter]",
+        {"warmup", "PERIODS|auto",
+         "swirls at the start that do not count; auto finds out how many it takes (MSER-5 and "
+         "Geweke's test of rotation and spins; at most half of the run) [20, or a fifth of the run "
+         "if that is shorter]",
          "The run"},
         {"seed", "NUMBER", "decides places and velocities at the start [1]", "The run"},
     };
@@ -217,7 +226,8 @@ RunConfig resolve(const ParameterTexts& given) {
             *text_of(given, "events"), *text_of(given, "periods")));
     config.events = whole(given, "events").value_or(config.events);
     config.periods = whole(given, "periods");
-    config.warmup = whole(given, "warmup");
+    config.warmup_found = text_of(given, "warmup") == std::optional<std::string_view>("auto");
+    if (!config.warmup_found) config.warmup = warmup_from(given);
     if (const auto text = text_of(given, "seed")) {
         const auto [end, error] =
             std::from_chars(text->data(), text->data() + text->size(), config.seed);

@@ -32,16 +32,23 @@ std::string energy_sentence(const RunResult& r) {
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
-std::string drift_sentence(const SteadyState& steady) {
-    if (std::fabs(steady.drift) > most_drift)
+std::string drift_sentence(const char* what, const SteadyState& steady) {
+    if (steady.drifts())
         return fmt::format(
-            "Not steady: the rotation was still changing after the warm-up ({:.1f} standard errors "
+            "Not steady: the {} was still changing after the warm-up ({:.1f} standard errors "
             "between its first and last part); a longer --warmup and a longer run would be right.",
-            std::fabs(steady.drift));
+            what, std::fabs(steady.drift));
     return fmt::format(
-        "Perhaps not steady: the search for the end of the warm-up would leave out another {} "
-        "blocks, half of the run or more; a longer run would tell.",
-        steady.warm_up);
+        "Perhaps not steady: going by the {}, the search for the end of the warm-up would leave "
+        "out another {} blocks, half of the run or more; a longer run would tell.",
+        what, steady.warm_up);
+}
+
+/// Nothing to be said of a single disc, which has no rotation about itself.
+std::string too_short_sentence(const RunResult& r) {
+    return fmt::format(
+        "Too short to tell whether it is steady: {} periods after the warm-up, and it takes {}.",
+        r.rotation.by_event.blocks, least_blocks_of_a_steady_state);
 }
 
 }  // namespace
@@ -99,8 +106,9 @@ std::string report(const RunResult& r) {
     line("events", fmt::format("{}: {} disc–disc, {} disc–wall, {} corners of the path",
                                with_commas(r.events.total()), with_commas(r.events.disc_disc),
                                with_commas(r.events.disc_wall), with_commas(r.events.path_vertex)));
-    line("periods", fmt::format("{:.1f}; the first {} are warm-up and left out of the averages",
-                                r.periods, r.warmup));
+    line("periods",
+         fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
+                     r.warmup, r.config.warmup_found ? " (found automatically)" : ""));
     line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
     line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
@@ -119,7 +127,11 @@ std::vector<std::string> warnings(const RunResult& r) {
     if (frictionless(r.config) && r.config.amplitude > 0.0 && r.config.restitution == 1.0)
         all.push_back(energy_sentence(r));
     else if (r.steady.verdict == SteadyState::Verdict::drifting)
-        all.push_back(drift_sentence(r.steady));
+        all.push_back(drift_sentence("rotation", r.steady));
+    else if (r.steady_spin.verdict == SteadyState::Verdict::drifting)
+        all.push_back(drift_sentence("mean spin of the discs", r.steady_spin));
+    else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1)
+        all.push_back(too_short_sentence(r));
     return all;
 }
 

@@ -54,6 +54,7 @@ CALLS = [
     ("--periods 0", 2, ["--periods is 0", "from 1"]),
     ("--events 10 --periods 10", 2, ["--events 10", "--periods 10", "leave one away"]),
     ("--warmup -1", 2, ["--warmup is -1", "from 0"]),
+    ("--warmup soon", 2, ["--warmup is 'soon'", "auto"]),
     ("--warmup 20 --periods 20", 2, ["--warmup is 20", "--periods 20", "shorter"]),
     ("--warmup 500 --events 1000", 2, ["--warmup is 500", "--events 1000", "shorter"]),
     ("--warmup 20 --events 5000", 1, ["--warmup 20", "shorter"]),

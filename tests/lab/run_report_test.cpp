@@ -41,14 +41,21 @@ TEST(WithCommas, GroupsByThousands) {
 TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     RunResult result;
     result.complete = true;
-    result.steady.verdict = SteadyState::Verdict::steady;
+    result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     EXPECT_TRUE(warnings(result).empty());
     result.complete = false;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Incomplete")));
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
     result.steady.drift = 5.0;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Not steady")));
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("Not steady: the rotation")));
+    std::swap(result.steady, result.steady_spin);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("Not steady: the mean spin")));
+    result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
 }

@@ -167,6 +167,44 @@ TEST(Run, WarmupIsLeftOutOfTheAverages) {
               result.events.total());
 }
 
+TEST(Run, TheWarmupIsFoundWhereTheSpinsTakeTheirTime) {
+    // Without disc friction only the wall spins the discs up: some 100 swirls. With it the dish
+    // forgets its beginning in a few swirls, and the least there is, 50, will do.
+    RunConfig config;
+    config.discs = 40;
+    config.mu_disc = 0.0;
+    config.periods = 400;
+    config.warmup_found = true;
+    const RunResult slow = run(config);
+    EXPECT_GT(slow.warmup, 100);
+    EXPECT_LT(slow.warmup, 400);
+    EXPECT_EQ(slow.steady_state(), SteadyState::Verdict::steady);
+    EXPECT_NEAR(slow.rotation.by_time.mean, 1.0, 0.01);
+    config.discs = 20;
+    config.mu_disc = 1.0;
+    EXPECT_LE(run(config).warmup, 70);
+}
+
+TEST(Run, AWarmupThatIsNotFoundEndsWithHalfOfTheRun) {
+    RunConfig config = small(10, 60);
+    config.warmup_found = true;
+    config.warmup.reset();
+    config.mu_disc = 0.0;
+    const RunResult result = run(config);
+    EXPECT_EQ(result.warmup, 30);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::too_short);
+}
+
+TEST(Run, SpinsThatStillGrowAreNotASteadyState) {
+    RunConfig config;
+    config.discs = 40;
+    config.mu_disc = 0.0;
+    config.periods = 120;
+    const RunResult result = run(config);
+    EXPECT_EQ(result.steady_spin.verdict, SteadyState::Verdict::drifting);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
+}
+
 TEST(Run, AWarmupThatTheRunDoesNotOutliveIsAFailure) {
     RunConfig config;
     config.events = 2000;
