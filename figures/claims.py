@@ -386,7 +386,8 @@ def pinned_earlier(folder):
     # Discs run clockwise, so earlier is at a larger θ.
     verdict = HOLDS if shift > 10 else FAILS
     return verdict, (f"Becoming pinned at θ = {ends(rows, 'becoming_pinned')} (degrees); the place "
-                     f"moves upstream by {shift:.0f}°.".replace("-", "−"))
+                     f"moves upstream by {shift:.0f}°. By the collisions: "
+                     f"{ends(rows, 'becoming_pinned_by_collisions')}.".replace("-", "−"))
 
 
 def free_fixed(folder):
@@ -396,7 +397,8 @@ def free_fixed(folder):
     # "The same location" is taken as within 20° over all N.
     verdict = HOLDS if span <= 20 else IN_PART if span <= 40 else FAILS
     return verdict, (f"Becoming free at θ = {ends(rows, 'becoming_free')} (degrees): over all N "
-                     f"the place moves by {span:.0f}°.")
+                     f"the place moves by {span:.0f}°. By the collisions: "
+                     f"{ends(rows, 'becoming_free_by_collisions')}.")
 
 
 def blow_up(folder):

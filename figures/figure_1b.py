@@ -15,8 +15,7 @@ def main():
                 label=r"simulation, $\mu_d = \mu_w = 1$")
     style.curve(axes, rows, "discs", "pancake", color=style.BLACK, marker="", linestyle="--",
                 label="pancake that rolls without slipping")
-    axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+    style.rotation_axes(axes)
     axes.legend(loc="upper right")
     style.save(drawing, table)
 

@@ -19,6 +19,7 @@ def main():
     axes.set_title(f"$N = {rows[0]['discs']:.0f}$")
     bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
     bar.set_label(r"discs per unit area ($r^{-2}$)")
+    style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 
 

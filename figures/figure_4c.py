@@ -15,8 +15,7 @@ def main():
                                           ("high", r"rough ($\mu = 1$)", style.RED, "o")):
         style.curve(axes, style.select(rows, setting=setting), "discs", "by_time", color=color,
                     marker=marker, label=label)
-    axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+    style.rotation_axes(axes)
     axes.legend(loc="upper right")
     style.save(drawing, table)
 

@@ -18,19 +18,16 @@ def main():
     table = style.table_from_arguments("figure_5b")
     rows = style.read(table)
     drawing, axes = style.figure(height=2.75)
-    axes.axhline(0, color=style.GREY, linewidth=0.6, zorder=0)
+    style.zero_line(axes)
     for name, label, color, marker in CURVES:
-        curve = style.select(rows, setting=name)
-        axes.errorbar(style.column(curve, "discs"), style.column(curve, "by_event"),
-                      yerr=style.column(curve, "by_event_error"), label=label, color=color,
-                      marker=marker, elinewidth=0.7)
-    axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+        style.curve(axes, style.select(rows, setting=name), "discs", "by_event", label=label,
+                    color=color, marker=marker)
+    style.rotation_axes(axes)
     axes.set_xlim(3.5, 49.5)
     axes.set_ylim(-0.15, 1.09)
     axes.text(5, -0.1, "counterrotation", color=style.GREY, fontsize=7)
     axes.text(5, 0.025, "rotation", color=style.GREY, fontsize=7)
-    axes.legend(loc="upper left", bbox_to_anchor=(0.13, 0.9))
+    axes.legend(loc="upper left", bbox_to_anchor=(0.22, 0.92))
     style.save(drawing, table)
 
 

@@ -20,6 +20,7 @@ def main():
         place.set_title(f"$N = {discs:.0f}$")
         bar = drawing.colorbar(shown, ax=place, orientation="horizontal", shrink=0.8)
         bar.set_label(r"discs per unit area ($r^{-2}$)")
+    style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 
 

@@ -18,6 +18,7 @@ def main():
         style.arrows(place, here, R, color=style.BLUE,
                      least=1e-4 * sum(r["visits"] for r in here))
         place.set_title(f"$N = {discs:.0f}$")
+    style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 
 

@@ -6,14 +6,20 @@ friction.
 
 import style
 
+MOST = 48  # discs, in the search
+
 
 def main():
     table = style.table_from_arguments("figure_friction")
-    rows = style.select(style.read(table), crosses=1.0)
+    rows = style.read(table)
     drawing, axes = style.figure()
-    axes.errorbar(style.column(rows, "mu"), style.column(rows, "crossing"),
-                  yerr=style.column(rows, "crossing_error"), color=style.BLUE, marker="o",
-                  elinewidth=0.7)
+    style.curve(axes, style.select(rows, crosses=1.0), "mu", "crossing", color=style.BLUE,
+                marker="o", label="crossing")
+    none = style.select(rows, crosses=0.0)
+    if none:
+        axes.plot(style.column(none, "mu"), [MOST] * len(none), "^", color=style.GREY,
+                  label=f"no crossing up to $N = {MOST}$")
+        axes.legend(loc="lower left")
     axes.set_xscale("log")
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2])
     axes.set_xticklabels(["0.05", "0.1", "0.2", "0.5", "1", "2"])

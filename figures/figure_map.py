@@ -16,13 +16,22 @@ def main():
         values[steps.index(row["mu_wall"])][steps.index(row["mu_disc"])] = row["by_time"]
     colors = style.plt.get_cmap("PuOr_r").copy()
     colors.set_bad("0.85")
-    shown = axes.imshow(values, origin="lower", cmap=colors, vmin=-1, vmax=1)
+    # Counterrotation is weak beside rotation: linear up to 0.02, logarithmic beyond.
+    span = style.matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
+    shown = axes.imshow(values, origin="lower", cmap=colors, norm=span)
     for y, line in enumerate(values):
         for x, value in enumerate(line):
             if value == value:
                 axes.text(x, y, f"{value:.2f}".replace("-", "−"), ha="center", va="center",
                           fontsize=5 if len(steps) > 6 else 7,
-                          color="white" if abs(value) > 0.7 else "black")
+                          color="white" if abs(value) > 0.3 else "black")
+    drifting = style.not_steady(rows)
+    for row in drifting:
+        corner = (steps.index(row["mu_disc"]) - 0.44, steps.index(row["mu_wall"]) - 0.44)
+        axes.add_patch(style.plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7,
+                                           linestyle=":"))
+    if drifting:
+        style.note(drawing, "in a dotted frame: run not shown to be steady")
     axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps])
     axes.set_yticks(range(len(steps)), [f"{s:g}" for s in steps])
     axes.set_xlabel(r"disc friction $\mu_d$")
@@ -31,6 +40,8 @@ def main():
         side.set_visible(False)
     axes.tick_params(length=0)
     bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
+    bar.set_ticks([-1, -0.1, 0, 0.1, 1], labels=["−1", "−0.1", "0", "0.1", "1"])
+    bar.minorticks_off()
     bar.set_label(r"$\varpi/\Omega$ at $N = 48$")
     style.save(drawing, table)
 

@@ -17,7 +17,9 @@ def main():
         style.curve(place, polygons, "sides", "by_time", color=style.CYCLE[k],
                     marker=style.MARKERS[k], label="polygon")
         for circle in style.select(here, sides=0.0):
-            place.axhline(circle["by_time"], color=style.BLACK, linewidth=0.7, label="true circle")
+            off = " (not shown to be steady)" if style.not_steady([circle]) else ""
+            place.axhline(circle["by_time"], color=style.BLACK, linewidth=0.7,
+                          label="true circle" + off)
             place.axhspan(circle["by_time"] - circle["by_time_error"],
                           circle["by_time"] + circle["by_time_error"], color=style.GREY,
                           alpha=0.3, linewidth=0)

@@ -8,6 +8,7 @@ import base64
 import html
 import json
 import os
+import re
 import sys
 
 import claims
@@ -43,31 +44,64 @@ CONTRADICTIONS = [
      "Both are given everywhere; figure “averages” compares them."),
 ]
 
+# What each figure beyond the paper asks.
+QUESTIONS = {
+    "averages": "The paper averages over events, an observer over time. Does it matter?",
+    "transient": "Without disc friction only the wall turns the discs' spins. How long does that "
+                 "take, and does the paper's average see the end of it?",
+    "5b-steady": "Figure 5b once more, after a warm-up long enough for the spins.",
+    "friction": "The paper shows that less friction moves the crossing to higher N. How?",
+    "inertia": "The paper's discs have more inertia than a rigid plane disc can have. What of "
+               "solid discs and of rings?",
+    "restitution": "The paper's collisions are elastic in the normal direction. What does a loss "
+                   "change?",
+    "tangential": "Friction only stops the slip in the paper. What if part of it is given back?",
+    "polygon": "The paper's container runs along 30 straight sides. What does that change?",
+    "energy": "The paper's program crashes when both frictions are zero. Where does the energy "
+              "come from?",
+    "map": "Which of the two frictions decides?",
+}
+
 CSS = """
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #1b1b1b; background: #fff;
-       max-width: 62rem; margin: 2.5rem auto; padding: 0 1.2rem; }
+       max-width: 64rem; margin: 2.5rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin-bottom: .3rem; }
 h2 { font-size: 1.25rem; margin-top: 2.4rem; border-bottom: 1px solid #ccc; }
-h3 { font-size: 1rem; margin: 1.4rem 0 .3rem; }
+h3 { font-size: 1rem; margin: 0 0 .3rem; }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
-th, td { text-align: left; vertical-align: top; padding: .45rem .6rem .45rem 0;
+th, td { text-align: left; vertical-align: top; padding: .45rem .8rem .45rem 0;
          border-bottom: 1px solid #ddd; }
-td.verdict { white-space: nowrap; font-weight: 600; }
+td.verdict { font-weight: 600; }
 .holds { color: #00694e; } .part { color: #8a5a00; } .fails { color: #a63c00; }
 .other { color: #666; }
 code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
-figure { margin: 0; break-inside: avoid; }
+td code { white-space: nowrap; }
+sub { line-height: 0; font-size: .72em; }
+figure { margin: 1.2rem 0; display: grid; grid-template-columns: 23rem 1fr; gap: 1.6rem;
+         align-items: start; break-inside: avoid; }
 figure img { width: 100%; height: auto; }
-figcaption { font-size: .85rem; color: #333; }
-.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr));
-           gap: 1.6rem 1.4rem; }
-.small { color: #555; font-size: .88rem; }
+figcaption { font-size: .88rem; }
+figcaption ul { padding-left: 1.1rem; margin: .3rem 0 .6rem; }
+figcaption li { margin-bottom: .25rem; }
+.small { color: #555; font-size: .92em; }
+table.claims { table-layout: fixed; }
+.claims th:nth-child(1) { width: 2.2em; }
+.claims th:nth-child(2) { width: 31%; }
+.claims th:nth-child(4) { width: 13%; }
+.claims th:nth-child(5) { width: 20%; }
+.question { color: #333; font-style: italic; margin: 0 0 .3rem; }
+@media (max-width: 50rem) { figure { grid-template-columns: 1fr; } }
+@page { size: A4; margin: 16mm 15mm; }
 @media print {
-  body { font-size: 10pt; max-width: none; margin: 0; }
-  .figures { grid-template-columns: 1fr 1fr; }
-  tr, figure { break-inside: avoid; }
-  h2 { break-after: avoid; }
+  body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
+  figure { grid-template-columns: 7.6cm 1fr; gap: .7cm; margin: .5cm 0; }
+  table { font-size: 8pt; }
+  figcaption { font-size: 8pt; }
+  tr { break-inside: avoid; }
+  h3 { font-size: 10pt; }
+  h2, h3 { break-after: avoid; }
+  code { background: none; padding: 0; }
 }
 """
 CLASS = {claims.HOLDS: "holds", claims.IN_PART: "part", claims.FAILS: "fails"}
@@ -85,8 +119,28 @@ def judge(folder):
 
 
 def counts(judged):
+    """"19 hold, 6 hold in part, 1 does not hold." """
+    many = {claims.HOLDS: "hold", claims.IN_PART: "hold in part", claims.FAILS: "do not hold",
+            claims.UNTESTABLE: "are not testable by simulation", claims.MISSING: "were not made"}
+    one = {claims.UNTESTABLE: "is not testable by simulation", claims.MISSING: "was not made"}
     found = [verdict for _, verdict, _ in judged]
-    return ", ".join(f"{found.count(v)} {v}" for v in ORDER if v in found)
+    words = []
+    for v in ORDER:
+        if v in found:
+            n = found.count(v)
+            words.append(f"{n} {one.get(v, v) if n == 1 else many[v]}")
+    return f"Of {len(found)} claims " + ", ".join(words) + "."
+
+
+def in_short(judged):
+    """What disagrees, first of all: (what, [(says, found)])."""
+    groups = ((claims.FAILS, "Does not hold"), (claims.IN_PART, "Holds in part"))
+    result = []
+    for kind, heading in groups:
+        here = [(claim.says, found) for claim, verdict, found in judged if verdict == kind]
+        if here:
+            result.append((heading, here))
+    return result
 
 
 def parameter_rows(about):
@@ -132,6 +186,15 @@ def title_of(figure):
     return f"Figure {name}: {text}" if name[0].isdigit() else text[0].upper() + text[1:]
 
 
+def question_of(figure):
+    return QUESTIONS.get(figure["name"], "")
+
+
+def sentence(text):
+    # Not ϖ, whose capital is Π.
+    return text[:1].upper() + text[1:] if text[:1].isascii() else text
+
+
 def picture_of(figure):
     return next((f for f in figure["files"] if f.endswith(".png")), None)
 
@@ -143,8 +206,10 @@ def cell(text):
 
 
 def markdown(about, judged):
-    lines = ["# The paper, claim by claim", "", intro(about), "", f"**{counts(judged)}.**", "",
-             "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
+    lines = ["# The paper, claim by claim", "", intro(about), "", f"**{counts(judged)}**", ""]
+    for heading, which in in_short(judged):
+        lines += [f"{heading}:", ""] + [f"- {says} — {found}" for says, found in which] + [""]
+    lines += ["## Claim by claim", "", "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
     for k, (claim, verdict, found) in enumerate(judged, 1):
         command = f"`{claim.command}`" if claim.command else ""
         lines.append(f"| {k} | {cell(claim.says)} ({claim.where}) | {cell(found)} | "
@@ -157,7 +222,9 @@ def markdown(about, judged):
             lines += ["", f"### {title_of(figure)}", ""]
             if picture_of(figure):
                 lines += [f"![{title_of(figure)}]({picture_of(figure)})", ""]
-            lines += [f"- {finding}" for finding in figure["findings"]]
+            if question_of(figure):
+                lines += [f"*{question_of(figure)}*", ""]
+            lines += [f"- {sentence(finding)}" for finding in figure["findings"]]
             lines += ["", f"`swirl paper --figure {figure['name']}`"]
     lines += ["", "## Where the paper contradicts itself, and what was assumed", "",
               "| matter | the paper | here |", "|---|---|---|"]
@@ -174,30 +241,41 @@ def inline(path):
         return "data:image/png;base64," + base64.b64encode(file.read()).decode()
 
 
-def table(head, rows):
+def table(head, rows, kind=""):
     top = "".join(f"<th>{html.escape(h)}</th>" for h in head)
     body = "".join("<tr>" + "".join(row) + "</tr>\n" for row in rows)
-    return f"<table><thead><tr>{top}</tr></thead><tbody>\n{body}</tbody></table>\n"
+    return f"<table class='{kind}'><thead><tr>{top}</tr></thead><tbody>\n{body}</tbody></table>\n"
 
 
 def td(text, kind=""):
     kind = f' class="{kind}"' if kind else ""
-    return f"<td{kind}>{html.escape(str(text))}</td>"
+    return f"<td{kind}>{rich(text)}</td>"
+
+
+SUBSCRIPT = re.compile(r"\b([NRVϖμγ])_(container|cluster|ball|wall|[A-Za-z])\b")
+
+
+def rich(text):
+    """Escaped, with N_c and its like as they are printed."""
+    return SUBSCRIPT.sub(r"\1<sub>\2</sub>", html.escape(str(text)))
 
 
 def figure_html(folder, figure):
-    title = html.escape(title_of(figure))
+    title = rich(title_of(figure))
     picture = picture_of(figure)
-    image = (f'<img alt="{title}" src="{inline(os.path.join(folder, picture))}">'
-             if picture else "")
-    findings = " ".join(html.escape(finding) for finding in figure["findings"])
-    return (f"<figure>{image}<figcaption><b>{title}.</b> {findings} "
+    image = (f'<img alt="{html.escape(title_of(figure))}" '
+             f'src="{inline(os.path.join(folder, picture))}">' if picture else "<span></span>")
+    question = (f"<p class=question>{rich(question_of(figure))}</p>" if question_of(figure)
+                else "")
+    findings = "".join(f"<li>{rich(sentence(finding))}</li>" for finding in figure["findings"])
+    return (f"<figure>{image}<figcaption><h3>{title}</h3>{question}"
+            f"{'<ul>' + findings + '</ul>' if findings else ''}"
             f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption>"
             "</figure>\n")
 
 
 def page(folder, about, judged):
-    rows = [(td(k), f"<td>{html.escape(claim.says)} <span class=small>({html.escape(claim.where)})"
+    rows = [(td(k), f"<td>{rich(claim.says)} <span class=small>({html.escape(claim.where)})"
              "</span></td>", td(found),
              td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
              f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
@@ -207,12 +285,16 @@ def page(folder, about, judged):
              '<meta name=viewport content="width=device-width, initial-scale=1">',
              "<title>The paper, claim by claim</title>", f"<style>{CSS}</style></head><body>\n",
              "<h1>The paper, claim by claim</h1>", f"<p>{html.escape(intro(about))}</p>\n",
-             f"<p><b>{html.escape(counts(judged))}.</b></p>\n",
-             table(["", "the paper says", "found", "verdict", "command"], rows)]
+             f"<p><b>{html.escape(counts(judged))}</b></p>\n"]
+    for heading, which in in_short(judged):
+        items = "".join(f"<li>{rich(says)} <span class=small>{rich(found)}</span></li>"
+                        for says, found in which)
+        parts += [f"<p>{heading}:</p><ul>{items}</ul>\n"]
+    parts += ["<h2>Claim by claim</h2>\n",
+             table(["", "the paper says", "found", "verdict", "command"], rows, "claims")]
     for heading, figures in (("The paper’s figures", of_the_paper), ("What is new", new)):
-        parts += [f"<h2>{heading}</h2>\n<div class=figures>\n"]
+        parts += [f"<h2>{heading}</h2>\n"]
         parts += [figure_html(folder, figure) for figure in figures]
-        parts += ["</div>\n"]
     parts += ["<h2>Where the paper contradicts itself, and what was assumed</h2>\n",
               table(["matter", "the paper", "here"],
                     [(td(a), td(b), td(c)) for a, b, c in CONTRADICTIONS]),

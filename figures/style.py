@@ -4,6 +4,7 @@ Colours are those of Okabe and Ito (2008), which people with any kind of colour 
 apart; every curve has a marker of its own besides.
 """
 
+import math
 import os
 import sys
 
@@ -12,7 +13,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from tables import column, read, select  # noqa: E402, F401
+import tables  # noqa: E402
+from tables import column, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
@@ -63,6 +65,14 @@ SETTINGS = {
 }
 
 
+def read(table):
+    """The rows of a table, of which there must be some."""
+    rows = tables.read(table)
+    if not rows:
+        sys.exit(f"'{table}' has no rows, so there is nothing to draw.")
+    return rows
+
+
 def figure(width=COLUMN, height=None, **subplots):
     """A figure of the given width in inches; returns what plt.subplots returns."""
     plt.rcParams.update(SETTINGS)
@@ -70,10 +80,99 @@ def figure(width=COLUMN, height=None, **subplots):
     return plt.subplots(figsize=(width, height), constrained_layout=True, **subplots)
 
 
+def not_steady(rows):
+    """The rows whose run still drifts, or was too short for the test."""
+    return [row for row in rows
+            if row.get("steady_state", "steady") not in ("steady", "failed")]
+
+
+def ring(axes, rows, x, y):
+    """Rings about the points that are not shown to belong to a steady state; the note below the
+    figure (save) says what they are. `y` names a column or is a function of the row."""
+    value = y if callable(y) else lambda row: row[y]
+    marked = not_steady(rows)
+    if not marked:
+        return
+    axes.plot(column(marked, x), [value(row) for row in marked], "o", markersize=6.5,
+              markerfacecolor="none", markeredgecolor=BLACK, markeredgewidth=0.5, zorder=4)
+    note(axes.figure, "in a ring: run not shown to be steady")
+
+
+def note(drawing, text):
+    """A remark below the figure."""
+    drawing.supxlabel(text, fontsize=6.5, color="0.3")
+
+
+def note_not_steady(drawing, rows):
+    """For maps and profiles, whose parts cannot be ringed: of which numbers of discs."""
+    numbers = sorted({row["discs"] for row in not_steady(rows)})
+    if numbers:
+        note(drawing, "not shown to be steady: N = " + ", ".join(f"{n:.0f}" for n in numbers))
+
+
 def curve(axes, rows, x, y, **look):
-    """One line with its errors."""
+    """One line with its errors, and rings where the run is not steady."""
     axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"),
                   elinewidth=0.7, **look)
+    ring(axes, rows, x, y)
+
+
+def rotation_curves(name, parameter, symbol):
+    """A whole figure: rotation against the number of discs, a curve for each value of a
+    parameter."""
+    table = table_from_arguments(name)
+    rows = read(table)
+    drawing, axes = figure()
+    zero_line(axes)
+    for k, value in enumerate(sorted({row[parameter] for row in rows})):
+        curve(axes, select(rows, **{parameter: value}), "discs", "by_time", color=CYCLE[k],
+              marker=MARKERS[k], label=f"${symbol} = {value:g}$")
+    rotation_axes(axes)
+    axes.legend(loc="upper right")
+    save(drawing, table)
+
+
+def rotation_axes(axes):
+    axes.set_xlabel(r"number of discs $N$")
+    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+
+
+def profiles(name, quantity, level, label):
+    """A whole figure: a quantity against the angle θ, a curve for each number of discs, with the
+    places where discs become pinned and free."""
+    table = table_from_arguments(name)
+    rows = read(table)
+    numbers = sorted({row["discs"] for row in rows})
+    drawing, axes = figure(height=2.6)
+    colors = plt.get_cmap("viridis")
+    span = max(numbers[-1] - numbers[0], 1)
+    for discs in numbers:
+        color = colors(0.95 * (discs - numbers[0]) / span)
+        shown = [row for row in select(rows, discs=discs) if row["visits"] > 200]
+        axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
+                  linestyle=":" if not_steady(shown) else "-")
+        for angle, marker in (("becoming_pinned", "v"), ("becoming_free", "o")):
+            here = [row for row in shown if not math.isnan(row[angle])]
+            if not here:
+                continue
+            nearest = min(here, key=lambda row: abs((row["theta"] - row[angle] + 180) % 360 - 180))
+            axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
+                      markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
+    axes.plot([], [], "v", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
+              label="becoming pinned")
+    axes.plot([], [], "o", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
+              label="becoming free")
+    axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
+    axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
+    axes.set_ylabel(label)
+    axes.set_xlim(0, 360)
+    axes.set_ylim(*middle(column([row for row in rows if row["visits"] > 200], quantity)))
+    axes.set_xticks(range(0, 361, 90))
+    axes.legend(loc="best")
+    bar = drawing.colorbar(scale(numbers, colors), ax=axes)
+    bar.set_label(r"number of discs $N$")
+    note_not_steady(drawing, rows)
+    save(drawing, table)
 
 
 def zero_line(axes):

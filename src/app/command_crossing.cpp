@@ -95,7 +95,8 @@ void find(CrossingCall& call) {
                                                  short_duration(search.seconds));
     if (search.drifting > 0)
         text += fmt::format(
-            "{} of the runs had not reached a steady state after the warm-up; a longer --warmup, "
+            "{} of the runs that this rests on had not reached a steady state after the warm-up; a "
+            "longer --warmup, "
             "or --warmup auto, would be right.\n",
             search.drifting);
     const std::string json = search_json(call.settings, search).dump(2) + "\n";

@@ -85,7 +85,7 @@ void make_paper(PaperCall& call) {
     for (const MadeFigure& figure : result.figures) {
         for (const std::string& finding : figure.outcome.findings)
             text += result.figures.size() == 1 ? finding + "\n"
-                                               : fmt::format("{:<11}{}\n", figure.name, finding);
+                                               : fmt::format("{:<13}{}\n", figure.name, finding);
         files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
     }
     if (call.figures.empty())
@@ -98,7 +98,11 @@ void make_paper(PaperCall& call) {
                             ? fmt::format(", {} of them from an earlier call,", result.remembered)
                             : "",
                         short_duration(result.seconds));
-    for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
+    if (call.figures.empty())
+        text += fmt::format("wrote {} and {} more files there\n", files.back().string(),
+                            files.size() - 1);
+    else
+        for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
     refuse_missing(result);
 }

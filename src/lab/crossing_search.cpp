@@ -35,7 +35,8 @@ class Search {
         search.crossing = find_crossing(search.points);
         search.events = events_;
         search.runs = runs_;
-        search.drifting = drifting_;
+        for (const std::int64_t n : changes_sign() ? window() : all_numbers())
+            search.drifting += sums_.at(n).drifting;
         search.within_tolerance = good_enough();
         search.seconds = seconds();
         return search;
@@ -44,7 +45,7 @@ class Search {
   private:
     struct Sum {
         double mean = 0.0, square_error = 0.0, weight = 0.0;
-        std::int64_t runs = 0;
+        std::int64_t runs = 0, drifting = 0;
     };
 
     std::set<std::int64_t> coarse_numbers() const {
@@ -52,6 +53,12 @@ class Search {
         for (int k = 0; k < coarse_points; ++k)
             numbers.insert(settings_.from +
                            (settings_.to - settings_.from) * k / (coarse_points - 1));
+        return numbers;
+    }
+
+    std::set<std::int64_t> all_numbers() const {
+        std::set<std::int64_t> numbers;
+        for (const auto& [n, sum] : sums_) numbers.insert(n);
         return numbers;
     }
 
@@ -163,7 +170,7 @@ class Search {
             sum.weight += weight;
             ++sum.runs;
             ++runs_;
-            drifting_ += r.steady_state() == SteadyState::Verdict::drifting ? 1 : 0;
+            sum.drifting += r.steady_state() == SteadyState::Verdict::drifting ? 1 : 0;
         }
     }
 
@@ -186,7 +193,6 @@ class Search {
     std::map<std::int64_t, Sum> sums_;
     std::mutex mutex_;
     std::uint64_t events_ = 0, runs_ = 0;
-    std::int64_t drifting_ = 0;
 };
 
 }  // namespace

@@ -35,7 +35,9 @@ struct CrossingSearch {
     std::vector<RotationPoint> points;    // by time, in the order of N
     std::vector<std::int64_t> runs_made;  // at each of them
     std::uint64_t events = 0, runs = 0;
-    std::int64_t drifting = 0;  // runs that had not reached a steady state after their warm-up
+    /// Of the runs that the crossing rests on (of all, if there is none): how many had not reached
+    /// a steady state after their warm-up.
+    std::int64_t drifting = 0;
     bool within_tolerance = false;
     double seconds = 0.0;
 };

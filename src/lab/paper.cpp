@@ -187,10 +187,9 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     }
     if (drifting + too_short > 0)
         remarks.push_back(fmt::format(
-            "{} of the {} runs {} not shown to be steady after the warm-up ({} still drift, {} "
-            "are too short to tell): marked in the figure, and in the column steady_state.",
-            drifting + too_short, judged, drifting + too_short == 1 ? "is" : "are", drifting,
-            too_short));
+            "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
+            "tell). They are marked in the figure and in the column steady_state.",
+            drifting + too_short, judged, drifting, too_short));
     return remarks;
 }
 

@@ -19,6 +19,9 @@ FigurePlan plan_figure_ball(const PaperSettings&) {
                            ball.rotation(), ball.rotation_in_m_frame()});
             }
         FigureOutcome outcome;
+        outcome.findings.push_back(
+            "γ = s R_container/R_ball: a ball counterrotates where s is above R_ball/R_container, "
+            "so always if it rolls (s = 1) and never if it slips freely (s = 0).");
         outcome.files.push_back(out / "figure_ball.csv");
         table.write(outcome.files.back());
         return outcome;

@@ -84,12 +84,35 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
 
 // --- by event and by time -------------------------------------------------------------------
 
+namespace {
+
+/// Where the two averages differ most.
+std::string farthest_apart(const Friction& friction, std::span<const Json> results) {
+    double most = -1.0;
+    std::string found = "no runs";
+    for (const Json& r : results) {
+        const RotationPoint event = rotation_point(0.0, r, "by_event"),
+                            time = rotation_point(0.0, r, "by_time");
+        if (!(std::fabs(event.mean - time.mean) > most)) continue;
+        most = std::fabs(event.mean - time.mean);
+        found = fmt::format("farthest apart at N = {}, ϖ/Ω = {} by event and {} by time",
+                            number(at(r, {"config", "discs"})), with_error(event.mean, event.error),
+                            with_error(time.mean, time.error));
+    }
+    return fmt::format("{} (μ_d = {}, μ_w = {}): {}.", friction.words, friction.mu_disc,
+                       friction.mu_wall, found);
+}
+
+}  // namespace
+
 FigurePlan plan_figure_averages(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_5b(settings);  // the same runs
     const auto table_of_5b = plan.finish;
     plan.script = "figure_averages.py";
     plan.finish = [table_of_5b](const std::vector<Json>& results, const fs::path& out) {
         FigureOutcome outcome = table_of_5b(results, out);
+        // The table has the runs of one friction after those of the other.
+        const std::size_t numbers = results.size() / std::size(frictions_of_5b);
         const fs::path table = out / "figure_averages.csv";
         std::error_code error;
         fs::copy_file(outcome.files.front(), table, fs::copy_options::overwrite_existing, error);
@@ -98,6 +121,9 @@ FigurePlan plan_figure_averages(const PaperSettings& settings) {
                 fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
         outcome.files = {table};
         outcome.findings.clear();
+        for (std::size_t f = 0; f < std::size(frictions_of_5b); ++f)
+            outcome.findings.push_back(farthest_apart(
+                frictions_of_5b[f], std::span(results).subspan(f * numbers, numbers)));
         return outcome;
     };
     return plan;
@@ -371,10 +397,10 @@ FigurePlan plan_figure_energy(const PaperSettings& settings) {
                            number(energy[t]), number(invariant[t])});
             outcome.findings.push_back(fmt::format(
                 "No friction at all, {}: in {} swirls the energy goes from {:.3g} to {:.3g}, and "
-                "K − ΩL changes by {:.2g}.",
+                "K − ΩL changes by {}.",
                 sides[k] > 0 ? fmt::format("{} sides", sides[k]) : "the true circle", swirls,
                 number(energy.front()), number(energy.back()),
-                number(invariant.back()) - number(invariant.front())));
+                with_error(number(invariant.back()) - number(invariant.front()), not_known)));
         }
         outcome.files.push_back(out / "figure_energy.csv");
         table.write(outcome.files.back());
@@ -384,6 +410,29 @@ FigurePlan plan_figure_energy(const PaperSettings& settings) {
 }
 
 // --- both frictions at once -----------------------------------------------------------------
+
+namespace {
+
+std::string lowest_of_the_map(const std::vector<std::pair<double, double>>& points,
+                              const std::vector<Json>& results) {
+    std::size_t lowest = points.size(), counterrotating = 0;
+    RotationPoint least{};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const RotationPoint p = rotation_point(0.0, results[k], "by_time");
+        if (p.mean < -3.0 * p.error) ++counterrotating;
+        if (!std::isfinite(p.mean) || (lowest < points.size() && p.mean >= least.mean)) continue;
+        lowest = k;
+        least = p;
+    }
+    if (lowest == points.size()) return "No run came to its end.";
+    return fmt::format(
+        "48 discs certainly counterrotate at {} of {} pairs of frictions; lowest is ϖ/Ω = {} at "
+        "μ_d = {}, μ_w = {}.",
+        counterrotating, points.size(), with_error(least.mean, least.error), points[lowest].first,
+        points[lowest].second);
+}
+
+}  // namespace
 
 FigurePlan plan_figure_map(const PaperSettings& settings) {
     FigurePlan plan;
@@ -411,6 +460,7 @@ FigurePlan plan_figure_map(const PaperSettings& settings) {
             add_rotation(row, results[k]);
             table.add(std::move(row));
         }
+        outcome.findings.push_back(lowest_of_the_map(points, results));
         outcome.files.push_back(out / "figure_map.csv");
         table.write(outcome.files.back());
         return outcome;
