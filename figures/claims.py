@@ -32,6 +32,8 @@ class Claim:
             return self.judge(Folder(folder))
         except FileNotFoundError as missing:
             return MISSING, f"The table {os.path.basename(missing.filename)} is not there."
+        except (IndexError, ValueError, ZeroDivisionError):
+            return MISSING, "The table has too few runs in it."
 
 
 class Folder:
@@ -49,7 +51,9 @@ class Folder:
         return known[0]
 
     def curve(self, name, **wanted):
-        return sorted(tables.select(self.table(name), **wanted), key=lambda row: row["discs"])
+        rows = [row for row in tables.select(self.table(name), **wanted)
+                if row.get("steady_state") != "failed"]
+        return sorted(rows, key=lambda row: row["discs"])
 
 
 # --- words and numbers ------------------------------------------------------------------------

@@ -78,9 +78,9 @@ CALLS = [
     ("--json /no/such/folder/x.json", 1, ["/no/such/folder"]),
     ("--json /", 1, ["is a folder"]),
     # Collapses: infinitely many collisions in a finite time.
-    ("--restitution 0.9 --contact-duration 0 --periods 20", 1,
+    ("--restitution 0.9 --contact-duration 0 --periods 20 --quiet", 1,
      ["time all but stands still", "restitution 0.9", "--contact-duration than 0"]),
-    ("--mu-disc 0.5 --mu-wall 0 --periods 300", 1,
+    ("--mu-disc 0.5 --mu-wall 0 --periods 300 --quiet", 1,
      ["time all but stands still", "friction", "no state after it"]),
 ]
 

@@ -82,7 +82,8 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.no_disc_drop("5b")(self.folder)[0], claims.FAILS)
 
     def test_angles_pass_through_zero(self):
-        self.table("3a", [{"discs": n, "becoming_free": a, "becoming_free_error": 1.0}
+        self.table("3a", [{"discs": n, "becoming_free": a, "becoming_free_error": 1.0,
+                           "becoming_free_by_collisions": 50, "becoming_free_by_collisions_error": 1}
                           for n, a in ((24, 8), (36, 355), (48, 1))])
         verdict, found = claims.free_fixed(self.folder)
         self.assertEqual(verdict, claims.HOLDS)  # they span 13°, not 354°
@@ -110,6 +111,34 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.number(36.42, 0.12), "36.42 ± 0.12")
         self.assertEqual(claims.number(36.42, 0.3), "36.4 ± 0.3")
 
+    def test_a_run_that_failed_is_not_looked_at(self):
+        self.table("5b", [
+            {"setting": "high", "discs": n, "by_event": v, "by_event_error": 0.01,
+             "steady_state": "steady" if v else "failed"}
+            for n, v in ((5, 0.9), (40, -0.2), (44, -0.3), (46, ""), (48, -0.2))])
+        self.assertEqual(claims.minimum(self.folder)[0], claims.HOLDS)
+
+    def test_a_table_without_runs_is_no_verdict(self):
+        self.table("5b", [{"setting": "high", "discs": 5, "by_event": "", "by_event_error": "",
+                           "steady_state": "failed"}])
+        for claim in claims.CLAIMS:
+            if claim.judge is claims.minimum:
+                self.assertEqual(claim.verdict(self.scratch.name)[0], claims.MISSING)
+
+    def test_what_disagrees_comes_first(self):
+        judged = [(claims.Claim("x", f"{v} {k}", "5b", None), v, "found")
+                  for v, n in ((claims.HOLDS, 3), (claims.IN_PART, 1), (claims.FAILS, 2))
+                  for k in range(n)]
+        self.assertEqual(report.counts(judged),
+                         "Of 6 claims 3 hold, 1 holds in part, 2 do not hold.")
+        self.assertEqual([heading for heading, _ in report.in_short(judged)],
+                         ["Does not hold", "Holds in part"])
+
+    def test_letters_below_the_line(self):
+        self.assertEqual(report.rich("N_c < 5, ϖ_M, R_ball, steady_state"),
+                         "N<sub>c</sub> &lt; 5, ϖ<sub>M</sub>, R<sub>ball</sub>, steady_state")
+        self.assertEqual(report.sentence("ϖ by time"), "ϖ by time")
+
     def test_the_report_is_one_page_with_everything_in_it(self):
         about = {"command": "swirl paper", "version": "1", "build": "b", "quick": True, "seed": 1,
                  "events_of_a_run": 1000, "runs": 2, "runs_of_earlier_calls": 0, "seconds": 100.0,
@@ -125,7 +154,7 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertIn("ϖ &lt; 0 &amp; more", page)
         self.assertNotIn('src="figure', page)
         for claim in claims.CLAIMS:
-            self.assertIn(report.html.escape(claim.says), page)
+            self.assertIn(report.rich(claim.says), page)
         text = report.markdown(about, report.judge(self.scratch.name))
         self.assertEqual(text.count("\n| "), len(claims.CLAIMS) + len(report.CONTRADICTIONS) +
                          len(report.parameter_rows(about)) + 3)
