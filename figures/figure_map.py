@@ -22,7 +22,8 @@ def main():
     for y, line in enumerate(values):
         for x, value in enumerate(line):
             if value == value:
-                axes.text(x, y, f"{value:.2f}".replace("-", "−"), ha="center", va="center",
+                number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
+                axes.text(x, y, number, ha="center", va="center",
                           fontsize=5 if len(steps) > 6 else 7,
                           color="white" if abs(value) > 0.3 else "black")
     drifting = style.not_steady(rows)
@@ -32,7 +33,8 @@ def main():
                                            linestyle=":"))
     if drifting:
         style.note(drawing, "in a dotted frame: run not shown to be steady")
-    axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps])
+    axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps],
+                    fontsize=6 if len(steps) > 6 else 7.5)
     axes.set_yticks(range(len(steps)), [f"{s:g}" for s in steps])
     axes.set_xlabel(r"disc friction $\mu_d$")
     axes.set_ylabel(r"wall friction $\mu_w$")

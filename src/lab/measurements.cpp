@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 
 constexpr double degrees = 180.0 / pi;
 
-/// Looks by event at every sixteenth event: that changes the error, hardly, and not the mean.
-constexpr int events_per_look = 16;
+/// Looks by event at every 32nd event: that changes the error, hardly, and not the mean.
+constexpr int events_per_look = 32;
 
 /// Cells are found at every hundredth look: they cost as much as twenty others, and the structure
 /// changes slowly. 100 and 511 have no common divisor, so every phase of the swirl is met.
@@ -403,10 +403,9 @@ class OfDiffusion : public Kept<OfDiffusion> {
 /// The frames of the last moments, so that a disc found pinned can be seen where it was then.
 class PinnedWatch {
   public:
-    void look(const MFrameView& view) {
-        pinned_loose_.look(view);
-        recent_[frames_++ % recent_.size()] = view;
-    }
+    /// Where the next frame goes; then look() at it.
+    MFrameView& next() { return recent_[frames_ % recent_.size()]; }
+    void look() { pinned_loose_.look(recent_[frames_++ % recent_.size()]); }
     void close_block() { pinned_loose_.close_block(); }
     const PinnedLoose& pinned_loose() const { return pinned_loose_; }
     /// The frame that pinned() speaks of.
@@ -556,9 +555,10 @@ struct RunMeasurements::State {
 
     void look(const Snapshot& lab) {
         if (!counts) return;
-        view.look(lab);
-        if (watches_pinned) watch.look(view);
-        Look look{lab, view, watch.pinned_loose(), watch.earlier(), nullptr, nullptr, {}};
+        MFrameView& now = watches_pinned ? watch.next() : view;
+        now.look(lab);
+        if (watches_pinned) watch.look();
+        Look look{lab, now, watch.pinned_loose(), watch.earlier(), nullptr, nullptr, {}};
         if (needs_cells && ++looks % looks_per_structure == 0) look_at_the_structure(look);
         for (const auto& m : measurements) m->look(look);
     }

@@ -79,6 +79,8 @@ class OnMadeUpTables(unittest.TestCase):
         self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.9)])
         self.assertEqual(claims.no_disc_drop("5b")(self.folder)[0], claims.HOLDS)
         self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.99)])
+        self.assertEqual(claims.no_disc_drop("5b")(self.folder)[0], claims.IN_PART)
+        self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.999)], error=0.001)
         self.assertEqual(claims.no_disc_drop("5b")(self.folder)[0], claims.FAILS)
 
     def test_angles_pass_through_zero(self):
