@@ -102,6 +102,7 @@ table.claims { table-layout: fixed; }
   h3 { font-size: 10pt; }
   h2, h3 { break-after: avoid; }
   code { background: none; padding: 0; }
+  td code { white-space: normal; }
 }
 """
 CLASS = {claims.HOLDS: "holds", claims.IN_PART: "part", claims.FAILS: "fails"}

@@ -156,6 +156,18 @@ TEST(MeasuredDish, SlowThePaperOnPinnedDiscsHolds) {
     EXPECT_GT(many.tracks.share().mean, 2.0 * few.tracks.share().mean);
     EXPECT_GT(many.tracks.becoming_pinned().angle().mean,
               few.tracks.becoming_pinned().angle().mean + 0.5);
+    // Each of these by far more than the errors from the blocks of periods, which are there.
+    const auto apart = [](const Estimate& a, const Estimate& b) {
+        return std::abs(a.mean - b.mean) / std::hypot(a.error, b.error);
+    };
+    EXPECT_GT(apart(few.slip.pinned_region(), many.slip.pinned_region()), 10.0);
+    EXPECT_GT(apart(few.frustration.pinned_wall_spin(), many.frustration.pinned_wall_spin()), 10.0);
+    EXPECT_GT(apart(few.tracks.share(), many.tracks.share()), 10.0);
+    EXPECT_GT(apart(few.tracks.becoming_pinned().angle(), many.tracks.becoming_pinned().angle()),
+              10.0);
+    // With N more of the contacts are frustrated.
+    EXPECT_GT(apart(few.frustration.triangles(), many.frustration.triangles()), 10.0);
+    EXPECT_GT(many.frustration.triangles().mean, few.frustration.triangles().mean);
     // Rotation at low N, counterrotation at high N, in both averages and both estimators.
     for (const Estimate& e :
          {few.rotation.estimates().by_event, few.rotation.estimates().rigid_by_time})
