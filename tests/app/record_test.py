@@ -292,7 +292,7 @@ class Disk(InFolder):
                 pass
 
     def test_full_while_writing_a_checkpoint_the_one_before_is_whole(self):
-        disk = self.small_disk("256k")
+        disk = self.small_disk("512k")  # two checkpoints of up to 170 kB each
         arguments = ["run", "--discs", "24", "--events", "1e7", "--checkpoint-every", "0.02",
                      "--checkpoint", disk + "/c", "--quiet"]
         process = subprocess.Popen([SWIRL, *arguments], stderr=subprocess.PIPE, text=True)
