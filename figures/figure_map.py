@@ -31,8 +31,13 @@ def main():
         corner = (steps.index(row["mu_disc"]) - 0.44, steps.index(row["mu_wall"]) - 0.44)
         axes.add_patch(style.plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7,
                                            linestyle=":"))
+    notes = []
     if drifting:
-        style.note(drawing, "in a dotted frame: run not shown to be steady")
+        notes.append("dotted: not shown to be steady")
+    if any(value != value for line in values for value in line):
+        notes.append("grey: no result")
+    if notes:
+        style.note(drawing, "; ".join(notes))
     axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps],
                     fontsize=6 if len(steps) > 6 else 7.5)
     axes.set_yticks(range(len(steps)), [f"{s:g}" for s in steps])
