@@ -26,7 +26,7 @@ const std::vector<PaperFigure>& paper_figures() {
         {"5b-steady", "beyond the paper: Figure 5b in the steady state", plan_figure_5b_steady},
         {"friction", "beyond the paper: the crossing N_c against μ", plan_figure_friction},
         {"inertia", "beyond the paper: moment of inertia ½, 1, 10", plan_figure_inertia},
-        {"restitution", "beyond the paper: e = 1, 0.99, 0.9", plan_figure_restitution},
+        {"restitution", "beyond the paper: restitution e = 1, 0.99, 0.9", plan_figure_restitution},
         {"tangential", "beyond the paper: tangential restitution, solid discs",
          plan_figure_tangential},
         {"polygon", "beyond the paper: the polygon's sides, and the true circle",
