@@ -34,9 +34,9 @@ struct SquareGrid {
     void locate(std::size_t points, const double* x, const double* y, std::int32_t* cell) const;
 
     Vec2 centre_of(std::size_t cell) const {
-        const double column = static_cast<double>(cell % side) + 0.5;
-        const double row = static_cast<double>(cell / side) + 0.5;
-        return {column * cell_width() - half_width, row * cell_width() - half_width};
+        const std::size_t column = cell % side, row = cell / side;
+        return {(static_cast<double>(column) + 0.5) * cell_width() - half_width,
+                (static_cast<double>(row) + 0.5) * cell_width() - half_width};
     }
 };
 

@@ -147,8 +147,8 @@ void Voronoi::find(const MFrameView& view) {
             const double square = distance_square(j);
             if (square < near_square) near_.push_back({square, j});
         };
-        for (std::size_t k = rank[i]; k-- > 0 && centre.x - view.x[order_[k]] < near;)
-            note(order_[k]);
+        for (std::size_t k = rank[i]; k > 0 && centre.x - view.x[order_[k - 1]] < near; --k)
+            note(order_[k - 1]);
         for (std::size_t k = rank[i] + 1; k < order_.size() && view.x[order_[k]] - centre.x < near;
              ++k)
             note(order_[k]);
