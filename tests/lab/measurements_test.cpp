@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "files/scratch.hpp"
 #include "lab/failure.hpp"
 
 namespace swirl {
@@ -180,8 +181,8 @@ TEST(Measurements, UnknownNameIsRefusedWithThoseThereAre) {
 }
 
 TEST(Measurements, TablesAreWrittenWithTheirColumns) {
-    const fs::path folder = fs::path(::testing::TempDir()) / "measured_tables";
-    fs::create_directories(folder);
+    const Scratch scratch;
+    const fs::path& folder = scratch.folder();
     const auto files =
         write_measured_tables(measured_run(short_run(), {"profile", "slip"}).measured, folder);
     EXPECT_THAT(files, ElementsAre(folder / "profile.csv", folder / "numbers.csv"));
@@ -193,7 +194,6 @@ TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     EXPECT_EQ(line, "quantity,mean,error,effective_samples,blocks");
     std::getline(numbers, line);
     EXPECT_THAT(line, HasSubstr("slip.cluster,0."));
-    fs::remove_all(folder);
 }
 
 }  // namespace

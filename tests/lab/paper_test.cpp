@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "files/scratch.hpp"
 #include "lab/failure.hpp"
 #include "lab/paper_points.hpp"
 
@@ -18,11 +19,10 @@ namespace fs = std::filesystem;
 
 class Paper : public ::testing::Test {
   protected:
-    Paper() { fs::remove_all(settings.out); }
-    ~Paper() override { fs::remove_all(settings.out); }
-    PaperSettings settings = [] {
+    Scratch scratch;
+    PaperSettings settings = [this] {
         PaperSettings s;
-        s.out = fs::path(::testing::TempDir()) / "paper_test";
+        s.out = scratch / "out";
         return s;
     }();
 };
