@@ -158,16 +158,19 @@ def friction_order(folder):
     return all_or_some(certain), text
 
 
+def close_to_omega(rows, share, where):
+    """Holds where ϖ is nearer to Ω than this share of it at every N, in part at most N."""
+    off = [row for row in rows if abs(row["by_event"] - 1) > share]
+    worst = max(rows, key=lambda row: abs(row["by_event"] - 1))
+    verdict = HOLDS if not off else IN_PART if len(off) < len(rows) / 2 else FAILS
+    return verdict, (f"{where}ithin {100 * share:.0f} % of Ω at {len(rows) - len(off)} of "
+                     f"{len(rows)} N; farthest is "
+                     f"{number(worst['by_event'], worst['by_event_error'])} at N = "
+                     f"{worst['discs']:.0f}.")
+
+
 def no_wall_at_omega(name):
-    def judge(folder):
-        rows = folder.curve(name, setting="no-wall")
-        off = [row for row in rows if abs(row["by_event"] - 1) > 0.05]
-        worst = max(rows, key=lambda row: abs(row["by_event"] - 1))
-        verdict = HOLDS if not off else IN_PART if len(off) < len(rows) / 2 else FAILS
-        return verdict, (f"Within 5 % of Ω at {len(rows) - len(off)} of {len(rows)} N; farthest is "
-                         f"{number(worst['by_event'], worst['by_event_error'])} at N = "
-                         f"{worst['discs']:.0f}.")
-    return judge
+    return lambda folder: close_to_omega(folder.curve(name, setting="no-wall"), 0.05, "W")
 
 
 def never_crosses(setting):
@@ -183,12 +186,7 @@ def never_crosses(setting):
 
 def no_disc_close(folder):
     rows = [row for row in folder.curve("5b", setting="no-disc") if row["discs"] <= 40]
-    off = [row for row in rows if abs(row["by_event"] - 1) > 0.1]
-    worst = max(rows, key=lambda row: abs(row["by_event"] - 1))
-    verdict = HOLDS if not off else IN_PART if len(off) < len(rows) / 2 else FAILS
-    return verdict, (f"Up to N = 40 within 10 % of Ω at {len(rows) - len(off)} of {len(rows)} N; "
-                     f"farthest is {number(worst['by_event'], worst['by_event_error'])} at N = "
-                     f"{worst['discs']:.0f}.")
+    return close_to_omega(rows, 0.1, "Up to N = 40 w")
 
 
 def no_disc_drop(name):

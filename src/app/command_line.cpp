@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "lab/shell_word.hpp"
+
 namespace swirl {
 namespace {
 
@@ -14,15 +16,7 @@ std::string quoted(const std::string& word) {
     const bool plain = !word.empty() && word.find_first_not_of(
                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                             "0123456789_-+=./:,@%") == std::string::npos;
-    if (plain) return word;
-    std::string text;
-    text += '\'';
-    for (const char c : word) {
-        if (c == '\'') text += "'\\'";
-        text += c;
-    }
-    text += '\'';
-    return text;
+    return plain ? word : in_quotes(word);
 }
 
 }  // namespace

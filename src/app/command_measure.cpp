@@ -29,15 +29,6 @@ struct MeasureCall {
     bool quiet = false;
 };
 
-double number(const char* name, const std::string& text, double otherwise, double from) {
-    if (text.empty()) return otherwise;
-    const auto value = read_number(text);
-    if (!value || *value < from)
-        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
-                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
-    return *value;
-}
-
 SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
     if (is_trajectory(call.file)) return series_of(std::make_shared<TrajectoryReader>(call.file));
     const TrackScale scale = track_scale(call.camera, "fps", call.file);
@@ -82,7 +73,7 @@ void measure_file(const MeasureCall& call) {
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
-    const double skip = number("skip", call.skip, 0.0, 0.0);
+    const double skip = number_option("skip", call.skip, 0.0, 0.0);
     std::string remark;
     const SnapshotSeries series = open_series(call, remark);
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));

@@ -15,15 +15,6 @@
 namespace swirl {
 namespace {
 
-double number(const std::string& name, const std::string& text, double otherwise, double from) {
-    if (text.empty()) return otherwise;
-    const auto value = read_number(text);
-    if (!value || *value < from)
-        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
-                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
-    return *value;
-}
-
 std::string first_bytes(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
@@ -34,6 +25,16 @@ std::string first_bytes(const std::string& file) {
 }
 
 }  // namespace
+
+double number_option(const std::string& name, const std::string& text, double otherwise,
+                     double from) {
+    if (text.empty()) return otherwise;
+    const auto value = read_number(text);
+    if (!value || *value < from)
+        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
+                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
+    return *value;
+}
 
 void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::string& fps,
                        const std::string& group) {
@@ -77,12 +78,12 @@ TrackScale track_scale(const TrackTexts& texts, const std::string& fps, const st
                 "--centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
                 file, name, fps));
     TrackScale scale;
-    scale.frames_per_time = number(fps, texts.fps, 1.0, 1e-12);
-    scale.pixels_per_radius = number("scale", texts.scale, 1.0, 1e-12);
-    scale.period = 2.0 * pi / number("omega", texts.omega, 1.0, 1e-12);
-    scale.amplitude = number("amplitude", texts.amplitude, 0.0, 0.0);
-    scale.phase = number("phase", texts.phase, 0.0, any) * pi / 180.0;
-    scale.container_radius = number("container-radius", texts.container_radius, 1.0, 1e-12);
+    scale.frames_per_time = number_option(fps, texts.fps, 1.0, 1e-12);
+    scale.pixels_per_radius = number_option("scale", texts.scale, 1.0, 1e-12);
+    scale.period = 2.0 * pi / number_option("omega", texts.omega, 1.0, 1e-12);
+    scale.amplitude = number_option("amplitude", texts.amplitude, 0.0, 0.0);
+    scale.phase = number_option("phase", texts.phase, 0.0, any) * pi / 180.0;
+    scale.container_radius = number_option("container-radius", texts.container_radius, 1.0, 1e-12);
     scale.clockwise = texts.clockwise;
     if (texts.centre.empty()) return scale;
     const std::size_t comma = texts.centre.find(',');

@@ -16,6 +16,10 @@ struct TrackTexts {
     bool clockwise = false;
 };
 
+/// The number given with --name, at least `from`; `otherwise` if none was. Throws WrongCall.
+double number_option(const std::string& name, const std::string& text, double otherwise,
+                     double from);
+
 /// `fps` is what the option for the camera's frames is called. --amplitude and --container-radius
 /// are left to the caller, who may have them already.
 void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::string& fps,

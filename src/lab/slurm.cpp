@@ -11,22 +11,12 @@
 
 #include "files/whole_file.hpp"
 #include "lab/failure.hpp"
+#include "lab/shell_word.hpp"
 
 namespace swirl {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const std::string& word) {
-    std::string text;
-    text += '\'';
-    for (const char c : word) {
-        if (c == '\'') text += "'\\'";
-        text += c;
-    }
-    text += '\'';
-    return text;
-}
 
 struct Answer {
     int code;
@@ -60,7 +50,7 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const fs::
     text += fmt::format("#SBATCH --output={}/%A_%a.log\n#SBATCH --open-mode=append\n",
                         (folder / "log").string());
     text += fmt::format("exec {} sweep --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --rest",
-                        quoted(program.string()), quoted(folder.string()), job.nodes);
+                        in_quotes(program.string()), in_quotes(folder.string()), job.nodes);
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
     return text;
 }
@@ -71,7 +61,7 @@ std::string submit(const SlurmJob& job, const fs::path& folder) {
     fs::create_directories(home / "log", error);
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     write_whole_file(home / "job.sh", slurm_script(job, home, program));
-    const Answer answer = ask("sbatch --parsable " + quoted((home / "job.sh").string()));
+    const Answer answer = ask("sbatch --parsable " + in_quotes((home / "job.sh").string()));
     if (answer.code == 127)
         throw Failure(fmt::format(
             "Slurm is not installed here: there is no sbatch. The script is '{}'; submit it on "

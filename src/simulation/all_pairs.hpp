@@ -49,17 +49,23 @@ SWIRL_INLINE void copy(Machine& m, std::uint32_t i) {
     set(all.time, i, disc.time);
 }
 
+/// Bit k is set where disc k's time is this one.
+template <int G>
+SWIRL_INLINE std::uint64_t discs_equal(const Eight (&times)[G], double time) {
+    std::uint64_t discs = 0;
+    for (int g = 0; g < G; ++g)
+        discs |= static_cast<std::uint64_t>(lanes_equal(times[g], time)) << (8 * g);
+    return discs;
+}
+
 /// Writes down disc i's first meeting; of several at the same instant, with the smallest number.
 template <int G>
 SWIRL_INLINE void note_meeting(Machine& m, std::uint32_t i, const Eight (&contact)[G]) {
     Eight least = contact[0];
     for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
     const double time = smallest(least);
-    std::uint64_t equal = 0;
-    for (int g = 0; g < G; ++g)
-        equal |= static_cast<std::uint64_t>(lanes_equal(contact[g], time)) << (8 * g);
     // Where nobody is met all lanes are equal, and the first will do.
-    const auto partner = static_cast<std::uint32_t>(__builtin_ctzll(equal));
+    const auto partner = static_cast<std::uint32_t>(__builtin_ctzll(discs_equal(contact, time)));
     Plan& plan = m.plan(i);
     plan.partner = partner;
     plan.partner_changes = m.discs[partner].changes;
@@ -208,13 +214,9 @@ SWIRL_INLINE Due next_due(Machine& m) {
         const double time = smallest(least);
         const double end = m.legs[m.leg].end;
         if (time >= end) return {end, m.size, m.size};
-        std::uint64_t meetings = 0, walls = 0;
-        for (int g = 0; g < G; ++g) {
-            meetings |= static_cast<std::uint64_t>(lanes_equal(meeting[g], time)) << (8 * g);
-            walls |= static_cast<std::uint64_t>(lanes_equal(wall[g], time)) << (8 * g);
-        }
         std::uint32_t owner = 0;
-        const Due due = first_in_order(m, time, meetings, walls, owner);
+        const Due due =
+            first_in_order(m, time, discs_equal(meeting, time), discs_equal(wall, time), owner);
         if (due.i == due.j) return due;
         const Plan& plan = m.plan(owner);
         if (m.discs[plan.partner].changes == plan.partner_changes) return due;
@@ -243,10 +245,6 @@ SWIRL_INLINE Event execute(Machine& m, const Due& due) {
 }
 
 template <int G>
-static void start_groups(Machine& m) {
-    renew_all<G>(m);
-}
-template <int G>
 static Event step_groups(Machine& m) {
     return execute<G>(m, next_due<G>(m));
 }
@@ -264,7 +262,7 @@ static std::uint64_t run_groups(Machine& m, std::uint64_t count, std::int64_t sw
 /// The loop for up to 8 G discs.
 template <int G>
 constexpr EventLoop loop(const char* width) {
-    return {width, start_groups<G>, step_groups<G>, run_groups<G>};
+    return {width, renew_all<G>, step_groups<G>, run_groups<G>};
 }
 
 }  // namespace all_pairs
@@ -272,7 +270,7 @@ constexpr EventLoop loop(const char* width) {
 constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
 #if defined(SWIRL_INTERNAL_CHECKS)
     // The longest serves everybody: the sanitizers need a minute to compile each.
-    constexpr EventLoop (*loop)(const char*) = all_pairs::loop<5>;
+    constexpr EventLoop (*loop)(const char*) = all_pairs::loop<SideBySide::most / 8>;
     return {{width, start, step, run},
             {loop(width), loop(width), loop(width), loop(width), loop(width)},
             few};
