@@ -34,9 +34,11 @@ using ::swirl::select;
 using ::swirl::smaller;
 using ::swirl::square_root;
 
-typedef double Double2 __attribute__((vector_size(16), may_alias));
-typedef double Double4 __attribute__((vector_size(32), may_alias));
-typedef double Double8 __attribute__((vector_size(64), may_alias));
+// A vector of doubles may stand for doubles in memory and for nothing else (to GCC it has the alias
+// set of its element), so that a row written does not make the compiler read every pointer again.
+typedef double Double2 __attribute__((vector_size(16)));
+typedef double Double4 __attribute__((vector_size(32)));
+typedef double Double8 __attribute__((vector_size(64)));
 typedef std::int64_t Mask2 __attribute__((vector_size(16)));
 typedef std::int64_t Mask4 __attribute__((vector_size(32)));
 typedef std::int64_t Mask8 __attribute__((vector_size(64)));
@@ -93,6 +95,23 @@ struct Lanes {
 SWIRL_INLINE Lanes<2> two_lanes(double a, double b) {
     Lanes<2> r;
     r.part[0] = Double2{a, b};
+    return r;
+}
+
+/// One pair, or two beside each other.
+SWIRL_INLINE Lanes<2> beside(const Double2 (&pairs)[1]) {
+    Lanes<2> r;
+    r.part[0] = pairs[0];
+    return r;
+}
+SWIRL_INLINE Lanes<4> beside(const Double2 (&pairs)[2]) {
+    Lanes<4> r;
+#if SWIRL_REGISTER_BYTES >= 32
+    r.part[0] = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 2, 3);
+#else
+    r.part[0] = pairs[0];
+    r.part[1] = pairs[1];
+#endif
     return r;
 }
 
@@ -294,41 +313,98 @@ SWIRL_INLINE Lanes<W> with_lane(const Lanes<W>& a, unsigned k, double x) {
     return r;
 }
 
+#if SWIRL_REGISTER_BYTES >= 32
+SWIRL_INLINE Double4 beside(const double* a, const double* b) {
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(a)), _mm_load_pd(b), 1);
+}
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+SWIRL_INLINE Double8 beside(const Double4& a, const Double4& b) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(a), b, 1);
+}
+#endif
+
 /// Two columns from W rows that start with a pair of doubles each: rows[k] → (first[k], second[k]).
 /// Pairs are loaded whole, so a pair that was stored whole a moment ago comes straight from the
 /// store buffer.
 template <int W>
 SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, Lanes<W>& second) {
-    const auto pair = [&](int k) { return *reinterpret_cast<const Double2*>(rows[k]); };
-    if constexpr (Lanes<W>::bytes == 16) {
-        for (int p = 0; p < Lanes<W>::parts; ++p) {
-            const Double2 a = pair(2 * p), b = pair(2 * p + 1);
+    for (int p = 0; p < Lanes<W>::parts; ++p) {
+        const double* const* const row = rows + p * Lanes<W>::per_part;
+        if constexpr (Lanes<W>::bytes == 16) {
+            const Double2 a = *reinterpret_cast<const Double2*>(row[0]);
+            const Double2 b = *reinterpret_cast<const Double2*>(row[1]);
             first.part[p] = __builtin_shufflevector(a, b, 0, 2);
             second.part[p] = __builtin_shufflevector(a, b, 1, 3);
         }
+#if SWIRL_REGISTER_BYTES >= 32
+        if constexpr (Lanes<W>::bytes == 32) {
+            const Double4 a = beside(row[0], row[2]), b = beside(row[1], row[3]);
+            first.part[p] = _mm256_unpacklo_pd(a, b);
+            second.part[p] = _mm256_unpackhi_pd(a, b);
+        }
+#endif
+#if SWIRL_REGISTER_BYTES >= 64
+        if constexpr (Lanes<W>::bytes == 64) {
+            const Double8 a = beside(beside(row[0], row[2]), beside(row[4], row[6]));
+            const Double8 b = beside(beside(row[1], row[3]), beside(row[5], row[7]));
+            first.part[p] = _mm512_unpacklo_pd(a, b);
+            second.part[p] = _mm512_unpackhi_pd(a, b);
+        }
+#endif
+    }
+}
+
+/// Four columns from W rows that start with four doubles each, stored and loaded whole.
+SWIRL_INLINE void store_four(double* to, double a, double b, double c, double d) {
+#if SWIRL_REGISTER_BYTES >= 32
+    *reinterpret_cast<Double4*>(to) = Double4{a, b, c, d};
+#else
+    *reinterpret_cast<Double2*>(to) = Double2{a, b};
+    *reinterpret_cast<Double2*>(to + 2) = Double2{c, d};
+#endif
+}
+template <int W>
+SWIRL_INLINE void load_fours(const double* const (&rows)[W], Lanes<W> (&columns)[4]) {
+    if constexpr (Lanes<W>::bytes == 16) {
+        const double* halves[W];
+        for (int k = 0; k < W; ++k) halves[k] = rows[k] + 2;
+        load_pairs<W>(rows, columns[0], columns[1]);
+        load_pairs<W>(halves, columns[2], columns[3]);
     }
 #if SWIRL_REGISTER_BYTES >= 32
-    const auto four = [&](int k, Double4& lo, Double4& hi) {
-        const Double4 a = __builtin_shufflevector(pair(k), pair(k + 2), 0, 1, 2, 3);
-        const Double4 b = __builtin_shufflevector(pair(k + 1), pair(k + 3), 0, 1, 2, 3);
-        lo = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-        hi = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    };
+    const auto four = [&](int k) { return *reinterpret_cast<const Double4*>(rows[k]); };
     if constexpr (Lanes<W>::bytes == 32) {
-        for (int p = 0; p < Lanes<W>::parts; ++p) four(4 * p, first.part[p], second.part[p]);
+        for (int p = 0; p < Lanes<W>::parts; ++p) {
+            const Double4 a = four(4 * p), b = four(4 * p + 1);
+            const Double4 c = four(4 * p + 2), d = four(4 * p + 3);
+            const Double4 ab0 = _mm256_unpacklo_pd(a, b), ab1 = _mm256_unpackhi_pd(a, b);
+            const Double4 cd0 = _mm256_unpacklo_pd(c, d), cd1 = _mm256_unpackhi_pd(c, d);
+            columns[0].part[p] = _mm256_permute2f128_pd(ab0, cd0, 0x20);
+            columns[1].part[p] = _mm256_permute2f128_pd(ab1, cd1, 0x20);
+            columns[2].part[p] = _mm256_permute2f128_pd(ab0, cd0, 0x31);
+            columns[3].part[p] = _mm256_permute2f128_pd(ab1, cd1, 0x31);
+        }
     }
 #endif
 #if SWIRL_REGISTER_BYTES >= 64
     if constexpr (Lanes<W>::bytes == 64) {
-        for (int p = 0; p < Lanes<W>::parts; ++p) {
-            Double4 a, b, c, d;
-            four(8 * p, a, b);
-            four(8 * p + 4, c, d);
-            first.part[p] = __builtin_shufflevector(a, c, 0, 1, 2, 3, 4, 5, 6, 7);
-            second.part[p] = __builtin_shufflevector(b, d, 0, 1, 2, 3, 4, 5, 6, 7);
-        }
+        const Double8 a = beside(four(0), four(2)), b = beside(four(1), four(3));
+        const Double8 c = beside(four(4), four(6)), d = beside(four(5), four(7));
+        const Double8 ab0 = _mm512_unpacklo_pd(a, b), ab1 = _mm512_unpackhi_pd(a, b);
+        const Double8 cd0 = _mm512_unpacklo_pd(c, d), cd1 = _mm512_unpackhi_pd(c, d);
+        columns[0].part[0] = _mm512_shuffle_f64x2(ab0, cd0, 0x88);
+        columns[1].part[0] = _mm512_shuffle_f64x2(ab1, cd1, 0x88);
+        columns[2].part[0] = _mm512_shuffle_f64x2(ab0, cd0, 0xdd);
+        columns[3].part[0] = _mm512_shuffle_f64x2(ab1, cd1, 0xdd);
     }
 #endif
+}
+
+/// Lane k.
+template <int W>
+SWIRL_INLINE double lane(const Lanes<W>& a, int k) {
+    return a.part[k / Lanes<W>::per_part][k % Lanes<W>::per_part];
 }
 
 /// How many of the first `count` doubles are below x. `count` is a multiple of 8, `from` aligned.

@@ -37,16 +37,17 @@ struct Others {
 };
 template <int W>
 SWIRL_INLINE Others<W> load_others(const Machine& m, const std::uint32_t* neighbours) {
-    const double *positions[W], *velocities[W], *times[W];
+    const double *flights[W], *times[W];
     for (int k = 0; k < W; ++k) {
         const HotDisc& other = m.discs[neighbours[k]];
-        positions[k] = &other.position.x;
-        velocities[k] = &other.velocity.x;
+        flights[k] = &other.position.x;
         times[k] = &other.time;
     }
+    Lanes<W> columns[4];
+    load_fours<W>(flights, columns);
     Others<W> others;
-    load_pairs<W>(positions, others.flight.position.x, others.flight.position.y);
-    load_pairs<W>(velocities, others.flight.velocity.x, others.flight.velocity.y);
+    others.flight.position = {columns[0], columns[1]};
+    others.flight.velocity = {columns[2], columns[3]};
     load_pairs<W>(times, others.flight.time, others.radius);
     return others;
 }
@@ -110,6 +111,8 @@ SWIRL_INLINE Prediction earliest_beyond_eight(const Machine& m, std::uint32_t i,
 struct Leaving {
     double wall, neighbourhood;
 };
+/// Added to the time of the wall, by HotDisc::far_from_wall: a branch would often be mispredicted.
+inline constexpr double far_wait[2] = {0.0, never};
 SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) {
     const HotDisc& disc = m.discs[i];
     const Leg& leg = m.legs[m.leg];
@@ -132,6 +135,36 @@ SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) 
     return {disc.far_from_wall ? never : now + wait.part[0][0], neighbourhood};
 }
 
+/// The same for D discs that have just changed, at time t.
+template <int D>
+SWIRL_INLINE void leaving_from_now(const Machine& m, const std::uint32_t (&who)[D], double t,
+                                   Leaving (&leaving)[D]) {
+    const Leg& leg = m.legs[m.leg];
+    const Flight<double> container = container_flight(leg);
+    const Vec2 centre = container.position_at(t), carried = m.carrier.position_at(t);
+    Double2 x[D], y[D], vx[D], vy[D], clearance[D];
+    for (int d = 0; d < D; ++d) {
+        const HotDisc& disc = m.discs[who[d]];
+        const Neighbourhood& mine = m.neighbourhoods[who[d]];
+        x[d] = disc.position.x - Double2{centre.x, carried.x} - Double2{0.0, mine.X};
+        y[d] = disc.position.y - Double2{centre.y, carried.y} - Double2{0.0, mine.Y};
+        vx[d] = disc.velocity.x - Double2{container.velocity.x, m.carrier.velocity.x};
+        vy[d] = disc.velocity.y - Double2{container.velocity.y, m.carrier.velocity.y};
+        clearance[d] = Double2{m.container_radius - disc.radius,
+                               static_cast<double>(mine.freedom) * (1.0 - freedom_margin)};
+    }
+    const Lanes<2 * D> wait =
+        time_to_leave(BasicVec2<Lanes<2 * D>>{beside(x), beside(y)},
+                      BasicVec2<Lanes<2 * D>>{beside(vx), beside(vy)}, beside(clearance));
+    const Lanes<2 * D> time = Lanes<2 * D>(t) + wait;
+    for (int d = 0; d < D; ++d) {
+        const HotDisc& disc = m.discs[who[d]];
+        leaving[d] = {lane(time, 2 * d) + far_wait[disc.far_from_wall], lane(time, 2 * d + 1)};
+        if (leg.turning != 0.0) [[unlikely]]
+            leaving[d].wall = time_of_turning_wall_contact(flight_of(disc), leg, clearance[d][0]);
+    }
+}
+
 /// Writes disc i's earliest event on its card. At equal times a disc comes before the wall exactly
 /// if its number is smaller, as in comes_first().
 SWIRL_INLINE void write_card(Machine& m, std::uint32_t i, Prediction soonest,
@@ -143,7 +176,7 @@ SWIRL_INLINE void write_card(Machine& m, std::uint32_t i, Prediction soonest,
     Plan& plan = m.plan(i);
     plan.partner = soonest.partner;
     plan.partner_changes = soonest.partner < m.size ? m.discs[soonest.partner].changes : 0;
-    set_pending(m, i, soonest.time);
+    put_in(m, i, soonest.time);
 }
 
 /// Everything that may happen to disc i, which may have held its state for a while.
@@ -162,7 +195,8 @@ SWIRL_INLINE void predict_changed(Machine& m, const std::uint32_t (&who)[D], dou
     Leaving leaving[D];
     for (int d = 0; d < D; ++d) others[d] = load_others<8>(m, m.plan(who[d]).neighbours());
     for (int d = 0; d < D; ++d) contacts[d] = contacts_from_now(m.discs[who[d]], others[d], t);
-    for (int d = 0; d < D; ++d) leaving[d] = leaving_times(m, who[d], t);
+    leaving_from_now<D>(m, who, t, leaving);
+#pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         Prediction soonest =
             earlier<8>(m.plan(who[d]).neighbours(), contacts[d], {never, leaves_neighbourhood});
@@ -172,6 +206,7 @@ SWIRL_INLINE void predict_changed(Machine& m, const std::uint32_t (&who)[D], dou
 }
 
 [[gnu::noinline]] static void predict_all(Machine& m, double t) {
+    empty_queue(m);
     for (std::uint32_t i = 0; i < m.size; ++i) predict(m, i, t);
 }
 
@@ -198,7 +233,10 @@ static void start_narrow(Machine& m, double t) {
     ++m.crowded;
     std::uint32_t settled[256];
     const std::uint32_t count = make_room(m, i, t, freedom_range(m), settled);
-    for (std::uint32_t k = 0; k < count; ++k) predict(m, settled[k], t);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        take_out(m, settled[k]);
+        predict(m, settled[k], t);
+    }
     if (count > 0) return;
     ++m.overcrowded;
     start_narrow(m, t);
@@ -206,13 +244,6 @@ static void start_narrow(Machine& m, double t) {
 }
 
 [[gnu::noinline]] static void start(Machine& m) {
-    for (std::uint32_t level = 0; level < m.levels; ++level) {
-        const std::uint32_t rows = ((m.size - 1) >> (3 * (level + 1))) + 1;
-        for (std::uint32_t k = 0; k < 8 * rows; ++k) {
-            m.level_times[level][k] = never;
-            if (level > 0) m.level_winners[level][k] = 0;
-        }
-    }
     renew_carrier(m, m.legs[m.leg].position_at(m.clock), m.clock);
     start_narrow(m, m.clock);
     for (std::uint32_t i = 0; i < m.size; ++i) {
@@ -234,7 +265,7 @@ SWIRL_INLINE void renew_leaving(Machine& m, std::uint32_t i, const Leaving& leav
     if (first < pending || (first == pending && plan.partner >= i)) {
         plan.partner = wall_first ? i : leaves_neighbourhood;
         plan.partner_changes = m.discs[i].changes;
-        set_pending(m, i, first);
+        put_in(m, i, first);
     } else if (plan.partner == i || plan.partner == leaves_neighbourhood) {
         plan.partner = predict_again;
     }
@@ -269,11 +300,16 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
     alignas(64) double wall[8], neighbourhood[8];
     (now + time_to_leave(s, v, Lanes<8>(m.container_radius) - discs.radius)).store(wall);
     (now + time_to_leave(offset, stray, Lanes<8>::load(freedom))).store(neighbourhood);
+    const BasicVec2<Lanes<8>> centre = lanes(carried - container.position_at(t)) +
+                                       BasicVec2<Lanes<8>>{Lanes<8>::load(X), Lanes<8>::load(Y)};
+    alignas(64) double beyond[8];
+    beyond_reach(Lanes<8>(reach_far_from_wall(m, t)), centre, Lanes<8>::load(freedom), discs.radius)
+        .store(beyond);
+    const unsigned far = lanes_below(beyond, 0.0);
     for (std::uint32_t k = 0; k < count; ++k) {
-        HotDisc& disc = m.discs[first + k];
-        disc.far_from_wall =
-            is_far_from_wall(m, carried + Vec2{X[k], Y[k]}, freedom[k], disc.radius, t);
-        renew_leaving(m, first + k, {disc.far_from_wall ? never : wall[k], neighbourhood[k]});
+        const unsigned is_far = far >> k & 1u;
+        m.discs[first + k].far_from_wall = is_far & 1u;
+        renew_leaving(m, first + k, {wall[k] + far_wait[is_far], neighbourhood[k]});
     }
 }
 
@@ -298,14 +334,27 @@ SWIRL_INLINE void renew_eight(Machine& m, std::uint32_t first, double t) {
         start_narrow(m, 0.0);
     } else {
         renew_carrier(m, carried, 0.0);
-        for (std::uint32_t i = 0; i < m.size; ++i) {
-            const Neighbourhood& mine = m.neighbourhoods[i];
-            m.discs[i].far_from_wall = is_far_from_wall(m, carried + Vec2{mine.X, mine.Y},
-                                                        mine.freedom, m.discs[i].radius, 0.0);
-        }
+        for (std::uint32_t i = 0; i < m.size; ++i) note_far_from_wall(m, i, 0.0);
     }
     predict_all(m, m.clock);
     return event;
+}
+
+/// Whether the disc's card is an event that happens.
+SWIRL_INLINE bool is_due(const Machine& m, const Plan& plan) {
+    return plan.partner < m.size && m.discs[plan.partner].changes == plan.partner_changes;
+}
+
+/// Writes a new card for a disc whose card is no event.
+SWIRL_INLINE void renew_card(Machine& m, const Next& next) {
+    const bool leaves = m.plan(next.disc).partner == leaves_neighbourhood;
+    take_out(m, next.disc);
+    if (leaves) {
+        renew_neighbourhood(m, next.disc, next.time);
+    } else {
+        ++m.stale;
+        predict(m, next.disc, next.time);
+    }
 }
 
 /// Brings the cards in order until the first one is an event that happens, and says when.
@@ -313,24 +362,46 @@ SWIRL_INLINE Next next_event(Machine& m) {
     for (;;) {
         const Next next = next_pending(m);
         if (next.time >= m.legs[m.leg].end) return {m.legs[m.leg].end, m.size};
-        const Plan& plan = m.plan(next.disc);
-        if (plan.partner == leaves_neighbourhood) {
-            renew_neighbourhood(m, next.disc, next.time);
-            continue;
-        }
-        if (plan.partner == predict_again ||
-            m.discs[plan.partner].changes != plan.partner_changes) {
-            ++m.stale;
-            predict(m, next.disc, next.time);
-            continue;
-        }
-        return next;
+        if (is_due(m, m.plan(next.disc))) return next;
+        renew_card(m, next);
     }
 }
 
-SWIRL_INLINE Event execute(Machine& m, const Next& next) {
-    if (next.disc == m.size) return end_leg(m);
-    m.clock = next.time;
+SWIRL_INLINE void take_out_both(Machine& m, std::uint32_t disc, std::uint32_t partner) {
+    if (partner != disc) take_out(m, partner);
+    take_out(m, disc);
+}
+
+/// If several events come at the same instant: their first, in order. The discs of the one that was
+/// found have been taken out and are put back; those of the first are taken out.
+[[gnu::noinline]] static Next first_of_simultaneous(Machine& m, const Next& found,
+                                                    double partner_pending) {
+    put_in(m, m.plan(found.disc).partner, partner_pending);
+    put_in(m, found.disc, found.time);
+    for (;;) {
+        const Next next{found.time, first_of_equals(m, found.time, m.levels - 1, 0, m.size)};
+        if (is_due(m, m.plan(next.disc))) {
+            take_out_both(m, next.disc, m.plan(next.disc).partner);
+            return next;
+        }
+        renew_card(m, next);
+    }
+}
+
+/// Takes the discs of an event out of the queue.
+SWIRL_INLINE Next take_event(Machine& m, const Next& next) {
+    const std::uint32_t partner = m.plan(next.disc).partner;
+    const double partner_pending = pending_time(m, partner);
+    take_out_both(m, next.disc, partner);
+    if (next_pending(m).time == next.time) [[unlikely]]
+        return first_of_simultaneous(m, next, partner_pending);
+    return next;
+}
+
+SWIRL_INLINE Event execute(Machine& m, const Next& due) {
+    if (due.disc == m.size) return end_leg(m);
+    m.clock = due.time;
+    const Next next = take_event(m, due);
     const std::uint32_t partner = m.plan(next.disc).partner;
     if (partner == next.disc) {
         const Event event = collide_with_wall(m, partner, next.time);

@@ -1,7 +1,11 @@
 // Whose event comes first: a tournament of eight. Level 0 holds each disc's pending time, in rows
 // of eight; each level above holds the winner of each row below. A row is one vector, so the winner
-// of eight takes one pass of `smaller`, and a disc whose new time does not change its row's winner
-// costs one row.
+// of eight takes one pass of `smaller`.
+//
+// The discs of an event are taken out before it is executed and put in again, with what they do
+// next, when that has been predicted. What remains is known meanwhile; and since what was predicted
+// rarely comes first, the processor goes on to the next event, as far as it looks ahead, while the
+// predictions are still being computed.
 //
 // The rows are read and written whole: eight bytes written into a row that is then read as a vector
 // would wait for the store to leave the processor's store buffer.
@@ -49,28 +53,48 @@ SWIRL_INLINE void prefetch_winner(const Machine& m, std::uint32_t level, std::ui
     }
 }
 
-/// Lets the row's winner be known one level up, as far as anything changes.
-SWIRL_INLINE void promote(Machine& m, std::uint32_t row, double time, std::uint32_t winner) {
-    for (std::uint32_t level = 1; level < m.levels; ++level) {
-        double* const times = m.level_times[level] + (row & ~7u);
-        std::uint32_t* const winners = m.level_winners[level] + (row & ~7u);
-        if (times[row & 7u] == time && winners[row & 7u] == winner) return;
-        if (m.prefetches) prefetch_winner(m, level, winner);
-        const Lanes<8> card = with_lane(Lanes<8>::load(times), row & 7u, time);
-        card.store(times);
-        winners[row & 7u] = winner;
-        time = smallest(card);
-        winner = winners[__builtin_ctz(lanes_equal(card, time))];
-        row >>= 3;
+/// No disc has an event.
+SWIRL_INLINE void empty_queue(Machine& m) {
+    for (std::uint32_t level = 0; level < m.levels; ++level) {
+        const std::uint32_t rows = ((m.size - 1) >> (3 * (level + 1))) + 1;
+        for (std::uint32_t k = 0; k < 8 * rows; ++k) {
+            m.level_times[level][k] = never;
+            if (level > 0) m.level_winners[level][k] = (k << (3 * level)) % m.size;
+        }
     }
 }
 
-SWIRL_INLINE void set_pending(Machine& m, std::uint32_t disc, double time) {
-    double* const times = m.level_times[0] + (disc & ~7u);
-    const Lanes<8> card = with_lane(Lanes<8>::load(times), disc & 7u, time);
-    card.store(times);
-    const double first = smallest(card);
-    promote(m, disc >> 3, first, (disc & ~7u) + __builtin_ctz(lanes_equal(card, first)));
+/// Leaves a disc without an event: its place goes to the next in its row, on every level where it
+/// had won.
+SWIRL_INLINE void take_out(Machine& m, std::uint32_t disc) {
+    double* const places = m.level_times[0] + (disc & ~7u);
+    Lanes<8> row = with_lane(Lanes<8>::load(places), disc & 7u, never);
+    row.store(places);
+    std::uint32_t place = disc;
+    for (std::uint32_t level = 1; level < m.levels; ++level) {
+        if (m.level_winners[level][place >> 3] != disc) return;
+        const double time = smallest(row);
+        std::uint32_t winner = (place & ~7u) + __builtin_ctz(lanes_equal(row, time));
+        if (level > 1) winner = m.level_winners[level - 1][winner];
+        if (m.prefetches) prefetch_winner(m, level, winner);
+        place >>= 3;
+        double* const times = m.level_times[level] + (place & ~7u);
+        row = with_lane(Lanes<8>::load(times), place & 7u, time);
+        row.store(times);
+        m.level_winners[level][place] = winner;
+    }
+}
+
+/// Gives a disc that has none, or a later one, an event.
+SWIRL_INLINE void put_in(Machine& m, std::uint32_t disc, double time) {
+    std::uint32_t place = disc;
+    for (std::uint32_t level = 0;; ++level) {
+        double* const times = m.level_times[level] + (place & ~7u);
+        with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
+        if (level > 0) m.level_winners[level][place] = disc;
+        place >>= 3;
+        if (level + 1 == m.levels || !(time < m.level_times[level + 1][place])) return;
+    }
 }
 
 SWIRL_INLINE double pending_time(const Machine& m, std::uint32_t disc) {
@@ -100,25 +124,13 @@ SWIRL_INLINE bool comes_first(const Machine& m, std::uint32_t i, std::uint32_t k
     return best;
 }
 
-/// The card that comes first. Along the winner's rows every lane that equals it is counted; one
-/// such lane is expected where the partner holds the same event.
+/// The card that comes first, or one of those that come first.
 SWIRL_INLINE Next next_pending(const Machine& m) {
     const std::uint32_t top = m.levels - 1;
-    const Lanes<8> card = Lanes<8>::load(m.level_times[top]);
-    const double time = smallest(card);
-    unsigned equal = lanes_equal(card, time);
-    const std::uint32_t lane = __builtin_ctz(equal);
-    const std::uint32_t disc = top == 0 ? lane : m.level_winners[top][lane];
-    int others = __builtin_popcount(equal) - 1;
-    for (std::uint32_t level = 0; level < top; ++level) {
-        const double* const row = m.level_times[level] + ((disc >> (3 * level)) & ~7u);
-        others += __builtin_popcount(lanes_equal(Lanes<8>::load(row), time)) - 1;
-    }
-    const std::uint32_t partner = m.plan(disc).partner;
-    const int expected = partner < m.size && partner != disc && pending_time(m, partner) == time;
-    if (others > expected) [[unlikely]]
-        return {time, time == never ? disc : first_of_equals(m, time, top, 0, m.size)};
-    return {time, disc};
+    const Lanes<8> row = Lanes<8>::load(m.level_times[top]);
+    const double time = smallest(row);
+    const std::uint32_t lane = __builtin_ctz(lanes_equal(row, time));
+    return {time, top == 0 ? lane : m.level_winners[top][lane]};
 }
 
 }  // namespace SWIRL_TARGET

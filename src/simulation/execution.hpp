@@ -22,12 +22,8 @@ SWIRL_INLINE void write_back(Machine& m, std::uint32_t i, const Vec2& position, 
                              const Body& body) {
     HotDisc& disc = m.discs[i];
     m.plan(i).angle = m.plan(i).angle + (t - disc.time) * disc.spin;
-    const auto store = [](double* to, double a, double b) {
-        *reinterpret_cast<Double2*>(to) = Double2{a, b};
-    };
-    store(&disc.position.x, position.x, position.y);
-    store(&disc.velocity.x, body.velocity.x, body.velocity.y);
-    store(&disc.time, t, disc.radius);
+    store_four(&disc.position.x, position.x, position.y, body.velocity.x, body.velocity.y);
+    *reinterpret_cast<Double2*>(&disc.time) = Double2{t, disc.radius};
     disc.spin = body.spin;
     ++disc.changes;
 }

@@ -41,17 +41,31 @@ static void renew_carrier(Machine& m, const Vec2& at, double t) {
     m.carrier = {at, (1.0 / m.size) * sum, t};
 }
 
-/// Whether a disc whose neighbourhood is centred at `centre` now, at time t, cannot reach the wall
-/// before the leg ends: the neighbourhood drifts against the container.
-SWIRL_INLINE bool is_far_from_wall(const Machine& m, const Vec2& centre, double freedom,
-                                   double radius, double t) {
+/// How far from the centre of the container, at time t, a neighbourhood may reach so that its disc
+/// cannot reach the wall before the leg ends: the neighbourhood drifts against the container.
+SWIRL_INLINE double reach_far_from_wall(const Machine& m, double t) {
     const Leg& leg = m.legs[m.leg];
-    if (leg.turning != 0.0) return false;
-    const Vec2 s = centre - container_flight(leg).position_at(t);
+    if (leg.turning != 0.0) return 0.0;
     const Vec2 drift = (leg.end - t) * (m.carrier.velocity - leg.velocity);
-    const double outermost =
-        square_root(dot(s, s)) + square_root(dot(drift, drift)) + freedom + radius;
-    return outermost < m.container_radius * (1.0 - 1e-6);
+    return m.container_radius * (1.0 - 1e-6) - square_root(dot(drift, drift));
+}
+
+/// Negative if a neighbourhood whose centre is at s from that of the container does not reach so
+/// far.
+template <class Real>
+SWIRL_INLINE Real beyond_reach(const Real& reach, const BasicVec2<Real>& s, const Real& freedom,
+                               const Real& radius) {
+    const Real room = larger(reach - freedom - radius, Real(0.0));
+    return dot(s, s) - room * room;
+}
+
+static void note_far_from_wall(Machine& m, std::uint32_t i, double t) {
+    const Neighbourhood& mine = m.neighbourhoods[i];
+    const Vec2 centre = m.carrier.position_at(t) + Vec2{mine.X, mine.Y};
+    const Vec2 s = centre - m.legs[m.leg].position_at(t);
+    const double freedom = mine.freedom;
+    m.discs[i].far_from_wall =
+        beyond_reach(reach_far_from_wall(m, t), s, freedom, m.discs[i].radius) < 0.0;
 }
 
 SWIRL_INLINE std::uint32_t cell_row(const Machine& m, double x) {
@@ -225,8 +239,7 @@ static bool claim(Machine& m, std::uint32_t i, double t, double before, const Fr
     // Rounded down, so that the single-precision number is on the safe side.
     Neighbourhood& mine = m.neighbourhoods[i];
     mine.freedom = static_cast<float>(freedom * (1.0 - 0x1p-22));
-    m.discs[i].far_from_wall = is_far_from_wall(m, m.carrier.position_at(t) + Vec2{mine.X, mine.Y},
-                                                freedom, m.discs[i].radius, t);
+    note_far_from_wall(m, i, t);
     return true;
 }
 
