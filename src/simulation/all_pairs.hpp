@@ -58,9 +58,10 @@ SWIRL_INLINE std::uint64_t discs_equal(const Eight (&times)[G], double time) {
     return discs;
 }
 
-/// Writes down disc i's first meeting; of several at the same instant, with the smallest number.
+/// Writes down disc i's first meeting, and says when; of several at the same instant, with the
+/// smallest number.
 template <int G>
-SWIRL_INLINE void note_meeting(Machine& m, std::uint32_t i, const Eight (&contact)[G]) {
+SWIRL_INLINE double note_meeting(Machine& m, std::uint32_t i, const Eight (&contact)[G]) {
     Eight least = contact[0];
     for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
     const double time = smallest(least);
@@ -70,6 +71,7 @@ SWIRL_INLINE void note_meeting(Machine& m, std::uint32_t i, const Eight (&contac
     plan.partner = partner;
     plan.partner_changes = m.discs[partner].changes;
     set(m.side_by_side->meeting, i, time);
+    return time;
 }
 
 /// Whom disc i meets, which may have held its state for a while.
@@ -86,9 +88,9 @@ SWIRL_INLINE void predict(Machine& m, std::uint32_t i) {
 }
 
 /// Whom D discs meet that have just changed, at time t; none of the others holds a later state. The
-/// general formula with a term that is zero left out, and the same bits.
+/// general formula with a term that is zero left out, and the same bits. Says when the first meets.
 template <int G, int D>
-SWIRL_INLINE void predict_changed(Machine& m, const std::uint32_t (&who)[D], double t) {
+SWIRL_INLINE double predict_changed(Machine& m, const std::uint32_t (&who)[D], double t) {
     const SideBySide& all = *m.side_by_side;
     const Eight now(t);
     Eight contact[D][G];
@@ -103,10 +105,13 @@ SWIRL_INLINE void predict_changed(Machine& m, const std::uint32_t (&who)[D], dou
                                                      Eight(disc.radius) + radius);
         }
     }
-    for (int d = 0; d < D; ++d) note_meeting(m, who[d], contact[d]);
+    double first = never;
+    for (int d = 0; d < D; ++d) first = smaller(first, note_meeting(m, who[d], contact[d]));
+    return first;
 }
 
-SWIRL_INLINE void predict_wall(Machine& m, std::uint32_t i) {
+/// When disc i meets the wall.
+SWIRL_INLINE double predict_wall(Machine& m, std::uint32_t i) {
     const HotDisc& disc = m.discs[i];
     const Leg& leg = m.legs[m.leg];
     const double clearance = m.container_radius - disc.radius;
@@ -115,15 +120,14 @@ SWIRL_INLINE void predict_wall(Machine& m, std::uint32_t i) {
             ? time_of_turning_wall_contact(flight_of(disc), leg, clearance)
             : time_of_wall_contact(flight_of(disc), container_flight(leg), clearance);
     set(m.side_by_side->wall, i, time);
+    return time;
 }
 
-SWIRL_INLINE void predict_walls(Machine& m, std::uint32_t i, std::uint32_t j) {
+/// When the first of two discs meets the wall.
+SWIRL_INLINE double predict_walls(Machine& m, std::uint32_t i, std::uint32_t j) {
     const Leg& leg = m.legs[m.leg];
-    if (leg.turning != 0.0) [[unlikely]] {
-        predict_wall(m, i);
-        predict_wall(m, j);
-        return;
-    }
+    if (leg.turning != 0.0) [[unlikely]]
+        return smaller(predict_wall(m, i), predict_wall(m, j));
     const HotDisc &a = m.discs[i], &b = m.discs[j];
     const auto both = [](const Vec2& p, const Vec2& q) {
         return BasicVec2<Lanes<2>>{two_lanes(p.x, q.x), two_lanes(p.y, q.y)};
@@ -135,8 +139,9 @@ SWIRL_INLINE void predict_walls(Machine& m, std::uint32_t i, std::uint32_t j) {
         Flight<Lanes<2>>{both(container.position, container.position),
                          both(container.velocity, container.velocity), Lanes<2>(container.time)},
         Lanes<2>(m.container_radius) - two_lanes(a.radius, b.radius));
-    set(m.side_by_side->wall, i, time.part[0][0]);
-    set(m.side_by_side->wall, j, time.part[0][1]);
+    set(m.side_by_side->wall, i, lane(time, 0));
+    set(m.side_by_side->wall, j, lane(time, 1));
+    return smaller(lane(time, 0), lane(time, 1));
 }
 
 template <int G>
@@ -156,91 +161,110 @@ SWIRL_INLINE void predict_all_walls(Machine& m) {
     }
 }
 
-template <int G>
-[[gnu::noinline]] static void renew_all(Machine& m) {
-    for (std::uint32_t i = 0; i < m.size; ++i) copy(m, i);
-    for (std::uint32_t i = 0; i < m.size; ++i) predict<G>(m, i);
-    predict_all_walls<G>(m);
-}
-
-template <int G>
-[[gnu::noinline]] static Event end_leg(Machine& m) {
-    const Event event = take_next_leg(m);
-    if (m.leg == 0)
-        renew_all<G>(m);
-    else
-        predict_all_walls<G>(m);
-    return event;
-}
-
-/// What comes next: i < j meet, or i = j meets the wall, or, i = j = N, the leg ends.
-struct Due {
-    double time;
-    std::uint32_t i, j;
-};
-
 /// Of the events at one instant, on whose cards the bits are set, the one with the smaller first
-/// disc; then the smaller second, the wall counting as the disc itself. `owner` has it on its card.
+/// disc; then the smaller second, the wall counting as the disc itself.
 SWIRL_INLINE Due first_in_order(const Machine& m, double time, std::uint64_t meetings,
-                                std::uint64_t walls, std::uint32_t& owner) {
-    Due due{time, m.size, m.size};
+                                std::uint64_t walls) {
+    Due due{time, m.size, m.size, m.size};
     if (walls != 0) {
-        owner = static_cast<std::uint32_t>(__builtin_ctzll(walls));
-        due = {time, owner, owner};
+        const auto i = static_cast<std::uint32_t>(__builtin_ctzll(walls));
+        due = {time, i, i, i};
     }
     for (; meetings != 0; meetings &= meetings - 1) {
         const auto i = static_cast<std::uint32_t>(__builtin_ctzll(meetings));
         const std::uint32_t k = m.plan(i).partner;
         const std::uint32_t low = i < k ? i : k, high = i < k ? k : i;
-        if (low < due.i || (low == due.i && high < due.j)) {
-            due = {time, low, high};
-            owner = i;
-        }
+        if (low < due.i || (low == due.i && high < due.j)) due = {time, low, high, i};
     }
     return due;
 }
 
+/// Looks at all cards and writes down which comes first.
+template <int G>
+SWIRL_INLINE void find_due(Machine& m) {
+    SideBySide& all = *m.side_by_side;
+    Eight meeting[G], wall[G];
+    for (int g = 0; g < G; ++g) {
+        meeting[g] = Eight::load(all.meeting + 8 * g);
+        wall[g] = Eight::load(all.wall + 8 * g);
+    }
+    Eight least = smaller(meeting[0], wall[0]);
+    for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
+    const double time = smallest(least);
+    const double end = m.legs[m.leg].end;
+    all.due = time >= end
+                  ? Due{end, m.size, m.size, m.size}
+                  : first_in_order(m, time, discs_equal(meeting, time), discs_equal(wall, time));
+}
+
+template <int G>
+[[gnu::noinline]] static void renew_all(Machine& m) {
+    for (std::uint32_t i = 0; i < m.size; ++i) copy(m, i);
+    for (std::uint32_t i = 0; i < m.size; ++i) predict<G>(m, i);
+    predict_all_walls<G>(m);
+    find_due<G>(m);
+}
+
+template <int G>
+[[gnu::noinline]] static Event end_leg(Machine& m) {
+    const Event event = take_next_leg(m);
+    if (m.leg == 0) {
+        renew_all<G>(m);
+    } else {
+        predict_all_walls<G>(m);
+        find_due<G>(m);
+    }
+    return event;
+}
+
+/// The card that comes first and is not stale.
 template <int G>
 SWIRL_INLINE Due next_due(Machine& m) {
-    const SideBySide& all = *m.side_by_side;
     for (;;) {
-        Eight meeting[G], wall[G];
-        for (int g = 0; g < G; ++g) {
-            meeting[g] = Eight::load(all.meeting + 8 * g);
-            wall[g] = Eight::load(all.wall + 8 * g);
-        }
-        Eight least = smaller(meeting[0], wall[0]);
-        for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
-        const double time = smallest(least);
-        const double end = m.legs[m.leg].end;
-        if (time >= end) return {end, m.size, m.size};
-        std::uint32_t owner = 0;
-        const Due due =
-            first_in_order(m, time, discs_equal(meeting, time), discs_equal(wall, time), owner);
+        const Due due = m.side_by_side->due;
         if (due.i == due.j) return due;
-        const Plan& plan = m.plan(owner);
+        const Plan& plan = m.plan(due.owner);
         if (m.discs[plan.partner].changes == plan.partner_changes) return due;
         ++m.stale;
-        predict<G>(m, owner);
+        predict<G>(m, due.owner);
+        find_due<G>(m);
     }
+}
+
+/// What comes next is mostly known before the discs that now collide have been predicted: the first
+/// of all others' cards.
+template <int G>
+SWIRL_INLINE void find_due_but_for(Machine& m, std::uint32_t i, std::uint32_t j) {
+    SideBySide& all = *m.side_by_side;
+    set(all.meeting, i, never);
+    set(all.wall, i, never);
+    if (i != j) {
+        set(all.meeting, j, never);
+        set(all.wall, j, never);
+    }
+    find_due<G>(m);
 }
 
 template <int G>
 SWIRL_INLINE Event execute(Machine& m, const Due& due) {
     if (due.i == m.size) return end_leg<G>(m);
     m.clock = due.time;
+    find_due_but_for<G>(m, due.i, due.j);
+    Event event;
+    double first;
     if (due.i == due.j) {
-        const Event event = collide_with_wall(m, due.i, due.time);
+        event = collide_with_wall(m, due.i, due.time);
         copy(m, due.i);
-        predict_changed<G, 1>(m, {due.i}, due.time);
-        predict_wall(m, due.i);
-        return event;
+        first = smaller(predict_changed<G, 1>(m, {due.i}, due.time), predict_wall(m, due.i));
+    } else {
+        event = collide_discs(m, due.i, due.j, due.time);
+        copy(m, due.i);
+        copy(m, due.j);
+        first = smaller(predict_changed<G, 2>(m, {due.i, due.j}, due.time),
+                        predict_walls(m, due.i, due.j));
     }
-    const Event event = collide_discs(m, due.i, due.j, due.time);
-    copy(m, due.i);
-    copy(m, due.j);
-    predict_changed<G, 2>(m, {due.i, due.j}, due.time);
-    predict_walls(m, due.i, due.j);
+    if (first <= m.side_by_side->due.time) [[unlikely]]
+        find_due<G>(m);
     return event;
 }
 

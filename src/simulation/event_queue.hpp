@@ -37,19 +37,21 @@ SWIRL_INLINE void prefetch_neighbours(const Machine& m, std::uint32_t i) {
 /// In a large dish most of what an event needs is far away in memory. Who has won all rows but the
 /// last is soon to come: its own lines are fetched then, and its partner and neighbours when it is
 /// among the last eight.
+SWIRL_INLINE void prefetch_disc(const Machine& m, std::uint32_t i) {
+    prefetch(&m.discs[i]);
+    prefetch(&m.plan(i));
+    prefetch(&m.neighbourhoods[i]);
+    prefetch(m.level_times[0] + i);
+    prefetch(m.level_times[1] + (i >> 3));
+    prefetch(m.level_winners[1] + (i >> 3));
+}
 SWIRL_INLINE void prefetch_winner(const Machine& m, std::uint32_t level, std::uint32_t winner) {
     if (level + 2 == m.levels) {
-        prefetch(&m.discs[winner]);
-        prefetch(&m.plan(winner));
-        prefetch(&m.neighbourhoods[winner]);
+        prefetch_disc(m, winner);
     } else if (level + 1 == m.levels) {
         prefetch_neighbours(m, winner);
         const std::uint32_t partner = m.plan(winner).partner;
-        if (partner >= m.size) return;
-        prefetch(&m.discs[partner]);
-        prefetch(&m.plan(partner));
-        prefetch(&m.neighbourhoods[partner]);
-        prefetch(m.level_times[0] + (partner & ~7u));
+        if (partner < m.size) prefetch_disc(m, partner);
     }
 }
 

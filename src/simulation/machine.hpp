@@ -59,6 +59,13 @@ struct Neighbourhood {
 
 inline constexpr std::uint32_t longest_list = 64;
 
+/// What comes next: i < j meet, or i = j meets the wall, or, i = j = N, the leg ends. `owner` has
+/// it on its card.
+struct Due {
+    double time;
+    std::uint32_t i, j, owner;
+};
+
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
 struct alignas(64) SideBySide {
@@ -66,6 +73,7 @@ struct alignas(64) SideBySide {
     double x[most], y[most], vx[most], vy[most], time[most], radius[most];
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
+    Due due;
 };
 
 struct Machine {
