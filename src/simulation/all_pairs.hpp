@@ -296,12 +296,12 @@ constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
     // The longest serves everybody: the sanitizers need a minute to compile each.
     constexpr EventLoop (*loop)(const char*) = all_pairs::loop<SideBySide::most / 8>;
     return {{width, start, step, run},
-            {loop(width), loop(width), loop(width), loop(width), loop(width)},
+            {loop(width), loop(width), loop(width), loop(width), loop(width), loop(width)},
             few};
 #else
     return {{width, start, step, run},
             {all_pairs::loop<1>(width), all_pairs::loop<2>(width), all_pairs::loop<3>(width),
-             all_pairs::loop<4>(width), all_pairs::loop<5>(width)},
+             all_pairs::loop<4>(width), all_pairs::loop<5>(width), all_pairs::loop<6>(width)},
             few};
 #endif
 }

@@ -112,7 +112,7 @@ struct Leaving {
     double wall, neighbourhood;
 };
 /// Added to the time of the wall, by HotDisc::far_from_wall: a branch would often be mispredicted.
-inline constexpr double far_wait[2] = {0.0, never};
+static constexpr double far_wait[2] = {0.0, never};
 SWIRL_INLINE Leaving leaving_times(const Machine& m, std::uint32_t i, double t) {
     const HotDisc& disc = m.discs[i];
     const Leg& leg = m.legs[m.leg];

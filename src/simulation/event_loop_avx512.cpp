@@ -3,5 +3,5 @@
 #include "simulation/all_pairs.hpp"
 
 namespace swirl {
-const EventLoops event_loops_avx512 = event_loops("avx512", 40);
+const EventLoops event_loops_avx512 = event_loops("avx512", 48);
 }  // namespace swirl
