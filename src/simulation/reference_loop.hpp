@@ -1,35 +1,34 @@
 // The paper's method (SI, "Finding the next event"), as plainly as it can be said: all times, the
-// soonest, apply. The engine must agree with it bit for bit.
+// soonest (reference_scan.hpp), apply. The engine must agree with it bit for bit.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "physics/collision_law.hpp"
-#include "physics/contact_time.hpp"
+#include "simulation/reference_scan.hpp"
 #include "simulation/simulation.hpp"
 
 namespace swirl {
 
+/// Of the width asked for, which the processor must have.
+MeetingScan meeting_scan(Width width);
+
 class ReferenceLoop {
   public:
-    explicit ReferenceLoop(const Scene& scene) : scene_(scene) {}
+    explicit ReferenceLoop(const Scene& scene, Width width = Width::baseline)
+        : scene_(scene), scan_(meeting_scan(width)) {
+        for (auto* column : {&x_, &y_, &vx_, &vy_, &time_, &radius_, &times_of_contact_})
+            column->resize(scene.discs.size());
+        for (std::size_t k = 0; k < scene.discs.size(); ++k) show(k);
+    }
 
     Event step() {
         const Leg leg = scene_.path.legs[leg_];
-        double time = never;
-        std::size_t i = 0, j = 0;
-        for (std::size_t a = 0; a < scene_.discs.size(); ++a) {
-            for (std::size_t b = a; b < scene_.discs.size(); ++b) {
-                const double t =
-                    a == b ? time_of_wall_contact(scene_.discs[a], leg, scene_.container_radius)
-                           : time_of_contact(scene_.discs[a], scene_.discs[b]);
-                if (t < time) {
-                    time = t;
-                    i = a;
-                    j = b;
-                }
-            }
-        }
+        const FlightColumns discs{x_.data(),    y_.data(),      vx_.data(),         vy_.data(),
+                                  time_.data(), radius_.data(), scene_.discs.size()};
+        const auto [time, i, j] =
+            scan_(discs, leg, scene_.container_radius, times_of_contact_.data());
         if (leg.end <= time) return end_leg();
         return i == j ? hit_wall(i, leg, time) : hit_disc(i, j, time);
     }
@@ -37,6 +36,13 @@ class ReferenceLoop {
     const Disc& disc(std::size_t i) const { return scene_.discs[i]; }
 
   private:
+    /// Disc k has changed.
+    void show(std::size_t k) {
+        const Disc& d = scene_.discs[k];
+        x_[k] = d.position.x, y_[k] = d.position.y;
+        vx_[k] = d.velocity.x, vy_[k] = d.velocity.y;
+        time_[k] = d.time, radius_[k] = d.radius;
+    }
     static Body body(const Disc& d) {
         return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
     }
@@ -49,6 +55,8 @@ class ReferenceLoop {
         const Impulse J = collide(left, right, b.position - a.position, surface);
         a.velocity = left.velocity, a.spin = left.spin;
         b.velocity = right.velocity, b.spin = right.spin;
+        show(i);
+        show(j);
         return event(EventKind::disc_disc, t, i, j, J);
     }
     Event hit_wall(std::size_t i, const Leg& leg, double t) {
@@ -58,6 +66,7 @@ class ReferenceLoop {
         Body left = body(a), wall = wall_body(leg.velocity_at(t));
         const Impulse J = collide(left, wall, a.position - leg.position_at(t), surface);
         a.velocity = left.velocity, a.spin = left.spin;
+        show(i);
         return event(EventKind::disc_wall, t, i, i, J);
     }
     Event end_leg() {
@@ -67,6 +76,7 @@ class ReferenceLoop {
             d = d.at(e.clock);
             d.time = 0.0;
         }
+        for (std::size_t k = 0; k < scene_.discs.size(); ++k) show(k);
         leg_ = 0;
         ++swirls_;
         return e;
@@ -77,6 +87,8 @@ class ReferenceLoop {
     }
 
     Scene scene_;
+    MeetingScan scan_;
+    std::vector<double> x_, y_, vx_, vy_, time_, radius_, times_of_contact_;
     std::size_t leg_ = 0;
     std::int64_t swirls_ = 0;
 };

@@ -93,6 +93,19 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCells) {
     expect_same_trajectory(gas_scene(200, 0.05), 4000, tuning());
 }
 
+TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
+    for (const Scene& scene :
+         {paper_scene(5), paper_scene(28), paper_scene(48), mixture_scene(), gas_scene(101, 0.3)}) {
+        ReferenceLoop narrow(scene), wide(scene, GetParam());
+        for (int k = 0; k < 5000; ++k) {
+            const Event expected = narrow.step(), found = wide.step();
+            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+            ASSERT_EQ(expected.i, found.i) << "event " << k;
+            ASSERT_EQ(expected.j, found.j) << "event " << k;
+        }
+    }
+}
+
 // Many discs, against a second plain loop that has cells and a queue (plain_grid.hpp); that one
 // against the first, where that is possible.
 TEST(PlainGrid, IsTheReferenceBitForBit) {
