@@ -2,7 +2,7 @@
 
 namespace swirl {
 
-MeetingScan meeting_scan(Width width) {
+SoonestMeeting soonest_meeting(Width width) {
 #if defined(__x86_64__)
     const bool best = width == Width::best;
     if (width == Width::avx512 || (best && has_width(Width::avx512))) return soonest_meeting_avx512;

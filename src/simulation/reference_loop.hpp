@@ -12,13 +12,13 @@
 namespace swirl {
 
 /// Of the width asked for, which the processor must have.
-MeetingScan meeting_scan(Width width);
+SoonestMeeting soonest_meeting(Width width);
 
 class ReferenceLoop {
   public:
     explicit ReferenceLoop(const Scene& scene, Width width = Width::baseline)
-        : scene_(scene), scan_(meeting_scan(width)) {
-        for (auto* column : {&x_, &y_, &vx_, &vy_, &time_, &radius_, &times_of_contact_})
+        : scene_(scene), soonest_meeting_(soonest_meeting(width)) {
+        for (auto* column : {&x_, &y_, &vx_, &vy_, &time_, &radius_, &wall_times_, &times_})
             column->resize(scene.discs.size());
         for (std::size_t k = 0; k < scene.discs.size(); ++k) show(k);
     }
@@ -27,8 +27,8 @@ class ReferenceLoop {
         const Leg leg = scene_.path.legs[leg_];
         const FlightColumns discs{x_.data(),    y_.data(),      vx_.data(),         vy_.data(),
                                   time_.data(), radius_.data(), scene_.discs.size()};
-        const auto [time, i, j] =
-            scan_(discs, leg, scene_.container_radius, times_of_contact_.data());
+        const auto [time, i, j] = soonest_meeting_(discs, leg, scene_.container_radius,
+                                                   wall_times_.data(), times_.data());
         if (leg.end <= time) return end_leg();
         return i == j ? hit_wall(i, leg, time) : hit_disc(i, j, time);
     }
@@ -87,8 +87,8 @@ class ReferenceLoop {
     }
 
     Scene scene_;
-    MeetingScan scan_;
-    std::vector<double> x_, y_, vx_, vy_, time_, radius_, times_of_contact_;
+    SoonestMeeting soonest_meeting_;
+    std::vector<double> x_, y_, vx_, vy_, time_, radius_, wall_times_, times_;
     std::size_t leg_ = 0;
     std::int64_t swirls_ = 0;
 };

@@ -3,8 +3,8 @@
 //
 // The text is compiled once for each width of vectors (cmake/simulation.cmake), so that the loop
 // which `swirl bench` holds the engine against has the best instructions too. For that the discs
-// stand in columns, and the times of a disc with all later ones are found before they are compared;
-// which instructions do it changes no bit.
+// stand in columns, times are found before they are compared, and what kind of leg it is, is asked
+// once for all.
 #pragma once
 
 #include <cstddef>
@@ -29,21 +29,29 @@ struct Meeting {
     std::size_t i, j;
 };
 
-SWIRL_INLINE double time_of_wall_contact(const FlightColumns& discs, std::size_t k, const Leg& leg,
-                                         double container_radius) {
-    const double clearance = container_radius - discs.radius[k];
-    if (leg.turning != 0.0) return time_of_turning_wall_contact(discs.flight(k), leg, clearance);
-    return time_of_wall_contact(discs.flight(k), {leg.start, leg.velocity, leg.begin}, clearance);
+SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const Leg& leg,
+                                             double container_radius, double* __restrict times) {
+    const double R = container_radius;
+    if (leg.turning != 0.0) {
+        for (std::size_t i = 0; i < discs.size; ++i)
+            times[i] = time_of_turning_wall_contact(discs.flight(i), leg, R - discs.radius[i]);
+        return;
+    }
+    const Flight<double> centre{leg.start, leg.velocity, leg.begin};
+    for (std::size_t i = 0; i < discs.size; ++i)
+        times[i] = time_of_wall_contact(discs.flight(i), centre, R - discs.radius[i]);
 }
 
-/// `times` has room for as many numbers as there are discs.
-SWIRL_INLINE Meeting soonest_meeting(const FlightColumns& discs, const Leg& leg,
-                                     double container_radius, double* __restrict times) {
+/// Both arrays have room for as many numbers as there are discs.
+SWIRL_INLINE Meeting find_soonest_meeting(const FlightColumns& discs, const Leg& leg,
+                                          double container_radius, double* __restrict wall_times,
+                                          double* __restrict times) {
+    find_times_of_wall_contact(discs, leg, container_radius, wall_times);
     Meeting soonest{never, 0, 0};
     for (std::size_t i = 0; i < discs.size; ++i) {
         const Flight<double> flight = discs.flight(i);
         const double radius = discs.radius[i];
-        times[i] = time_of_wall_contact(discs, i, leg, container_radius);
+        times[i] = wall_times[i];
         for (std::size_t j = i + 1; j < discs.size; ++j)
             times[j] = time_of_contact(flight, discs.flight(j), radius + discs.radius[j]);
         for (std::size_t j = i; j < discs.size; ++j)
@@ -52,10 +60,10 @@ SWIRL_INLINE Meeting soonest_meeting(const FlightColumns& discs, const Leg& leg,
     return soonest;
 }
 
-using MeetingScan = Meeting (*)(const FlightColumns& discs, const Leg& leg, double container_radius,
-                                double* times);
-Meeting soonest_meeting_baseline(const FlightColumns&, const Leg&, double, double*);
-Meeting soonest_meeting_avx2(const FlightColumns&, const Leg&, double, double*);
-Meeting soonest_meeting_avx512(const FlightColumns&, const Leg&, double, double*);
+using SoonestMeeting = Meeting (*)(const FlightColumns& discs, const Leg& leg,
+                                   double container_radius, double* wall_times, double* times);
+Meeting soonest_meeting_baseline(const FlightColumns&, const Leg&, double, double*, double*);
+Meeting soonest_meeting_avx2(const FlightColumns&, const Leg&, double, double*, double*);
+Meeting soonest_meeting_avx512(const FlightColumns&, const Leg&, double, double*, double*);
 
 }  // namespace swirl

@@ -2,7 +2,7 @@
 
 namespace swirl {
 Meeting soonest_meeting_avx2(const FlightColumns& discs, const Leg& leg, double container_radius,
-                             double* times) {
-    return soonest_meeting(discs, leg, container_radius, times);
+                             double* wall_times, double* times) {
+    return find_soonest_meeting(discs, leg, container_radius, wall_times, times);
 }
 }  // namespace swirl
