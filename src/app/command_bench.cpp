@@ -72,7 +72,8 @@ void make_bench(const BenchCall& call) {
 
 void add_bench_command(CLI::App& subcommand) {
     const auto call = std::make_shared<BenchCall>();
-    subcommand.add_flag("--full", call->full, "a million discs, too");
+    subcommand.add_flag("--full", call->full,
+                        "a million discs, too, and a large dish through a whole swirl");
     subcommand
         .add_option("--width", call->width,
                     "of the vectors: best, all, baseline, avx2 or avx512 [best]")

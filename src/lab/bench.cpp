@@ -47,15 +47,17 @@ struct Plan {
 // The paper's dish at N = 48: 48 / 8.6².
 constexpr double paper_packing = 48.0 / (paper_container_radius * paper_container_radius);
 
+constexpr const char* dense_gas = "gas, packing 0.7";
+
 const std::vector<Plan>& plans() {
     static const std::vector<Plan> all = {
         {"dish, mu = 1", Kind::dish, 48, 0, 7e6, 13.0, true, false},
         {"dish, mu = 1", Kind::dish, 28, 0, 8e6, 6.5, true, false},
         {"dish, mu = 1", Kind::dish, 5, 0, 16e6, 2.0, true, false},
-        {"gas, packing 0.7", Kind::gas, 1000, 0.70, 6e6, {}, true, false},
-        {"gas, packing 0.7", Kind::gas, 10000, 0.70, 5e6, {}, false, false},
-        {"gas, packing 0.7", Kind::gas, 100000, 0.70, 3e6, {}, false, false},
-        {"gas, packing 0.7", Kind::gas, 1000000, 0.70, 2e6, {}, false, true},
+        {dense_gas, Kind::gas, 1000, 0.70, 6e6, {}, true, false},
+        {dense_gas, Kind::gas, 10000, 0.70, 5e6, {}, false, false},
+        {dense_gas, Kind::gas, 100000, 0.70, 3e6, {}, false, false},
+        {dense_gas, Kind::gas, 1000000, 0.70, 2e6, {}, false, true},
         {"gas, packing 0.2", Kind::gas, 1000, 0.20, 2.5e6, {}, true, false},
         {"large dish, mu = 1", Kind::large_dish, 100000, paper_packing, 1.5e6, {}, false, false},
     };
@@ -105,7 +107,60 @@ double rate_over(double seconds, const Run& run, const Count& count) {
     return (count() - before) / elapsed;
 }
 
-/// A pass over the scene, with as many events as come in about a millisecond at least.
+/// The plain loop with vectors of one width.
+struct PlainRunner {
+    std::string name;  // of the width
+    ReferenceLoop loop;
+    bool collisions_only;
+    int batch;  // events between two looks at the clock
+    double events = 0.0;
+    std::vector<double> rates = {};
+
+    void take_a_turn(double seconds) {
+        const auto run = [this] {
+            for (int k = 0; k < batch; ++k) {
+                const bool vertex = loop.step().kind == EventKind::path_vertex;
+                events += vertex && collisions_only ? 0.0 : 1.0;
+            }
+        };
+        rates.push_back(rate_over(seconds, run, [this] { return events; }));
+    }
+};
+
+/// With every width that the processor has, from the engine's state. The plain loop has no way to
+/// save and resume, so it starts from the discs of the moment, at the beginning of a swirl, where
+/// everybody's clock stands at 0.
+std::vector<PlainRunner> plain_runners(const Scene& scene, Simulation& engine, const Plan& plan) {
+    Event last = engine.step();
+    while (last.kind != EventKind::path_vertex || engine.progress().leg != 0) last = engine.step();
+    Scene settled = scene;
+    for (std::size_t i = 0; i < settled.discs.size(); ++i) settled.discs[i] = engine.disc(i);
+    std::vector<PlainRunner> runners;
+    for (const auto& [name, width] :
+         {std::pair{"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}})
+        if (has_width(width))
+            runners.push_back({name, ReferenceLoop(settled, width), plan.kind == Kind::gas,
+                               plan.discs > 100 ? 1 : 500});
+    return runners;
+}
+
+/// The time of the corners of one swirl, against that of the swirl. A whole one, as the last
+/// corner, after which all clocks restart, takes as long as all others together, and the discs do
+/// not collide equally often all the way round.
+double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSettings& settings) {
+    double at_vertices = 0.0;
+    const double begin = now();
+    for (std::size_t vertex = 0; vertex < path.legs.size(); ++vertex) {
+        check(settings.stop);
+        const double end = path.leg_at(engine.clock()).end;
+        engine.advance_to(engine.swirls(), std::nextafter(end, 0.0));
+        const double start = now();
+        engine.step();
+        at_vertices += now() - start;
+    }
+    return at_vertices / (now() - begin);
+}
+
 BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings) {
     const Scene scene = scene_of(plan);
     Simulation engine(scene, {}, {0, width});
@@ -116,38 +171,19 @@ BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings)
         return static_cast<double>(collisions_only ? e.disc_disc + e.disc_wall : e.total());
     };
 
-    std::optional<ReferenceLoop> plain;
-    double plain_events = 0.0;
-    if (plan.plain) {
-        // From the same state: the plain loop has no way to save and resume, so it runs from the
-        // discs of the moment, at the beginning of a swirl, where everybody's clock stands at 0.
-        Event last = engine.step();
-        while (last.kind != EventKind::path_vertex || engine.progress().leg != 0)
-            last = engine.step();
-        Scene settled = scene;
-        for (std::size_t i = 0; i < settled.discs.size(); ++i) settled.discs[i] = engine.disc(i);
-        plain.emplace(settled);
-    }
+    std::vector<PlainRunner> plain;
+    if (plan.plain) plain = plain_runners(scene, engine, plan);
 
     const EventCounts before = engine.events();
     const LoopCounts loop_before = engine.loop_counts();
     constexpr int turns = 7;
-    std::vector<double> rates, plain_rates;
+    std::vector<double> rates;
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
         const double seconds = settings.seconds / turns;
         rates.push_back(rate_over(
             seconds, [&] { engine.run(2000); }, counted));
-        if (!plain) continue;
-        const int batch = plan.discs > 100 ? 1 : 500;
-        plain_rates.push_back(rate_over(
-            seconds,
-            [&] {
-                for (int k = 0; k < batch; ++k)
-                    plain_events +=
-                        plain->step().kind == EventKind::path_vertex && collisions_only ? 0.0 : 1.0;
-            },
-            [&] { return plain_events; }));
+        for (PlainRunner& runner : plain) runner.take_a_turn(seconds);
     }
 
     const EventCounts after = engine.events();
@@ -160,8 +196,11 @@ BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings)
     row.counts = collisions_only ? "collisions" : "events";
     row.rate = median(rates);
     row.target = plan.target;
-    if (plain) {
-        row.plain_rate = median(plain_rates);
+    for (const PlainRunner& runner : plain) {
+        const double rate = median(runner.rates);
+        if (rate <= row.plain_rate.value_or(0.0)) continue;
+        row.plain_rate = rate;
+        row.plain_width = runner.name;
         row.ratio_target = plan.ratio_target;
     }
     row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(plan.discs);
@@ -169,24 +208,8 @@ BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings)
     row.relists = static_cast<double>(loop.relists - loop_before.relists) / events;
     row.path_vertices = static_cast<double>(after.path_vertex - before.path_vertex) / events;
 
-    if (plan.kind == Kind::large_dish) {
-        // The time at the path vertices of one swirl, against the time of the swirl: from the
-        // clock around the first event of each leg, the corner itself.
-        const auto legs = static_cast<std::uint64_t>(scene.path.legs.size());
-        double at_vertices = 0.0;
-        std::uint64_t vertices = 0;
-        const double begin = now();
-        while (vertices < std::min<std::uint64_t>(legs, 4)) {
-            check(settings.stop);
-            const double clock = scene.path.leg_at(engine.clock()).end;
-            engine.advance_to(engine.swirls(), std::nextafter(clock, 0.0));
-            const double start = now();
-            engine.step();
-            at_vertices += now() - start;
-            ++vertices;
-        }
-        row.vertex_share = at_vertices / (now() - begin);
-    }
+    if (plan.kind == Kind::large_dish && settings.full)
+        row.vertex_share = vertex_share(engine, scene.path, settings);
     return row;
 }
 
@@ -222,11 +245,76 @@ std::string processor() {
     return "unknown processor";
 }
 
-std::string verdict(double found, const std::optional<double>& target) {
-    return !target ? "" : found >= *target ? "met" : "missed";
-}
 std::string millions(const std::optional<double>& rate) {
     return rate ? fmt::format("{:.3g}", *rate / 1e6) : "-";
+}
+std::string times(const std::optional<double>& ratio) {
+    return ratio ? fmt::format("{:.{}f}", *ratio, *ratio < 100.0 ? 1 : 0) : "-";
+}
+std::optional<double> ratio(const BenchRow& row) {
+    if (!row.plain_rate) return {};
+    return row.rate / *row.plain_rate;
+}
+std::string verdict(const std::optional<double>& found, const std::optional<double>& target) {
+    return !found || !target ? "" : *found >= *target ? "met" : "missed";
+}
+const char* words(BenchTarget::Sense sense) {
+    return sense == BenchTarget::Sense::at_least  ? "at least"
+           : sense == BenchTarget::Sense::at_most ? "at most"
+                                                  : "below";
+}
+
+std::string row_line(const BenchRow& row) {
+    return fmt::format(
+        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6.0f}{:>7.3f}{:>7.3f}\n",
+        row.scene, row.discs, row.width, millions(row.rate), millions(row.target),
+        verdict(row.rate, row.target), millions(row.plain_rate), row.plain_width, times(ratio(row)),
+        times(row.ratio_target), verdict(ratio(row), row.ratio_target), row.bytes_per_disc,
+        row.stale, row.relists);
+}
+
+std::string target_line(const BenchTarget& target) {
+    return fmt::format("{:<62}{:>8} {:<7}{:<9}{:<4}{}\n", target.name,
+                       fmt::format("{:.3g}", target.value), target.unit, words(target.sense),
+                       fmt::format("{:g}", target.target), target.met() ? "met" : "missed");
+}
+
+/// The row of the gas that is as dense and has the same width, with so many discs.
+const BenchRow* gas_of(const BenchResult& result, std::int64_t discs, const std::string& width) {
+    for (const BenchRow& row : result.rows)
+        if (row.scene == dense_gas && row.discs == discs && row.width == width) return &row;
+    return nullptr;
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& x) {
+    return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json row_json(const BenchRow& row) {
+    nlohmann::ordered_json r;
+    r["scene"] = row.scene;
+    r["discs"] = row.discs;
+    r["width"] = row.width;
+    r["counts"] = row.counts;
+    r["rate"] = row.rate;
+    r["target"] = or_null(row.target);
+    r["plain_rate"] = or_null(row.plain_rate);
+    r["plain_width"] =
+        row.plain_rate ? nlohmann::ordered_json(row.plain_width) : nlohmann::ordered_json(nullptr);
+    r["ratio"] = or_null(ratio(row));
+    r["ratio_target"] = or_null(row.ratio_target);
+    r["bytes_per_disc"] = row.bytes_per_disc;
+    r["stale_per_event"] = row.stale;
+    r["relists_per_event"] = row.relists;
+    r["path_vertices_per_event"] = row.path_vertices;
+    r["vertex_share"] = or_null(row.vertex_share);
+    return r;
+}
+
+nlohmann::ordered_json target_json(const BenchTarget& target) {
+    return {{"name", target.name},     {"value", target.value},
+            {"unit", target.unit},     {"must_be", words(target.sense)},
+            {"target", target.target}, {"met", target.met()}};
 }
 
 }  // namespace
@@ -253,79 +341,85 @@ BenchResult bench(const BenchSettings& settings) {
     return result;
 }
 
+std::vector<BenchTarget> targets_of_rows(const BenchResult& result) {
+    using enum BenchTarget::Sense;
+    std::vector<BenchTarget> targets;
+    for (const BenchRow& row : result.rows) {
+        const std::string where = fmt::format("{}, N = {}, {}", row.scene, row.discs, row.width);
+        if (row.target)
+            targets.push_back({fmt::format("{} per second: {}", row.counts, where), "1/s", row.rate,
+                               at_least, *row.target});
+        if (row.ratio_target)
+            targets.push_back({fmt::format("rate over the plain loop's: {}", where), "",
+                               *ratio(row), at_least, *row.ratio_target});
+    }
+    return targets;
+}
+
+std::vector<BenchTarget> targets_beyond_rates(const BenchResult& result) {
+    using enum BenchTarget::Sense;
+    std::vector<BenchTarget> targets;
+    for (const BenchRow& large : result.rows) {
+        const BenchRow* const small = gas_of(result, 1000, large.width);
+        if (large.scene != dense_gas || large.discs != 1000000 || !small) continue;
+        targets.push_back({fmt::format("memory per disc at N = 10^6, {}", large.width), "bytes",
+                           large.bytes_per_disc, at_most, 160.0});
+        targets.push_back(
+            {fmt::format("time per collision at N = 10^6 over that at 10^3, {}", large.width), "",
+             small->rate / large.rate, below, 3.0});
+    }
+    for (const BenchRow& row : result.rows)
+        if (row.vertex_share)
+            targets.push_back(
+                {fmt::format("of the large dish's time at path vertices, {}", row.width), "%",
+                 100.0 * *row.vertex_share, below, 5.0});
+    targets.push_back({"time that averages by event add at N = 48", "%",
+                       100.0 * result.by_event_cost, below, 30.0});
+    return targets;
+}
+
 std::string bench_report(const BenchResult& result) {
     std::string text = fmt::format(
         "swirl {} on {}\nOne thread, processor time; the plain loop looks at all pairs "
         "for every event.\n\n",
         version(), result.machine);
-    text += fmt::format("{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>9}{:>8}{:>8} {:<7}{:>7}{:>7}{:>7}\n",
-                        "scene", "N", "width", "M/s", "target", "", "plain", "ratio", "target", "",
-                        "B/disc", "stale", "relist");
-    for (const BenchRow& row : result.rows) {
-        std::optional<double> ratio;
-        if (row.plain_rate) ratio = row.rate / *row.plain_rate;
-        const auto times = [](const std::optional<double>& x) {
-            return x ? fmt::format("{:.{}f}", *x, *x < 100.0 ? 1 : 0) : "-";
-        };
-        text += fmt::format(
-            "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>9}{:>8}{:>8} {:<7}{:>7.0f}{:>7.3f}{:>7.3f}\n",
-            row.scene, row.discs, row.width, millions(row.rate), millions(row.target),
-            verdict(row.rate, row.target), millions(row.plain_rate), times(ratio),
-            times(row.ratio_target), verdict(ratio.value_or(0.0), row.ratio_target),
-            row.bytes_per_disc, row.stale, row.relists);
-        if (row.vertex_share)
-            text += fmt::format("    of its time at path vertices: {:.2f} % (target below 5 %)\n",
-                                100.0 * *row.vertex_share);
-    }
-    text += fmt::format("\nAverages by event at N = 48 add {:.0f} % (target below 30 %).\n",
-                        100.0 * result.by_event_cost);
+    text += fmt::format(
+        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6}{:>7}{:>7}\n", "scene",
+        "N", "width", "M/s", "target", "", "plain", "width", "ratio", "target", "", "B/disc",
+        "stale", "relist");
+    for (const BenchRow& row : result.rows) text += row_line(row);
+    text += fmt::format("\n{:<62}{:>8} {:<7}{}\n", "besides", "value", "", "target");
+    for (const BenchTarget& target : targets_beyond_rates(result)) text += target_line(target);
     text +=
-        "M/s: million events a second in a dish, million collisions in a gas; plain: the plain "
-        "loop's; "
-        "stale,\nrelist: predictions made again and neighbour lists renewed, per event.\n";
+        "\nM/s: million events a second in a dish, million collisions in a gas; plain: the plain "
+        "loop's, with\nthe vectors that suit it best; ratio: how many times as fast the engine is; "
+        "stale, relist:\npredictions made again and neighbour lists renewed, per event.\n";
     return text;
 }
 
 std::string bench_json(const BenchResult& result, const std::string& command) {
-    const auto or_null = [](const std::optional<double>& x) {
-        return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
-    };
     nlohmann::ordered_json json;
     json["machine"] = result.machine;
     json["version"] = version();
     json["build"] = build_description();
     json["command"] = command;
     json["by_event_cost"] = result.by_event_cost;
+    json["targets"] = nlohmann::ordered_json::array();
+    for (const auto& targets : {targets_of_rows(result), targets_beyond_rates(result)})
+        for (const BenchTarget& target : targets) json["targets"].push_back(target_json(target));
     json["rows"] = nlohmann::ordered_json::array();
-    for (const BenchRow& row : result.rows) {
-        nlohmann::ordered_json r;
-        r["scene"] = row.scene;
-        r["discs"] = row.discs;
-        r["width"] = row.width;
-        r["counts"] = row.counts;
-        r["rate"] = row.rate;
-        r["target"] = or_null(row.target);
-        r["plain_rate"] = or_null(row.plain_rate);
-        r["ratio"] = row.plain_rate ? nlohmann::ordered_json(row.rate / *row.plain_rate)
-                                    : nlohmann::ordered_json(nullptr);
-        r["ratio_target"] = or_null(row.ratio_target);
-        r["bytes_per_disc"] = row.bytes_per_disc;
-        r["stale_per_event"] = row.stale;
-        r["relists_per_event"] = row.relists;
-        r["path_vertices_per_event"] = row.path_vertices;
-        r["vertex_share"] = or_null(row.vertex_share);
-        json["rows"].push_back(std::move(r));
-    }
+    for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row));
     return json.dump(2) + "\n";
 }
 
 std::string bench_csv(const BenchResult& result, const std::string& command) {
     Table table({"machine", "version", "command", "scene", "discs", "width", "counts", "rate",
-                 "plain_rate", "bytes_per_disc", "stale_per_event", "relists_per_event"});
+                 "plain_rate", "plain_width", "bytes_per_disc", "stale_per_event",
+                 "relists_per_event"});
     for (const BenchRow& row : result.rows)
         table.add({result.machine, version(), command, row.scene, row.discs, row.width, row.counts,
-                   row.rate, row.plain_rate.value_or(std::nan("")), row.bytes_per_disc, row.stale,
-                   row.relists});
+                   row.rate, row.plain_rate.value_or(std::nan("")), row.plain_width,
+                   row.bytes_per_disc, row.stale, row.relists});
     return table.csv();
 }
 

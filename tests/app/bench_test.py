@@ -24,9 +24,31 @@ class Bench(InFolder):
         dish = rows["dish, mu = 1", 48]
         self.assertGreater(dish["ratio"], 1)  # the plain loop never wins at N = 48
         self.assertAlmostEqual(dish["ratio"], dish["rate"] / dish["plain_rate"])
+        self.assertIn(dish["plain_width"], ("baseline", "avx2", "avx512"))
         self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_rate"])
+        self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_width"])
+        self.check_targets(result, done.stdout)
         with open(self.path("b.csv")) as f:
             self.assertEqual(len(f.readlines()), 9)
+
+    def check_targets(self, result, printed):
+        """Every rate and ratio that has a target, and what else was measured without --full."""
+        targets = result["targets"]
+        rates = sum(row["target"] is not None for row in result["rows"])
+        ratios = sum(row["ratio_target"] is not None for row in result["rows"])
+        self.assertEqual(ratios, 3)
+        self.assertEqual(len(targets), rates + ratios + 1)
+        for target in targets:
+            met = {"at least": target["value"] >= target["target"],
+                   "at most": target["value"] <= target["target"],
+                   "below": target["value"] < target["target"]}
+            self.assertEqual(target["met"], met[target["must_be"]], target["name"])
+        by_event = targets[-1]
+        self.assertEqual((by_event["must_be"], by_event["target"], by_event["unit"]),
+                         ("below", 30, "%"))
+        self.assertAlmostEqual(by_event["value"], 100 * result["by_event_cost"])
+        line = next(line for line in printed.splitlines() if by_event["name"] in line)
+        self.assertTrue(line.endswith("met" if by_event["met"] else "missed"), line)
 
     def test_refuses_what_it_cannot_do_in_a_sentence(self):
         for call, words in ((("--width", "wide"), "'wide'"), (("--seconds", "-1"), "'-1'"),
