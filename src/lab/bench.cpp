@@ -249,7 +249,8 @@ std::string millions(const std::optional<double>& rate) {
     return rate ? fmt::format("{:.3g}", *rate / 1e6) : "-";
 }
 std::string times(const std::optional<double>& ratio) {
-    return ratio ? fmt::format("{:.{}f}", *ratio, *ratio < 100.0 ? 1 : 0) : "-";
+    if (!ratio) return "-";
+    return *ratio < 100.0 ? fmt::format("{:.3g}", *ratio) : fmt::format("{:.0f}", *ratio);
 }
 std::optional<double> ratio(const BenchRow& row) {
     if (!row.plain_rate) return {};
@@ -371,9 +372,9 @@ std::vector<BenchTarget> targets_beyond_rates(const BenchResult& result) {
     for (const BenchRow& row : result.rows)
         if (row.vertex_share)
             targets.push_back(
-                {fmt::format("of the large dish's time at path vertices, {}", row.width), "%",
+                {fmt::format("share of the large dish's time at path vertices, {}", row.width), "%",
                  100.0 * *row.vertex_share, below, 5.0});
-    targets.push_back({"time that averages by event add at N = 48", "%",
+    targets.push_back({"time added by averages by event at N = 48", "%",
                        100.0 * result.by_event_cost, below, 30.0});
     return targets;
 }
@@ -388,7 +389,7 @@ std::string bench_report(const BenchResult& result) {
         "N", "width", "M/s", "target", "", "plain", "width", "ratio", "target", "", "B/disc",
         "stale", "relist");
     for (const BenchRow& row : result.rows) text += row_line(row);
-    text += fmt::format("\n{:<62}{:>8} {:<7}{}\n", "besides", "value", "", "target");
+    text += fmt::format("\n{:<62}{:>8} {:<7}{}\n", "besides rates", "value", "", "target");
     for (const BenchTarget& target : targets_beyond_rates(result)) text += target_line(target);
     text +=
         "\nM/s: million events a second in a dish, million collisions in a gas; plain: the plain "
