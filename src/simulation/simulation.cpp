@@ -267,11 +267,22 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     s.clock = m.clock;
     s.container_centre = leg.position_at(m.clock);
     s.container_velocity = leg.velocity_at(m.clock);
+    // Radius, mass and inertia stay what they are.
+    const auto hand_over = [&](std::uint32_t i) {
+        const HotDisc& d = m.discs[i];
+        s.x[i] = d.position.x;
+        s.y[i] = d.position.y;
+        s.vx[i] = d.velocity.x;
+        s.vy[i] = d.velocity.y;
+        s.angle[i] = m.plan(i).angle;
+        s.spin[i] = d.spin;
+        s.held_at[i] = d.time;
+    };
     if (event.kind != EventKind::path_vertex) {
-        s.set(event.i, disc(event.i));
-        if (event.j != event.i) s.set(event.j, disc(event.j));
+        hand_over(event.i);
+        if (event.j != event.i) hand_over(event.j);
     } else if (m.leg == 0) {
-        for (std::size_t i = 0; i < s.size(); ++i) s.set(i, disc(i));
+        for (std::uint32_t i = 0; i < m.size; ++i) hand_over(i);
     }
 }
 
