@@ -111,8 +111,10 @@ void step_refresh_and_look_at_the_rotation(benchmark::State& state) {
     Snapshot snapshot = simulation.snapshot();
     ClusterRotation rotation;
     for (auto _ : state) {
-        simulation.refresh(snapshot, simulation.step());
+        const Event event = simulation.step();
         rotation.look(snapshot);
+        simulation.refresh(snapshot, event);
+        rotation.follow(snapshot, event);
     }
 }
 BENCHMARK(step_refresh_and_look_at_the_rotation);

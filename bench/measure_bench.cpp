@@ -91,7 +91,7 @@ BENCHMARK(one_by_one);
 void rotation_by_event(benchmark::State& state) {
     ClusterRotation rotation;
     swirls(state, {{},
-                   [&](const Snapshot& s, const Event&) { rotation.look(s); },
+                   [&](const Snapshot& s, const Event& event) { rotation.look(s, event); },
                    [&] { rotation.close_block(); }});
 }
 BENCHMARK(rotation_by_event);
@@ -234,9 +234,10 @@ BENCHMARK(everything);
 void look_after_every_event(benchmark::State& state) {
     Snapshot s = held_earlier(random_discs(static_cast<std::size_t>(state.range(0)), 1));
     ClusterRotation rotation;
+    const Event event{0, s.clock, EventKind::disc_disc, 0, 1, {}, {}, 0.0};
     for (auto _ : state) {
         s.clock += 1e-9;
-        rotation.look(s);
+        rotation.look(s, event);
     }
     rotation.close_block();
     benchmark::DoNotOptimize(rotation.estimates().by_event.mean);

@@ -230,8 +230,10 @@ double by_event_cost(const BenchSettings& settings) {
         alone.run(1000 * static_cast<std::uint64_t>(batches));
         const double middle = now();
         for (int k = 0; k < 1000 * batches; ++k) {
-            watched.refresh(snapshot, watched.step());
+            const Event event = watched.step();
             rotation.look(snapshot);
+            watched.refresh(snapshot, event);
+            rotation.follow(snapshot, event);
         }
         ratios.push_back((now() - middle) / (middle - start));
     }

@@ -217,6 +217,7 @@ class Run {
 
     void offer_state(bool stopped, double seconds) {
         if (!control_.wants_state || !control_.wants_state(stopped)) return;
+        look();
         StateWriter state;
         Moment moment = Moment::of(simulation_);
         state(moment);
@@ -241,6 +242,7 @@ class Run {
 
     void step() {
         const Event event = simulation_.step();
+        look();
         rotation_times_.pass(snapshot_, path_, event.clock, [&](const Snapshot& s) {
             average().look_in_time(s);
             spin().add(mean_spin(s));
@@ -249,16 +251,25 @@ class Run {
             caller_times_[k].pass(snapshot_, path_, event.clock, control_.samplers[k].look);
 
         simulation_.refresh(snapshot_, event);
-        average().look(snapshot_);
+        average().follow(snapshot_, event);
+        looked_ = false;
         result_.max_overlap = std::max(result_.max_overlap, event.overlap);
         if (control_.after_event) control_.after_event(snapshot_, event);
         if (event.kind == EventKind::path_vertex && simulation_.swirls() > event.swirls)
             begin_swirl();
     }
 
+    /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
+    /// when nobody has to wait for it to be written (cluster_rotation.hpp).
+    void look() {
+        if (!looked_) average().look(snapshot_);
+        looked_ = true;
+    }
+
     void begin_swirl() {
         rotation_times_.begin_swirl();
         for (SampleTimes& times : caller_times_) times.begin_swirl();
+        look();
         average().close_block();
         spin().close_block();
         if (!warm_ && warm_now()) {
@@ -289,6 +300,7 @@ class Run {
     BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
 
     void finish() {
+        look();
         // A run too short for a single whole swirl still has a mean, though no error.
         if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
         if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
@@ -323,6 +335,7 @@ class Run {
     BlockMean spin_in_warmup_, spin_after_;
     std::int64_t next_question_ = least_blocks_of_a_steady_state;  // at this swirl: warm?
     bool warm_;
+    bool looked_ = true;  // after the last event
     RunResult result_;
 };
 

@@ -11,90 +11,85 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
-RotationColumns columns_of(const Snapshot& s) {
-    return {s.x.data(),
-            s.y.data(),
-            s.vx.data(),
-            s.vy.data(),
-            s.held_at.data(),
-            s.mass.data(),
-            static_cast<std::ptrdiff_t>(s.size()),
-            s.clock};
-}
-
-// Fewer than eight discs, behind zeros.
-struct Few {
-    double x[lanes] = {}, y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {}, held_at[lanes] = {},
-           mass[lanes] = {};
-
-    RotationColumns fill(const Snapshot& s) {
-        const std::size_t before = lanes - s.size();
-        for (std::size_t i = 0; i < s.size(); ++i) {
-            x[before + i] = s.x[i];
-            y[before + i] = s.y[i];
-            vx[before + i] = s.vx[i];
-            vy[before + i] = s.vy[i];
-            held_at[before + i] = s.held_at[i];
-            mass[before + i] = s.mass[i];
-        }
-        return {x + before,
-                y + before,
-                vx + before,
-                vy + before,
-                held_at + before,
-                mass + before,
-                static_cast<std::ptrdiff_t>(s.size()),
-                s.clock};
-    }
-};
-
-// Somebody sits on the centre of mass, and is left out.
-double individual_without_the_centre(const Snapshot& s, const RotationSums& sums,
-                                     double closest_square) {
-    double sum = 0.0;
-    std::size_t counted = 0;
+// One disc after the other: for fewer than eight, and where somebody sits on the centre of mass and
+// is left out.
+RotationCentre centre_one_by_one(const Snapshot& s) {
+    double mass = 0.0;
+    Vec2 r{0.0, 0.0}, v{0.0, 0.0};
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec2 r = s.position(i) - Vec2{sums.x, sums.y};
-        const double q = dot(r, r);
-        if (q <= closest_square) continue;
-        sum += cross(r, s.velocity(i) - Vec2{sums.vx, sums.vy}) / q;
-        ++counted;
+        mass += s.mass[i];
+        r = r + s.mass[i] * s.position(i);
+        v = v + s.mass[i] * s.velocity(i);
     }
-    return counted > 0 ? sum / static_cast<double>(counted) : not_known;
+    return {static_cast<std::ptrdiff_t>(s.size()),
+            s.clock,
+            mass,
+            {r.x / mass, r.y / mass},
+            {v.x / mass, v.y / mass}};
 }
 
-RotationSample sample_of(const Snapshot& s, RotationKernel kernel) {
+RotationSample rates_one_by_one(const Snapshot& s, const RotationCentre& c, double closest_square) {
     if (s.size() < 2) return {not_known, not_known};
-    RotationSums sums;
-    if (s.size() < lanes) {
-        Few few;
-        sums = kernel(few.fill(s));
-    } else {
-        sums = kernel(columns_of(s));
+    const Vec2 centre = c.position + (s.clock - c.held_at) * c.velocity;
+    double individual = 0.0, counted = 0.0, angular = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 r = s.position(i) - centre;
+        const double l = cross(r, s.velocity(i) - c.velocity), q = dot(r, r);
+        angular += l;
+        square += q;
+        if (q <= closest_square) continue;
+        individual += l / q;
+        counted += 1.0;
     }
-    RotationSample sample{sums.individual / static_cast<double>(s.size()),
-                          sums.angular / sums.square};
-    const double closest = 0x1p-40 * s.container_radius, closest_square = closest * closest;
-    if (sums.least <= closest_square) {
-        sample.individual = individual_without_the_centre(s, sums, closest_square);
-        if (!(sums.square > closest_square)) sample.rigid = not_known;
-    }
-    return sample;
+    return {counted > 0.0 ? individual / counted : not_known,
+            square > closest_square ? angular / square : not_known};
 }
 
-RotationKernel kernel_for(VectorWidth width) {
+RotationCentre centre_of(const Snapshot& s, const RotationKernel& kernel) {
+    if (s.size() < lanes) return centre_one_by_one(s);
+    return kernel.centre(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(),
+                         s.mass.data(), static_cast<std::ptrdiff_t>(s.size()), s.clock);
+}
+
+/// What the wall does to the centre of mass.
+void push(RotationCentre& c, const Event& event) {
+    c.position = c.position + (event.clock - c.held_at) * c.velocity;
+    c.held_at = event.clock;
+    const Vec2 tangent{event.normal.y, -event.normal.x};
+    const Vec2 kick = event.impulse.normal * event.normal + event.impulse.tangential * tangent;
+    c.velocity = c.velocity - Vec2{kick.x / c.mass, kick.y / c.mass};
+}
+
+SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c,
+                                      const RotationKernel& kernel) {
+    const double closest = 0x1p-40 * s.container_radius, closest_square = closest * closest;
+    if (s.size() >= lanes) {
+        const RotationRates rates = kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
+                                                 s.held_at.data(), c, s.clock, closest_square);
+        // If not: somebody on the centre of mass, or something that is no number itself.
+        const bool is_number = rates[0] - rates[0] == 0.0;
+        if (is_number) return {rates[0], rates[1]};
+    }
+    return rates_one_by_one(s, c, closest_square);
+}
+
+const RotationKernel& kernel_for(VectorWidth width) {
 #if defined(__x86_64__)
-    if (width == VectorWidth::avx512) return rotation_avx512::rotation_sums;
-    if (width == VectorWidth::avx2) return rotation_avx2::rotation_sums;
+    if (width == VectorWidth::avx512) return rotation_avx512::kernel;
+    if (width == VectorWidth::avx2) return rotation_avx2::kernel;
 #endif
     (void)width;
-    return rotation_baseline::rotation_sums;
+    return rotation_baseline::kernel;
 }
 
-RotationKernel best_kernel() {
+const RotationKernel& available_kernel(VectorWidth width) {
+    return kernel_for(processor_has(width) ? width : VectorWidth::baseline);
+}
+
+const RotationKernel& best_kernel() {
     for (const VectorWidth width : {VectorWidth::avx512, VectorWidth::avx2})
         if (processor_has(width)) return kernel_for(width);
-    return rotation_baseline::rotation_sums;
+    return rotation_baseline::kernel;
 }
 
 }  // namespace
@@ -111,22 +106,38 @@ bool processor_has(VectorWidth width) {
 }
 
 RotationSample cluster_rotation(const Snapshot& snapshot, VectorWidth width) {
-    return sample_of(snapshot, kernel_for(processor_has(width) ? width : VectorWidth::baseline));
+    const RotationKernel& kernel = available_kernel(width);
+    return sample_of(snapshot, centre_of(snapshot, kernel), kernel);
 }
 
 RotationSample cluster_rotation(const Snapshot& snapshot) {
-    return sample_of(snapshot, best_kernel());
+    const RotationKernel& kernel = best_kernel();
+    return sample_of(snapshot, centre_of(snapshot, kernel), kernel);
 }
 
-void ClusterRotation::look(const Snapshot& snapshot) {
-    event_.add(sample_of(snapshot, kernel_), snapshot.period);
+void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event) {
+    if (event.kind == EventKind::path_vertex)
+        centre_ = centre_of(snapshot, *kernel_);
+    else
+        push(centre_, event);
 }
 
-void ClusterRotation::look_in_time(const Snapshot& snapshot) {
-    time_.add(sample_of(snapshot, kernel_), snapshot.period);
+RotationSample ClusterRotation::look(const Snapshot& snapshot) {
+    if (centre_.discs != static_cast<std::ptrdiff_t>(snapshot.size()))
+        centre_ = centre_of(snapshot, *kernel_);
+    const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
+    event_.add(sample, snapshot.period);
+    return sample;
 }
 
-ClusterRotation::ClusterRotation() : kernel_(best_kernel()) {}
+RotationSample ClusterRotation::look_in_time(const Snapshot& snapshot) {
+    const RotationSample sample = sample_of(snapshot, centre_of(snapshot, *kernel_), *kernel_);
+    time_.add(sample, snapshot.period);
+    return sample;
+}
+
+ClusterRotation::ClusterRotation() : kernel_(&best_kernel()) {}
+ClusterRotation::ClusterRotation(VectorWidth width) : kernel_(&available_kernel(width)) {}
 
 void ClusterRotation::OpenBlock::close_into(BlockSeries& individual_series,
                                             BlockSeries& rigid_series) {

@@ -25,30 +25,36 @@
 
 namespace swirl {
 
-/// The columns of a snapshot.
-struct RotationColumns {
-    const double *x, *y, *vx, *vy, *held_at, *mass;
-    std::ptrdiff_t size;
-    double clock;
+/// The centre of mass of so many discs, kept as a disc is (snapshot.hpp).
+struct RotationCentre {
+    std::ptrdiff_t discs;
+    double held_at, mass;
+    Vec2 position, velocity;
 };
 
-/// What the columns add up to.
-struct RotationSums {
-    double x, y, vx, vy;     // of the centre of mass
-    double individual;       // Σ ϖ_i
-    double angular, square;  // Σ r × v, Σ r²
-    double least;            // smallest r²
-};
+/// (individual, rigid), in a register.
+typedef double RotationRates __attribute__((vector_size(16)));
 
-using RotationKernel = RotationSums (*)(const RotationColumns&);
+/// One width of the kernel, for eight discs or more. The columns of the snapshot one by one, as
+/// they stay in registers then.
+struct RotationKernel {
+    /// The centre of mass at `clock`.
+    RotationCentre (*centre)(const double* x, const double* y, const double* vx, const double* vy,
+                             const double* held_at, const double* mass, std::ptrdiff_t size,
+                             double clock);
+    /// The rotation about it. NaN for `individual` if r² ≤ `closest_square` for somebody.
+    RotationRates (*rates)(const double* x, const double* y, const double* vx, const double* vy,
+                           const double* held_at, const RotationCentre& centre, double clock,
+                           double closest_square);
+};
 namespace rotation_baseline {
-RotationSums rotation_sums(const RotationColumns&);
+extern const RotationKernel kernel;
 }
 namespace rotation_avx2 {
-RotationSums rotation_sums(const RotationColumns&);
+extern const RotationKernel kernel;
 }
 namespace rotation_avx512 {
-RotationSums rotation_sums(const RotationColumns&);
+extern const RotationKernel kernel;
 }
 
 #if defined(SWIRL_ROTATION_KERNEL)
@@ -100,129 +106,171 @@ SWIRL_INLINE Eight smaller_of(const Eight& a, const Eight& b) {
     return e;
 }
 
-// Lanes k, k + 2, k + 4, k + 6 are put together, (k + (k + 4)) + ((k + 2) + (k + 6)), whatever the
-// register, and then the two that are left.
-SWIRL_INLINE Double2 halves(const Double4& e) {
-    return __builtin_shufflevector(e, e, 0, 1) + __builtin_shufflevector(e, e, 2, 3);
+/// `value` where `square` is above the limit, elsewhere NaN.
+SWIRL_INLINE Eight where_above(const Eight& square, double limit, const Eight& value) {
+    Eight e;
+    for (int p = 0; p < Eight::parts; ++p)
+        e.part[p] =
+            square.part[p] > limit - Register{} ? value.part[p] : __builtin_nan("") - Register{};
+    return e;
 }
-SWIRL_INLINE Double2 halves(const Eight& e) {
+
+// Lanes k and k + 4 are put together, then of these four 0 and 1, 2 and 3, then the two that are
+// left: ((0 + 4) + (1 + 5)) + ((2 + 6) + (3 + 7)), whatever the register.
 #if SWIRL_ROTATION_REGISTER == 16
-    return (e.part[0] + e.part[2]) + (e.part[1] + e.part[3]);
-#elif SWIRL_ROTATION_REGISTER == 32
-    return halves(e.part[0] + e.part[1]);
-#else
-    const Double8& m = e.part[0];
-    return halves(__builtin_shufflevector(m, m, 0, 1, 2, 3) +
-                  __builtin_shufflevector(m, m, 4, 5, 6, 7));
-#endif
+SWIRL_INLINE Double2 sums_of_two(const Double2& a, const Double2& b) {
+    return __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
 }
 /// (sum of a, sum of b).
 SWIRL_INLINE Double2 sums(const Eight& a, const Eight& b) {
-    const Double2 p = halves(a), q = halves(b);
-    return __builtin_shufflevector(p, q, 0, 2) + __builtin_shufflevector(p, q, 1, 3);
+    return sums_of_two(a.part[0] + a.part[2], b.part[0] + b.part[2]) +
+           sums_of_two(a.part[1] + a.part[3], b.part[1] + b.part[3]);
 }
-
-SWIRL_INLINE double smallest(const Eight& e) {
-#if SWIRL_ROTATION_REGISTER == 16
-    const Double2 a = e.part[0] < e.part[1] ? e.part[0] : e.part[1];
-    const Double2 b = e.part[2] < e.part[3] ? e.part[2] : e.part[3];
 #else
+SWIRL_INLINE Double4 halves(const Eight& e) {
 #if SWIRL_ROTATION_REGISTER == 32
-    const Double4 m = e.part[0] < e.part[1] ? e.part[0] : e.part[1];
+    return e.part[0] + e.part[1];
 #else
-    const Double4 lo = __builtin_shufflevector(e.part[0], e.part[0], 0, 1, 2, 3);
-    const Double4 hi = __builtin_shufflevector(e.part[0], e.part[0], 4, 5, 6, 7);
-    const Double4 m = lo < hi ? lo : hi;
+    return __builtin_shufflevector(e.part[0], e.part[0], 0, 1, 2, 3) +
+           __builtin_shufflevector(e.part[0], e.part[0], 4, 5, 6, 7);
 #endif
-    const Double2 a = __builtin_shufflevector(m, m, 0, 1);
-    const Double2 b = __builtin_shufflevector(m, m, 2, 3);
-#endif
-    const Double2 two = a < b ? a : b;
-    return smaller(two[0], two[1]);
 }
+SWIRL_INLINE Double2 sums(const Eight& a, const Eight& b) {
+    const Double4 p = halves(a), q = halves(b);
+    const Double4 pairs =
+        __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
+    return __builtin_shufflevector(pairs, pairs, 0, 1) +
+           __builtin_shufflevector(pairs, pairs, 2, 3);
+}
+#endif
 
-struct Discs {
-    Eight x, y, vx, vy, mass;
+struct Columns {
+    const double *x, *y, *vx, *vy, *held_at;
 };
 
-SWIRL_INLINE Discs discs(const RotationColumns& c, const Eight& clock, std::ptrdiff_t first) {
+struct Discs {
+    Eight x, y, vx, vy;
+};
+
+SWIRL_INLINE Discs discs(const Columns& c, const Eight& clock, std::ptrdiff_t first) {
     const Eight elapsed = clock - Eight::load(c.held_at + first);
     const Eight vx = Eight::load(c.vx + first), vy = Eight::load(c.vy + first);
     return {Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
-            vy, Eight::load(c.mass + first)};
+            vy};
 }
 
 struct Moments {
     Eight mass, x, y, vx, vy;
 
-    SWIRL_INLINE void add(const Discs& d) {
-        mass = mass + d.mass;
-        x = x + d.mass * d.x;
-        y = y + d.mass * d.y;
-        vx = vx + d.mass * d.vx;
-        vy = vy + d.mass * d.vy;
+    SWIRL_INLINE void add(const Discs& d, const Eight& m) {
+        mass = mass + m;
+        x = x + m * d.x;
+        y = y + m * d.y;
+        vx = vx + m * d.vx;
+        vy = vy + m * d.vy;
+    }
+};
+
+/// A disc as seen from the centre of mass: r × v and r².
+struct Arm {
+    Eight l, q;
+};
+
+struct Centre {
+    Eight x, y, vx, vy;
+
+    SWIRL_INLINE Centre(const RotationCentre& c, const Eight& clock)
+        : vx(Eight::all(c.velocity.x)), vy(Eight::all(c.velocity.y)) {
+        const Eight elapsed = clock - Eight::all(c.held_at);
+        x = Eight::all(c.position.x) + elapsed * vx;
+        y = Eight::all(c.position.y) + elapsed * vy;
+    }
+    SWIRL_INLINE Arm arm(const Discs& d) const {
+        const Eight rx = d.x - x, ry = d.y - y;
+        // Signs such that an instruction can take the disc's velocity from memory.
+        return {ry * (vx - d.vx) - rx * (vy - d.vy), rx * rx + ry * ry};
     }
 };
 
 struct Turning {
-    Eight cx, cy, cvx, cvy;
     Eight individual, angular, square, least;
 
-    SWIRL_INLINE void add(const Discs& d) {
-        const Eight rx = d.x - cx, ry = d.y - cy;
-        const Eight l = rx * (d.vy - cvy) - ry * (d.vx - cvx);
-        const Eight q = rx * rx + ry * ry;
-        individual = individual + l / q;
-        angular = angular + l;
-        square = square + q;
-        least = smaller_of(q, least);
+    SWIRL_INLINE explicit Turning(const Arm& a)
+        : individual(a.l / a.q), angular(a.l), square(a.q), least(a.q) {}
+    SWIRL_INLINE void add(const Arm& a) {
+        individual = individual + a.l / a.q;
+        angular = angular + a.l;
+        square = square + a.q;
+        least = smaller_of(a.q, least);
     }
-    /// The same where a lane counts (1) or not (0).
-    SWIRL_INLINE void add(const Discs& d, const Eight& counts) {
-        const Eight nobody = Eight::all(1.0) - counts;
-        const Eight rx = (d.x - cx) * counts, ry = (d.y - cy) * counts;
-        const Eight l = rx * (d.vy - cvy) - ry * (d.vx - cvx);
-        const Eight q = rx * rx + ry * ry;
-        individual = individual + l / (q + nobody);
+    /// With one division for both.
+    SWIRL_INLINE void add(const Arm& a, const Arm& b) {
+        individual = individual + (a.l * b.q + b.l * a.q) / (a.q * b.q);
+        angular = (angular + a.l) + b.l;
+        square = (square + a.q) + b.q;
+        least = smaller_of(b.q, smaller_of(a.q, least));
+    }
+    /// Where a lane counts (1) or has counted before (0).
+    SWIRL_INLINE void add(const Arm& a, const Eight& counts) {
+        const Eight l = a.l * counts;
+        individual = individual + l / a.q;
         angular = angular + l;
-        square = square + q;
-        least = smaller_of(q + nobody * Eight::all(0x1p1000), least);
+        square = square + a.q * counts;
+        least = smaller_of(a.q, least);
     }
 };
 
 // Lane k of `last_lanes + left` is 1 for the last `left` of eight lanes.
 constexpr double last_lanes[2 * lanes] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
+/// What is left over of a number of discs that is not a multiple of eight is looked at together
+/// with those before it, which then count nothing.
+struct Rows {
+    std::ptrdiff_t left, whole, last;
+
+    SWIRL_INLINE explicit Rows(std::ptrdiff_t size)
+        : left(size & (lanes - 1)), whole(size - left), last(size - lanes) {}
+    SWIRL_INLINE Eight counts() const { return Eight::load(last_lanes + left); }
+};
+
+RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
+                      const double* held_at, const double* mass, std::ptrdiff_t size,
+                      double clock_now) {
+    const Columns c{x, y, vx, vy, held_at};
+    const Rows rows(size);
+    const Eight clock = Eight::all(clock_now), zero = Eight::all(0.0);
+    Moments m{zero, zero, zero, zero, zero};
+    for (std::ptrdiff_t i = 0; i < rows.whole; i += lanes)
+        m.add(discs(c, clock, i), Eight::load(mass + i));
+    if (rows.left > 0)
+        m.add(discs(c, clock, rows.last), Eight::load(mass + rows.last) * rows.counts());
+    const Double2 all = sums(m.mass, m.mass);
+    const Double2 r = sums(m.x, m.y) / all, v = sums(m.vx, m.vy) / all;
+    return {size, clock_now, all[0], {r[0], r[1]}, {v[0], v[1]}};
+}
+
+RotationRates rates(const double* x, const double* y, const double* vx, const double* vy,
+                    const double* held_at, const RotationCentre& about, double clock_now,
+                    double closest_square) {
+    const Columns c{x, y, vx, vy, held_at};
+    const Rows rows(about.discs);
+    const Eight clock = Eight::all(clock_now);
+    const Centre centre_of_mass(about, clock);
+    const auto arm = [&](std::ptrdiff_t i) { return centre_of_mass.arm(discs(c, clock, i)); };
+    Turning t(arm(0));
+    std::ptrdiff_t i = lanes;
+    for (; i + lanes < rows.whole; i += 2 * lanes) t.add(arm(i), arm(i + lanes));
+    if (i < rows.whole) t.add(arm(i));
+    if (rows.left > 0) t.add(arm(rows.last), rows.counts());
+    t.individual = where_above(t.least, closest_square, t.individual);
+    const Double2 above = sums(t.individual, t.angular);
+    const Double2 below{static_cast<double>(about.discs), sums(t.square, t.square)[0]};
+    return above / below;
+}
+
 }  // namespace
 
-/// What is left over of a number of discs that is not a multiple of eight is looked at together
-/// with those before it, which then count nothing. So where there are fewer than eight, the columns
-/// must be readable for eight in all, the others before the first.
-RotationSums rotation_sums(const RotationColumns& columns) {
-    const RotationColumns c = columns;
-    const std::ptrdiff_t left = c.size % lanes, whole = c.size - left, last = c.size - lanes;
-    const Eight clock = Eight::all(c.clock);
-    const Eight zero = Eight::all(0.0);
-
-    Moments m{zero, zero, zero, zero, zero};
-    for (std::ptrdiff_t i = 0; i < whole; i += lanes) m.add(discs(c, clock, i));
-    if (left > 0) {
-        Discs d = discs(c, clock, last);
-        d.mass = d.mass * Eight::load(last_lanes + left);
-        m.add(d);
-    }
-    const Double2 mass = sums(m.mass, m.mass);
-    const Double2 r = sums(m.x, m.y) / mass, v = sums(m.vx, m.vy) / mass;
-
-    Turning t{
-        Eight::all(r[0]),    Eight::all(r[1]), Eight::all(v[0]), Eight::all(v[1]), zero, zero, zero,
-        Eight::all(0x1p1000)};
-    for (std::ptrdiff_t i = 0; i < whole; i += lanes) t.add(discs(c, clock, i));
-    if (left > 0) t.add(discs(c, clock, last), Eight::load(last_lanes + left));
-
-    const Double2 a = sums(t.individual, t.angular), b = sums(t.square, t.square);
-    return {r[0], r[1], v[0], v[1], a[0], a[1], b[0], smallest(t.least)};
-}
+const RotationKernel kernel{centre, rates};
 
 }  // namespace SWIRL_ROTATION_TARGET
 #endif

@@ -94,7 +94,7 @@ TEST(StateArchive, GivesBackWhatItGot) {
     Simulation simulation(paper_scene(9, 3));
     for (int k = 0; k < 3'000; ++k) {
         const Event event = simulation.step();
-        rotation.look(simulation.snapshot());
+        rotation.look(simulation.snapshot(), event);
         rotation.look_in_time(simulation.snapshot());
         if (event.kind == EventKind::path_vertex) rotation.close_block();
     }
@@ -116,6 +116,13 @@ TEST(StateArchive, GivesBackWhatItGot) {
     EXPECT_EQ(a.mean, b.mean);
     EXPECT_EQ(a.error, b.error);
     EXPECT_GT(a.blocks, 10u);
+    // Between two vertices of the path, and it goes on with the same bits.
+    for (int k = 0; k < 200; ++k) {
+        const Event event = simulation.step();
+        ASSERT_TRUE(k > 0 || event.kind != EventKind::path_vertex);
+        const Snapshot s = simulation.snapshot();
+        ASSERT_EQ(rotation.look(s, event).individual, rotation2.look(s, event).individual) << k;
+    }
 
     for (std::size_t cut = 0; cut < writer.bytes().size(); cut += 13) {
         StateReader shorter(std::string_view(writer.bytes()).substr(0, cut));

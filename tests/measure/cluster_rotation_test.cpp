@@ -43,6 +43,10 @@ RotationSample by_definition(const Snapshot& s) {
     return {individual / static_cast<double>(s.size()), angular / square};
 }
 
+/// What just happened, if it is not known: then the centre of mass is looked for anew.
+const Event anything{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+const Event collision{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {}, 0.0};
+
 TEST(ClusterRotation, RigidRotationGivesItsRate) {
     for (const std::size_t n : {2u, 3u, 7u, 8u, 9u, 28u, 48u, 55u}) {
         const RotationSample sample = cluster_rotation(rigid_cluster(n, omega, n));
@@ -87,20 +91,100 @@ TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
     add_disc(s, {1.0, 2.0}, {0.3, 0.4});
     EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
     EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
-    for (int i = 0; i < 6; ++i) add_disc(s, {1.0, 2.0}, {0.1 * i, 0.4});
-    EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
-    EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
+    for (int i = 0; i < 20; ++i) {
+        add_disc(s, {1.0, 2.0}, {0.1 * i, 0.4});
+        EXPECT_TRUE(std::isnan(cluster_rotation(s).individual)) << i;
+        EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid)) << i;
+    }
 }
 
 TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
-    Snapshot s = empty_dish();
-    add_disc(s, {0.0, 0.0}, {0.0, 0.0});
-    for (int k = 0; k < 6; ++k) {
-        const Vec2 p = 2.0 * unit_circle(k / 6.0);
-        add_disc(s, p, 0.25 * perpendicular(p));
+    for (const int others : {6, 8, 12, 46}) {
+        for (int place = 0; place <= others; ++place) {
+            Snapshot s = empty_dish();
+            for (int k = 0; k < others; ++k) {
+                if (k == place) add_disc(s, {0.0, 0.0}, {0.0, 0.0});
+                const Vec2 p = 4.0 * unit_circle(double(k) / others);
+                add_disc(s, p, 0.25 * perpendicular(p));
+            }
+            // The centre of mass is a sum of up to 46 rounded positions of size 4, so it lies
+            // 10⁻¹⁵ beside the disc, well within 2⁻⁴⁰ container radii.
+            EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-14) << others;
+            EXPECT_NEAR(cluster_rotation(s).rigid, 0.25, 1e-14) << others;
+            ClusterRotation rotation;
+            EXPECT_EQ(rotation.look(s, collision).individual, cluster_rotation(s).individual);
+        }
     }
-    EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-15);
-    EXPECT_NEAR(cluster_rotation(s).rigid, 0.25, 1e-15);
+}
+
+TEST(ClusterRotation, ALookInTimeAndTheFirstLookAfterAnEventSeeTheSame) {
+    for (std::size_t n = 0; n <= 60; ++n) {
+        const Snapshot s = held_earlier(random_discs(n, n));
+        ClusterRotation rotation;
+        const RotationSample in_time = rotation.look_in_time(s),
+                             first = rotation.look(s, collision);
+        if (n < 2) {
+            EXPECT_TRUE(std::isnan(in_time.individual) && std::isnan(first.individual)) << n;
+            continue;
+        }
+        EXPECT_EQ(in_time.individual, first.individual) << n;
+        EXPECT_EQ(in_time.rigid, first.rigid) << n;
+    }
+}
+
+/// Gives disc i a push, as the wall would.
+Event push(Snapshot& s, std::size_t i, const Vec2& normal, double along, double across) {
+    const Vec2 tangent{normal.y, -normal.x};
+    Disc d = s.disc(i).at(s.clock);
+    d.velocity = d.velocity - (1.0 / d.mass) * (along * normal + across * tangent);
+    s.set(i, d);
+    const auto k = static_cast<std::uint32_t>(i);
+    return {0, s.clock, EventKind::disc_wall, k, k, normal, {along, across, false}, 0.0};
+}
+
+TEST(ClusterRotation, TheCentreOfMassIsFollowedFromPushToPush) {
+    for (std::size_t n = 2; n <= 60; ++n) {
+        Snapshot s = held_earlier(random_discs(n, 300 + n));
+        Noise noise(n);
+        for (std::size_t i = 0; i < n; ++i) s.mass[i] = 2.0 + noise();
+        ClusterRotation rotation;
+        rotation.look(s, anything);
+        for (int k = 0; k < 100; ++k) {
+            s.clock += 0.003 * (1.0 + noise());
+            const auto i = static_cast<std::size_t>(0.5 * (1.0 + noise()) * double(n));
+            const Event event = push(s, i, unit_circle(noise()), noise(), noise());
+            const RotationSample seen = rotation.look(s, event), found = cluster_rotation(s);
+            // A hundred pushes, each rounded to 10⁻¹⁵; a disc near the centre magnifies it.
+            EXPECT_NEAR(seen.individual, found.individual, 1e-10) << n;
+            EXPECT_NEAR(seen.rigid, found.rigid, 1e-12) << n;
+        }
+    }
+}
+
+TEST(ClusterRotation, EveryVectorWidthFollowsWithTheSameBits) {
+    for (const std::size_t n : {5u, 8u, 13u, 48u, 55u}) {
+        Snapshot s = held_earlier(random_discs(n, n));
+        ClusterRotation best, baseline(VectorWidth::baseline), avx2(VectorWidth::avx2);
+        Noise noise(n);
+        for (int k = 0; k < 50; ++k) {
+            s.clock += 0.01;
+            const Event event = push(s, k % n, unit_circle(noise()), noise(), noise());
+            const RotationSample base = baseline.look(s, event);
+            for (ClusterRotation* wide : {&best, &avx2}) {
+                const RotationSample sample = wide->look(s, event);
+                EXPECT_EQ(base.individual, sample.individual) << n;
+                EXPECT_EQ(base.rigid, sample.rigid) << n;
+            }
+        }
+    }
+}
+
+TEST(ClusterRotation, WhereDiscsComeOrGoTheCentreOfMassIsFoundAnew) {
+    ClusterRotation rotation;
+    for (const std::size_t n : {48u, 12u, 3u, 30u}) {
+        const Snapshot s = random_discs(n, n);
+        EXPECT_EQ(rotation.look(s, collision).individual, cluster_rotation(s).individual) << n;
+    }
 }
 
 TEST(ClusterRotation, AStateThatIsNotANumberShows) {
@@ -113,8 +197,8 @@ TEST(ClusterRotation, AStateThatIsNotANumberShows) {
 TEST(ClusterRotation, MeansAreInUnitsOfOmegaAndEventsAndTimeAreKeptApart) {
     ClusterRotation rotation;
     for (int block = 0; block < 4; ++block) {
-        rotation.look(rigid_cluster(9, omega, 1));
-        rotation.look(rigid_cluster(9, 3.0 * omega, 2));
+        rotation.look(rigid_cluster(9, omega, 1), anything);
+        rotation.look(rigid_cluster(9, 3.0 * omega, 2), anything);
         rotation.look_in_time(rigid_cluster(9, -0.5 * omega, 3));
         rotation.close_block();
     }
@@ -137,9 +221,9 @@ TEST(ClusterRotation, WithoutALookThereIsNoMean) {
 
 TEST(ClusterRotation, WhatIsNotClosedDoesNotCount) {
     ClusterRotation rotation;
-    rotation.look(rigid_cluster(9, omega, 1));
+    rotation.look(rigid_cluster(9, omega, 1), anything);
     rotation.close_block();
-    rotation.look(rigid_cluster(9, 5.0 * omega, 1));
+    rotation.look(rigid_cluster(9, 5.0 * omega, 1), anything);
     EXPECT_NEAR(rotation.estimates().by_event.mean, 1.0, 1e-12);
 }
 
@@ -148,9 +232,9 @@ TEST(ClusterRotation, MergedRunsAreOneLongRun) {
     for (int block = 0; block < 10; ++block) {
         for (int event = 0; event < 20 + block; ++event) {
             const Snapshot s = random_discs(12, 50 * block + event);
-            whole.look(s);
+            whole.look(s, anything);
             whole.look_in_time(s);
-            (block < 4 ? first : second).look(s);
+            (block < 4 ? first : second).look(s, anything);
             (block < 4 ? first : second).look_in_time(s);
         }
         whole.close_block();

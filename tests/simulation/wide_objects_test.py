@@ -17,8 +17,8 @@ ALLOWED = {
     ("libswirl_simulation.a", "event_loop_avx512.cpp.o"): ["swirl::event_loops_avx512"],
     ("libswirl_simulation.a", "reference_scan_avx2.cpp.o"): ["swirl::soonest_meeting_avx2"],
     ("libswirl_simulation.a", "reference_scan_avx512.cpp.o"): ["swirl::soonest_meeting_avx512"],
-    ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::rotation_sums"],
-    ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::rotation_sums"],
+    ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::kernel"],
+    ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::kernel"],
 }
 
 
