@@ -14,9 +14,9 @@
 
 #include "physics/contact_time.hpp"
 #include "physics/lanes.hpp"
-#include "simulation/event_loop.hpp"
 #include "simulation/execution.hpp"
 #include "simulation/machine.hpp"
+#include "simulation/neighbours.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -290,21 +290,6 @@ constexpr EventLoop loop(const char* width) {
 }
 
 }  // namespace all_pairs
-
-constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
-#if defined(SWIRL_INTERNAL_CHECKS)
-    // The longest serves everybody: the sanitizers need a minute to compile each.
-    constexpr EventLoop (*loop)(const char*) = all_pairs::loop<SideBySide::most / 8>;
-    return {{width, start, step, run},
-            {loop(width), loop(width), loop(width), loop(width), loop(width), loop(width)},
-            few};
-#else
-    return {{width, start, step, run},
-            {all_pairs::loop<1>(width), all_pairs::loop<2>(width), all_pairs::loop<3>(width),
-             all_pairs::loop<4>(width), all_pairs::loop<5>(width), all_pairs::loop<6>(width)},
-            few};
-#endif
-}
 
 }  // namespace SWIRL_TARGET
 }  // namespace swirl

@@ -1,6 +1,4 @@
-#include "simulation/event_loop.hpp"
-
-#include "simulation/all_pairs.hpp"
+#include "simulation/event_loops.hpp"
 
 namespace swirl {
 const EventLoops event_loops_avx512 = event_loops("avx512", 48);

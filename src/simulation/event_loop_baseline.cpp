@@ -1,6 +1,4 @@
-#include "simulation/event_loop.hpp"
-
-#include "simulation/all_pairs.hpp"
+#include "simulation/event_loops.hpp"
 
 namespace swirl {
 const EventLoops event_loops_baseline = event_loops("baseline", 32);

@@ -28,8 +28,17 @@ struct Next {
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
+SWIRL_INLINE void prefetch_cells(const Machine& m, std::uint32_t i) {
+    const Cell* row = m.cells + m.neighbourhoods[i].cell - m.cells_per_side - 1;
+    for (int y = 0; y < 3; ++y, row += m.cells_per_side)
+        for (int x = 0; x < 3; ++x) prefetch(&m.discs[row[x].disc[0]]);
+}
 /// Fetches what a prediction for disc i will read.
 SWIRL_INLINE void prefetch_neighbours(const Machine& m, std::uint32_t i) {
+    if (m.cells) {
+        prefetch_cells(m, i);
+        return;
+    }
     const std::uint32_t* const list = m.plan(i).neighbours();
     for (int k = 0; k < 8; ++k) prefetch(&m.discs[list[k]]);
 }

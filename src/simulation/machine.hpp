@@ -47,14 +47,28 @@ struct Plan {
 };
 static_assert(sizeof(Plan) == 16);
 
-/// Marks in Plan::partner. Neither changes a disc.
-inline constexpr std::uint32_t leaves_neighbourhood = 0xffffffffu;  // make a new list
-inline constexpr std::uint32_t predict_again = 0xfffffffeu;  // the wall event that was here is void
+/// Marks in Plan::partner, larger than any disc's number. None changes a disc.
+inline constexpr std::uint32_t predict_again = 0xffffff00u;  // the wall event that was here is void
+inline constexpr std::uint32_t leaves_place = 0xffffff01u;   // its neighbourhood
+/// Its cell: to the right, to the left, up, down.
+static constexpr std::uint32_t leaves_cell[4] = {leaves_place, leaves_place + 1, leaves_place + 2,
+                                                 leaves_place + 3};
 
+/// Where those a disc may meet were looked up: a circle (neighbours.hpp), or a cell (cells.hpp).
 struct Neighbourhood {
-    float X, Y;                  // its centre, in the carried frame
-    float freedom;               // h; 0 while it has none
-    std::uint32_t next_in_cell;  // the number of a disc, or Machine::size
+    float X, Y;     // its centre, in the carried frame
+    float freedom;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell
+    union {
+        std::uint32_t next_in_cell;  // the number of a disc, or Machine::size
+        std::uint32_t cell;          // its number
+    };
+};
+
+/// The discs in a cell of a thin gas.
+struct Cell {
+    static constexpr std::uint32_t room = 7;
+    std::uint32_t disc[room];
+    std::uint32_t count;
 };
 
 inline constexpr std::uint32_t longest_list = 64;
@@ -99,6 +113,8 @@ struct Machine {
     std::uint32_t cells_per_side;
     double cells_per_length, cell_origin;
     std::uint32_t* cell_heads;
+    Cell* cells;
+    bool cell_too_full;  // at the start, where discs overlap
     double smallest_radius;
     double longest_freedom;  // the cells next door must hold everybody within reach
 
@@ -130,10 +146,10 @@ struct EventLoop {
     std::uint64_t (*run)(Machine&, std::uint64_t count, std::int64_t swirls, double clock);
 };
 
-/// The loops for one vector width: with neighbour lists (event_loop.hpp), and all pairs for up to
+/// The loops for one vector width: with neighbour lists, with cells, and all pairs for up to
 /// 8, 16, 24 … discs (all_pairs.hpp).
 struct EventLoops {
-    EventLoop lists;
+    EventLoop lists, cells;
     EventLoop all_pairs[SideBySide::most / 8];
     std::uint32_t few;  // up to this many discs, all pairs are the faster (docs/performance.md)
 };

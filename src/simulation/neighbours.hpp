@@ -191,7 +191,7 @@ static void stand(Machine& m, std::uint32_t i, double t) {
     const HotDisc& disc = m.discs[i];
     const Vec2 at = Flight<double>{disc.position, disc.velocity, disc.time}.position_at(t) -
                     m.carrier.position_at(t);
-    m.neighbourhoods[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, m.size};
+    m.neighbourhoods[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, {m.size}};
     if (m.cells_per_side > 1) enter_cell(m, i);
 }
 

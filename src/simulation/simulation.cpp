@@ -69,6 +69,56 @@ std::uint32_t list_capacity(double ratio) {
     return std::min<std::uint32_t>(longest_list, (wanted + 3) / 4 * 4);
 }
 
+struct Radii {
+    double smallest, largest;
+};
+Radii radii_of(const Scene& scene) {
+    Radii radii{never, 0.0};
+    for (const Disc& d : scene.discs) {
+        radii.smallest = smaller(radii.smallest, d.radius);
+        radii.largest = larger(radii.largest, d.radius);
+    }
+    return radii;
+}
+
+/// Of a thin gas, in radii of the smallest disc (cells.hpp).
+constexpr double cell_width = 3.6;
+
+bool cells_can_be_laid(const Scene& scene) {
+    const Radii radii = radii_of(scene);
+    if (2.01 * radii.largest > cell_width * radii.smallest) return false;
+    return std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
+                       [](const Leg& leg) { return leg.turning == 0.0; });
+}
+
+/// A gas at rest so thin that lists do not last, and not so thin that cells are mostly empty.
+bool is_thin_gas(const Scene& scene) {
+    double packing = 0.0;
+    for (const Disc& d : scene.discs) packing += d.radius * d.radius;
+    packing /= scene.container_radius * scene.container_radius;
+    return packing < 0.46 && packing > 0.02 &&
+           std::all_of(scene.path.legs.begin(), scene.path.legs.end(), [](const Leg& leg) {
+               return leg.velocity.x == 0.0 && leg.velocity.y == 0.0;
+           });
+}
+
+Neighbours neighbours_for(const Scene& scene, const Tuning& tuning, std::uint32_t few) {
+    const bool few_enough = scene.discs.size() <= few;
+    switch (tuning.neighbours) {
+        case Neighbours::all_pairs:
+            return few_enough ? Neighbours::all_pairs : Neighbours::lists;
+        case Neighbours::cells:
+            return cells_can_be_laid(scene) ? Neighbours::cells : Neighbours::lists;
+        case Neighbours::lists:
+            return Neighbours::lists;
+        case Neighbours::best:
+            break;
+    }
+    if (tuning.cells_per_side != 0) return Neighbours::lists;
+    if (few_enough) return Neighbours::all_pairs;
+    return is_thin_gas(scene) && cells_can_be_laid(scene) ? Neighbours::cells : Neighbours::lists;
+}
+
 }  // namespace
 
 bool has_width(Width width) {
@@ -89,8 +139,9 @@ struct Simulation::Storage {
     Machine machine{};
 
     Storage(const Scene& scene, const Progress& progress, const Tuning& tuning);
-    void allocate(std::size_t size);
-    void lay_cells(const Scene& scene, int cells_per_side);
+    void allocate(std::size_t size, Neighbours neighbours);
+    void lay_grid(const Scene& scene, int cells_per_side);
+    void lay_cells(const Scene& scene);
     void place(const Scene& scene);
 };
 
@@ -99,8 +150,10 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
     const EventLoops& loops = event_loops(tuning.width);
     Machine& m = machine;
     m.size = static_cast<std::uint32_t>(scene.discs.size());
-    const bool all_pairs = tuning.cells_per_side == 0 && m.size <= loops.few;
-    loop = all_pairs ? &loops.all_pairs[(m.size - 1) / 8] : &loops.lists;
+    const Neighbours neighbours = neighbours_for(scene, tuning, loops.few);
+    loop = neighbours == Neighbours::all_pairs ? &loops.all_pairs[(m.size - 1) / 8]
+           : neighbours == Neighbours::cells   ? &loops.cells
+                                               : &loops.lists;
     m.legs = legs.data();
     m.leg_count = static_cast<std::uint32_t>(legs.size());
     m.leg = progress.leg;
@@ -115,27 +168,25 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
     m.path_vertex = progress.events.path_vertex;
     m.lasting = progress.events.lasting;
 
-    double smallest = never, largest = 0.0;
-    for (const Disc& d : scene.discs) {
-        smallest = smaller(smallest, d.radius);
-        largest = larger(largest, d.radius);
-    }
-    m.smallest_radius = smallest;
-    m.capacity = all_pairs ? 0 : list_capacity(largest / smallest);
+    const Radii radii = radii_of(scene);
+    m.smallest_radius = radii.smallest;
+    m.capacity =
+        neighbours == Neighbours::lists ? list_capacity(radii.largest / radii.smallest) : 0;
     m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
-    m.longest_freedom = largest;  // until lay_cells
+    m.longest_freedom = radii.largest;  // until lay_grid
     m.prefetches = m.size > 4000;
-    allocate(scene.discs.size());
-    if (!all_pairs) lay_cells(scene, tuning.cells_per_side);
+    allocate(scene.discs.size(), neighbours);
+    if (neighbours == Neighbours::lists) lay_grid(scene, tuning.cells_per_side);
+    if (neighbours == Neighbours::cells) lay_cells(scene);
     place(scene);
     loop->start(m);
 }
 
-void Simulation::Storage::allocate(std::size_t size) {
+void Simulation::Storage::allocate(std::size_t size, Neighbours neighbours) {
     Machine& m = machine;
     m.discs = columns.add<HotDisc>(size + 1);
     m.plans = columns.add<unsigned char>((size + 1) * m.plan_bytes);
-    if (m.capacity == 0) {
+    if (neighbours == Neighbours::all_pairs) {
         m.side_by_side = columns.add<SideBySide>(1);
         return;
     }
@@ -153,10 +204,9 @@ void Simulation::Storage::allocate(std::size_t size) {
 /// Cells wide enough that the neighbourhoods of discs in cells that do not touch never overlap:
 /// |X_i − X_k| < 2 (largest radius + longest freedom) = the width. On average a cell's worth of
 /// area holds three discs; a small dish is one cell, all pairs.
-void Simulation::Storage::lay_cells(const Scene& scene, int cells_per_side) {
+void Simulation::Storage::lay_grid(const Scene& scene, int cells_per_side) {
     Machine& m = machine;
-    double largest = 0.0;
-    for (const Disc& d : scene.discs) largest = larger(largest, d.radius);
+    const double largest = radii_of(scene).largest;
     double reach = scene.container_radius;
     for (const Leg& leg : legs)
         if (leg.turning != 0.0)
@@ -174,6 +224,17 @@ void Simulation::Storage::lay_cells(const Scene& scene, int cells_per_side) {
     // A hair less than the cells allow, for the rounding of positions into cells.
     m.longest_freedom = m.cells_per_side == 1 ? 4.0 * side : (0.5 * width - largest) * (1.0 - 1e-6);
     m.cell_heads = columns.add<std::uint32_t>(m.cells_per_side * m.cells_per_side);
+}
+
+/// Two cells more than the dish needs on each side, so that a disc in a cell always has eight
+/// around.
+void Simulation::Storage::lay_cells(const Scene& scene) {
+    Machine& m = machine;
+    const double width = cell_width * m.smallest_radius;
+    m.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
+    m.cells_per_length = 1.0 / width;
+    m.cell_origin = -0.5 * width * m.cells_per_side;
+    m.cells = columns.add<Cell>(static_cast<std::size_t>(m.cells_per_side) * m.cells_per_side);
 }
 
 void Simulation::Storage::place(const Scene& scene) {
@@ -203,7 +264,11 @@ void Simulation::Storage::place(const Scene& scene) {
 }
 
 Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)
-    : storage_(std::make_unique<Storage>(scene, progress, tuning)) {}
+    : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
+    if (!storage_->machine.cell_too_full) return;
+    const Tuning lists{tuning.cells_per_side, tuning.width, Neighbours::lists};
+    storage_ = std::make_unique<Storage>(scene, progress, lists);
+}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -41,12 +41,18 @@ struct Progress {
 /// processor has.
 enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
 
+/// How the discs are found that a disc may meet: all of them; those on its list; those in its cell
+/// and in the cells around. `best` is what is fastest for the scene.
+enum class Neighbours : std::uint8_t { best, all_pairs, lists, cells };
+
 /// Changes the speed, never a bit.
 struct Tuning {
-    /// Of the grid in which neighbours are found; 1 is no grid. 0 chooses by the density, and looks
-    /// at all pairs, without neighbour lists, where the discs are few.
+    /// Of the grid in which neighbours for the lists are found; 1 is no grid, 0 chooses by density.
     int cells_per_side = 0;
     Width width = Width::best;
+    /// A search that the scene does not allow (all pairs for many, cells for very unequal discs or
+    /// on a turning path) gives way to lists.
+    Neighbours neighbours = Neighbours::best;
 };
 
 /// Whether this processor can run the loop at that width.
