@@ -16,7 +16,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   # g++ 12 warns about its own intrinsics there.
   set_source_files_properties(src/simulation/event_loop_avx512.cpp
     src/simulation/reference_scan_avx512.cpp PROPERTIES
-    COMPILE_OPTIONS "-mavx512f;-mavx512vl;-mavx512dq;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>")
+    COMPILE_OPTIONS "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>")
   # The same text three times; undefined behaviour is looked for once, as that takes the compiler a
   # minute and more.
   if(SWIRL_SANITIZE)

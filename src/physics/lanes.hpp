@@ -15,7 +15,7 @@
 
 #include "physics/real.hpp"
 
-#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+#if defined(__AVX512VL__) && defined(__AVX512DQ__) && defined(__AVX512BW__)
 #define SWIRL_TARGET avx512
 #define SWIRL_REGISTER_BYTES 64
 #elif defined(__AVX2__)
@@ -252,6 +252,26 @@ SWIRL_INLINE unsigned lanes_equal(const Lanes<W>& a, double x) {
         bits |= part_bits << (p * Lanes<W>::per_part);
     }
     return bits;
+}
+
+/// Bit 8g + k is set where lane k of a[g] equals x.
+template <int G>
+SWIRL_INLINE std::uint64_t lanes_equal(const Lanes<8> (&a)[G], double x) {
+#if SWIRL_REGISTER_BYTES >= 64
+    // The first four put together where they are made, in mask registers.
+    const Double8 y = _mm512_set1_pd(x);
+    const auto equal = [&](int g) {
+        return g < G ? _mm512_cmp_pd_mask(a[g].part[0], y, _CMP_EQ_OQ) : __mmask8{0};
+    };
+    const __mmask16 low = _mm512_kunpackb(equal(1), equal(0));
+    std::uint64_t bits = G <= 2 ? low : _mm512_kunpackw(_mm512_kunpackb(equal(3), equal(2)), low);
+    for (int g = 4; g < G; ++g) bits |= static_cast<std::uint64_t>(equal(g)) << (8 * g);
+    return bits;
+#else
+    std::uint64_t bits = 0;
+    for (int g = 0; g < G; ++g) bits |= static_cast<std::uint64_t>(lanes_equal(a[g], x)) << (8 * g);
+    return bits;
+#endif
 }
 
 /// Bit k is set where from[k] < x, k < 8; `from` is aligned.

@@ -49,15 +49,6 @@ SWIRL_INLINE void copy(Machine& m, std::uint32_t i) {
     set(all.time, i, disc.time);
 }
 
-/// Bit k is set where disc k's time is this one.
-template <int G>
-SWIRL_INLINE std::uint64_t discs_equal(const Eight (&times)[G], double time) {
-    std::uint64_t discs = 0;
-    for (int g = 0; g < G; ++g)
-        discs |= static_cast<std::uint64_t>(lanes_equal(times[g], time)) << (8 * g);
-    return discs;
-}
-
 /// Writes down disc i's first meeting, and says when; of several at the same instant, with the
 /// smallest number.
 template <int G>
@@ -66,7 +57,7 @@ SWIRL_INLINE double note_meeting(Machine& m, std::uint32_t i, const Eight (&cont
     for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
     const double time = smallest(least);
     // Where nobody is met all lanes are equal, and the first will do.
-    const auto partner = static_cast<std::uint32_t>(__builtin_ctzll(discs_equal(contact, time)));
+    const auto partner = static_cast<std::uint32_t>(__builtin_ctzll(lanes_equal(contact, time)));
     Plan& plan = m.plan(i);
     plan.partner = partner;
     plan.partner_changes = m.discs[partner].changes;
@@ -123,22 +114,22 @@ SWIRL_INLINE double predict_wall(Machine& m, std::uint32_t i) {
     return time;
 }
 
-/// When the first of two discs meets the wall.
-SWIRL_INLINE double predict_walls(Machine& m, std::uint32_t i, std::uint32_t j) {
+/// When the first of two discs, which have just changed at time t, meets the wall.
+SWIRL_INLINE double predict_walls(Machine& m, std::uint32_t i, std::uint32_t j, double t) {
     const Leg& leg = m.legs[m.leg];
     if (leg.turning != 0.0) [[unlikely]]
         return smaller(predict_wall(m, i), predict_wall(m, j));
     const HotDisc &a = m.discs[i], &b = m.discs[j];
-    const auto both = [](const Vec2& p, const Vec2& q) {
-        return BasicVec2<Lanes<2>>{two_lanes(p.x, q.x), two_lanes(p.y, q.y)};
-    };
     const Flight<double> container = container_flight(leg);
-    const Lanes<2> time = time_of_wall_contact(
-        Flight<Lanes<2>>{both(a.position, b.position), both(a.velocity, b.velocity),
-                         two_lanes(a.time, b.time)},
-        Flight<Lanes<2>>{both(container.position, container.position),
-                         both(container.velocity, container.velocity), Lanes<2>(container.time)},
+    const Vec2 centre = container.position_at(t);
+    const auto from = [](const Vec2& p, const Vec2& q, const Vec2& origin) {
+        return BasicVec2<Lanes<2>>{two_lanes(p.x, q.x) - Lanes<2>(origin.x),
+                                   two_lanes(p.y, q.y) - Lanes<2>(origin.y)};
+    };
+    const Lanes<2> wait = time_to_leave(
+        from(a.position, b.position, centre), from(a.velocity, b.velocity, container.velocity),
         Lanes<2>(m.container_radius) - two_lanes(a.radius, b.radius));
+    const Lanes<2> time = Lanes<2>(t) + wait;
     set(m.side_by_side->wall, i, lane(time, 0));
     set(m.side_by_side->wall, j, lane(time, 1));
     return smaller(lane(time, 0), lane(time, 1));
@@ -194,7 +185,7 @@ SWIRL_INLINE void find_due(Machine& m) {
     const double end = m.legs[m.leg].end;
     all.due = time >= end
                   ? Due{end, m.size, m.size, m.size}
-                  : first_in_order(m, time, discs_equal(meeting, time), discs_equal(wall, time));
+                  : first_in_order(m, time, lanes_equal(meeting, time), lanes_equal(wall, time));
 }
 
 template <int G>
@@ -261,7 +252,7 @@ SWIRL_INLINE Event execute(Machine& m, const Due& due) {
         copy(m, due.i);
         copy(m, due.j);
         first = smaller(predict_changed<G, 2>(m, {due.i, due.j}, due.time),
-                        predict_walls(m, due.i, due.j));
+                        predict_walls(m, due.i, due.j, due.time));
     }
     if (first <= m.side_by_side->due.time) [[unlikely]]
         find_due<G>(m);

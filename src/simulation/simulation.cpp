@@ -125,7 +125,7 @@ bool has_width(Width width) {
 #if defined(__x86_64__)
     if (width == Width::avx512)
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-               __builtin_cpu_supports("avx512dq");
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
     if (width == Width::avx2) return __builtin_cpu_supports("avx2");
 #endif
     return width == Width::baseline || width == Width::best;
