@@ -116,6 +116,7 @@ struct Machine {
     Cell* cells;
     bool cell_too_full;  // at the start, where discs overlap
     double smallest_radius;
+    bool equal_radii;
     double longest_freedom;  // the cells next door must hold everybody within reach
 
     const Leg* legs;

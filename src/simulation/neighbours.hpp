@@ -120,19 +120,29 @@ struct Surroundings {
     static constexpr std::uint32_t room = 512;
     alignas(64) double gap[room];
     alignas(64) double reach[room];
+    float X[room], Y[room];
     std::uint32_t disc[room];
     std::uint32_t count, padded;
 };
 
+SWIRL_INLINE void add(const Machine& m, Surroundings& around, std::uint32_t k) {
+    const Neighbourhood& other = m.neighbourhoods[k];
+    around.disc[around.count] = k;
+    around.X[around.count] = other.X;
+    around.Y[around.count] = other.Y;
+    around.reach[around.count] = other.freedom;
+}
+
 /// Collects every disc nearer than both freedoms may reach. False if there are too many to hold.
 SWIRL_INLINE bool look_around(const Machine& m, std::uint32_t i, Surroundings& around) {
     const Neighbourhood& mine = m.neighbourhoods[i];
-    std::uint32_t count = 0;
+    around.count = 0;
     if (m.cells_per_side == 1) {
         if (m.size > Surroundings::room) return false;
-        for (std::uint32_t k = 0; k < m.size; ++k) around.disc[k] = k;
-        around.disc[i] = m.size - 1;  // the last one takes our place
-        count = m.size - 1;
+        for (std::uint32_t k = 0; k < m.size; ++k, ++around.count) add(m, around, k);
+        around.count = i;
+        add(m, around, m.size - 1);  // the last one takes our place
+        around.count = m.size - 1;
     } else {
         const std::uint32_t cx = cell_row(m, mine.X), cy = cell_row(m, mine.Y);
         const std::uint32_t last = m.cells_per_side - 1;
@@ -140,25 +150,26 @@ SWIRL_INLINE bool look_around(const Machine& m, std::uint32_t i, Surroundings& a
             for (std::uint32_t x = cx - (cx > 0); x <= cx + (cx < last); ++x)
                 for (std::uint32_t k = m.cell_heads[y * m.cells_per_side + x]; k != m.size;
                      k = m.neighbourhoods[k].next_in_cell) {
-                    if (count == Surroundings::room) return false;
-                    around.disc[count] = k;
-                    count += k != i;
+                    if (around.count == Surroundings::room) return false;
+                    add(m, around, k);
+                    around.count += k != i;
                 }
     }
-    const double radius = m.discs[i].radius;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Neighbourhood& other = m.neighbourhoods[around.disc[n]];
-        const double dx = static_cast<double>(other.X) - static_cast<double>(mine.X);
-        const double dy = static_cast<double>(other.Y) - static_cast<double>(mine.Y);
-        around.gap[n] = square_root(dx * dx + dy * dy) - (radius + m.discs[around.disc[n]].radius);
-        around.reach[n] = other.freedom;
+    around.padded = (around.count + 7u) & ~7u;
+    const double X = mine.X, Y = mine.Y, radii = m.discs[i].radius + m.smallest_radius;
+    for (std::uint32_t n = 0; n < around.padded; ++n) {
+        const double dx = static_cast<double>(around.X[n]) - X;
+        const double dy = static_cast<double>(around.Y[n]) - Y;
+        around.gap[n] = square_root(dx * dx + dy * dy) - radii;
     }
-    around.count = count;
-    around.padded = (count + 7u) & ~7u;
-    for (; count < around.padded; ++count) {
-        around.gap[count] = never;
-        around.reach[count] = 0.0;
-        around.disc[count] = m.size;
+    // Where all are alike, nobody's disc is looked at: in a large dish each is far away in memory.
+    if (!m.equal_radii)
+        for (std::uint32_t n = 0; n < around.count; ++n)
+            around.gap[n] -= m.discs[around.disc[n]].radius - m.smallest_radius;
+    for (std::uint32_t n = around.count; n < around.padded; ++n) {
+        around.gap[n] = never;
+        around.reach[n] = 0.0;
+        around.disc[n] = m.size;
     }
     return true;
 }

@@ -170,6 +170,7 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
 
     const Radii radii = radii_of(scene);
     m.smallest_radius = radii.smallest;
+    m.equal_radii = radii.smallest == radii.largest;
     m.capacity =
         neighbours == Neighbours::lists ? list_capacity(radii.largest / radii.smallest) : 0;
     m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
