@@ -28,24 +28,19 @@ struct Next {
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
-SWIRL_INLINE void prefetch_cells(const Machine& m, std::uint32_t i) {
-    const Cell* row = m.cells + m.neighbourhoods[i].cell - m.cells_per_side - 1;
-    for (int y = 0; y < 3; ++y, row += m.cells_per_side)
-        for (int x = 0; x < 3; ++x) prefetch(&m.discs[row[x].disc[0]]);
-}
-/// Fetches what a prediction for disc i will read.
+/// Fetches what a prediction for disc i will read, or, in a thin gas, the first of each cell.
 SWIRL_INLINE void prefetch_neighbours(const Machine& m, std::uint32_t i) {
     if (m.cells) {
-        prefetch_cells(m, i);
+        const Cell* row = m.cells + m.neighbourhoods[i].cell - m.cells_per_side - 1;
+        for (int y = 0; y < 3; ++y, row += m.cells_per_side)
+            for (int x = 0; x < 3; ++x) prefetch(&m.discs[row[x].disc[0]]);
         return;
     }
     const std::uint32_t* const list = m.plan(i).neighbours();
     for (int k = 0; k < 8; ++k) prefetch(&m.discs[list[k]]);
 }
 
-/// In a large dish most of what an event needs is far away in memory. Who has won all rows but the
-/// last is soon to come: its own lines are fetched then, and its partner and neighbours when it is
-/// among the last eight.
+/// Fetches what an event of disc i will read and write, and its places in the queue.
 SWIRL_INLINE void prefetch_disc(const Machine& m, std::uint32_t i) {
     prefetch(&m.discs[i]);
     prefetch(&m.plan(i));
@@ -54,6 +49,10 @@ SWIRL_INLINE void prefetch_disc(const Machine& m, std::uint32_t i) {
     prefetch(m.level_times[1] + (i >> 3));
     prefetch(m.level_winners[1] + (i >> 3));
 }
+
+/// In a large dish most of what an event needs is far away in memory. Who has won all rows but the
+/// last is soon to come: its own lines are fetched then, and its partner's and its neighbours' when
+/// it is among the last eight.
 SWIRL_INLINE void prefetch_winner(const Machine& m, std::uint32_t level, std::uint32_t winner) {
     if (level + 2 == m.levels) {
         prefetch_disc(m, winner);

@@ -32,9 +32,10 @@ struct DiscKind {
 };
 
 /// A disc's pending event and the discs it may meet. The list holds every disc k with
-/// |X_i − X_k| < r_i + r_k + h_i + h_k, where X is the centre of a disc's neighbourhood, carried
-/// along by the container, and h how far the disc may stray from it. While both are within theirs,
-/// discs that are not on each other's list cannot touch.
+/// |X_i − X_k| < r_i + r_k + h_i + h_k, where X is the centre of a disc's neighbourhood and h how
+/// far the disc may stray from it (neighbours.hpp). While both are within theirs, discs that are
+/// not on each other's list cannot touch. There are no lists where all pairs are looked at, or
+/// cells.
 struct Plan {
     std::uint32_t partner;          // a disc; itself for the wall; or one of the marks below
     std::uint32_t partner_changes;  // HotDisc::changes of the partner when this was predicted
