@@ -15,13 +15,13 @@ constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
     constexpr EventLoop (*loop)(const char*) = all_pairs::loop<SideBySide::most / 8>;
     return {event_loop<Lists>(width, lists::start),
             event_loop<Cells>(width, cells::start),
-            {loop(width), loop(width), loop(width), loop(width), loop(width), loop(width)},
+            {loop(width), loop(width), loop(width), loop(width), loop(width)},
             few};
 #else
     return {event_loop<Lists>(width, lists::start),
             event_loop<Cells>(width, cells::start),
             {all_pairs::loop<1>(width), all_pairs::loop<2>(width), all_pairs::loop<3>(width),
-             all_pairs::loop<4>(width), all_pairs::loop<5>(width), all_pairs::loop<6>(width)},
+             all_pairs::loop<4>(width), all_pairs::loop<5>(width)},
             few};
 #endif
 }

@@ -56,6 +56,7 @@ SWIRL_INLINE void leaving_from_now(const Machine& m, const std::uint32_t (&who)[
     const Flight<double> container = container_flight(leg);
     const Vec2 centre = container.position_at(t), carried = m.carrier.position_at(t);
     Double2 x[D], y[D], vx[D], vy[D], clearance[D];
+#pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         const HotDisc& disc = m.discs[who[d]];
         const Neighbourhood& mine = m.neighbourhoods[who[d]];
@@ -70,6 +71,7 @@ SWIRL_INLINE void leaving_from_now(const Machine& m, const std::uint32_t (&who)[
         time_to_leave(BasicVec2<Lanes<2 * D>>{beside(x), beside(y)},
                       BasicVec2<Lanes<2 * D>>{beside(vx), beside(vy)}, beside(clearance));
     const Lanes<2 * D> time = Lanes<2 * D>(t) + wait;
+#pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         const HotDisc& disc = m.discs[who[d]];
         leaving[d] = {lane(time, 2 * d) + far_wait[disc.far_from_wall], lane(time, 2 * d + 1)};

@@ -84,7 +84,7 @@ struct Due {
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
 struct alignas(64) SideBySide {
-    static constexpr std::uint32_t most = 48;
+    static constexpr std::uint32_t most = 40;
     double x[most], y[most], vx[most], vy[most], time[most], radius[most];
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
