@@ -3,8 +3,8 @@
 //
 // The cells are squares at rest in the frame of the container, wider than two discs, so that discs
 // in cells that do not touch cannot meet; and so narrow that no more discs than a cell has room for
-// can have their centres in one: for eight the side would have to be 3.86 radii of the smallest
-// (Schaer 1965, doi:10.4153/CMB-1965-018-9: the closest packing of eight points in a square).
+// can have their centres in one: eight points in a square of side 1 are at most (√6 − √2)/2 apart
+// (Schaer and Meir 1965, Canad. Math. Bull. 8, 21), so eight discs need a side of 3.86 radii.
 // A disc that reaches the edge of its cell enters the next, and what it may meet is looked up anew.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
@@ -109,7 +109,7 @@ SWIRL_INLINE void leave(Machine& m, std::uint32_t i) {
 static void enter(Machine& m, std::uint32_t i, std::uint32_t number) {
     Cell& cell = m.cells[number];
     if (cell.count == Cell::room) {  // geometry forbids it, see above, unless discs overlap
-        m.cell_too_full = true;
+        m.discs_overlap = true;
         return;
     }
     cell.disc[cell.count++] = i;
@@ -138,6 +138,20 @@ static void enter(Machine& m, std::uint32_t i, std::uint32_t number) {
     predict(m, i, t);
 }
 
+/// Whether disc i lies deeper in another than rounding errors explain.
+static bool overlaps(const Machine& m, std::uint32_t i) {
+    Around around;
+    look_around(m, i, around);
+    const HotDisc& disc = m.discs[i];
+    for (std::uint32_t n = 0; n < around.count; ++n) {
+        const HotDisc& other = m.discs[around.disc[n]];
+        const Vec2 s = flight_of(other).position_at(m.clock) - flight_of(disc).position_at(m.clock);
+        const double contact = disc.radius + other.radius;
+        if (around.disc[n] != i && dot(s, s) < contact * contact * (1.0 - 1e-9)) return true;
+    }
+    return false;
+}
+
 static void predict_all(Machine& m, double t) {
     empty_queue(m);
     for (std::uint32_t i = 0; i < m.size; ++i) predict(m, i, t);
@@ -150,7 +164,8 @@ static void start(Machine& m) {
         const Vec2 at = flight_of(m.discs[i]).position_at(m.clock) - m.carrier.position_at(m.clock);
         enter(m, i, cell_row(m, at.y) * m.cells_per_side + cell_row(m, at.x));
     }
-    if (!m.cell_too_full) predict_all(m, m.clock);
+    for (std::uint32_t i = 0; i < m.size && !m.discs_overlap; ++i) m.discs_overlap = overlaps(m, i);
+    if (!m.discs_overlap) predict_all(m, m.clock);
 }
 
 /// The container, and the cells with it, take another course.

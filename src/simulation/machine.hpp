@@ -115,7 +115,7 @@ struct Machine {
     double cells_per_length, cell_origin;
     std::uint32_t* cell_heads;
     Cell* cells;
-    bool cell_too_full;  // at the start, where discs overlap
+    bool discs_overlap;  // at the start: then cells may be too small (cells.hpp)
     double smallest_radius;
     bool equal_radii;
     double longest_freedom;  // the cells next door must hold everybody within reach

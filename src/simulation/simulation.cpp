@@ -266,7 +266,7 @@ void Simulation::Storage::place(const Scene& scene) {
 
 Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
-    if (!storage_->machine.cell_too_full) return;
+    if (!storage_->machine.discs_overlap) return;
     const Tuning lists{tuning.cells_per_side, tuning.width, Neighbours::lists};
     storage_ = std::make_unique<Storage>(scene, progress, lists);
 }

@@ -118,6 +118,14 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
     Scene scene = gas_scene(60, 0.2);
     for (std::size_t i = 0; i < 12; ++i) scene.discs[i].position = 0.01 * scene.discs[i].velocity;
     expect_same_trajectory(scene, 500, tuning(Neighbours::cells));
+    EXPECT_EQ(Simulation(scene, {}, tuning(Neighbours::cells)).loop_counts().bytes,
+              Simulation(scene, {}, tuning(Neighbours::lists)).loop_counts().bytes);
+    // Two are enough for lists to take over.
+    Scene pair = gas_scene(60, 0.2);
+    pair.discs[0].position = pair.discs[1].position + Vec2{1.9, 0.0};
+    expect_same_trajectory(pair, 500, tuning(Neighbours::cells));
+    EXPECT_EQ(Simulation(pair, {}, tuning(Neighbours::cells)).loop_counts().bytes,
+              Simulation(pair, {}, tuning(Neighbours::lists)).loop_counts().bytes);
 }
 // A disc that flies along the edges of cells, or through their corners: fourteen cells of
 // 3.6 lie across this dish, so there are edges at 0, 3.6, 7.2 and so on.
