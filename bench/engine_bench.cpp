@@ -8,10 +8,10 @@
 
 #include <vector>
 
-#include "measure/cluster_rotation.hpp"
-#include "physics/contact_time.hpp"
-#include "physics/lanes.hpp"
 #include "simulation/scenes.hpp"
+#include "swirl/math/lanes.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/physics/contact_time.hpp"
 
 namespace swirl {
 namespace {
@@ -90,7 +90,7 @@ void event(benchmark::State& state) {
         state.SkipWithError("this processor has no such vectors");
         return;
     }
-    Simulation simulation(paper_scene(static_cast<std::size_t>(state.range(0))), {}, {0, width});
+    Simulation simulation(paper_dish(static_cast<std::size_t>(state.range(0))), {}, {0, width});
     simulation.run(20000);
     for (auto _ : state) simulation.run(100);
     state.SetItemsProcessed(100 * state.iterations());
@@ -98,7 +98,7 @@ void event(benchmark::State& state) {
 BENCHMARK(event)->ArgNames({"N", "width"})->ArgsProduct({{5, 28, 48}, {1, 2, 3}});
 
 void step_and_refresh(benchmark::State& state) {
-    Simulation simulation(paper_scene(48));
+    Simulation simulation(paper_dish(48));
     simulation.run(20000);
     Snapshot snapshot = simulation.snapshot();
     for (auto _ : state) simulation.refresh(snapshot, simulation.step());
@@ -106,7 +106,7 @@ void step_and_refresh(benchmark::State& state) {
 BENCHMARK(step_and_refresh);
 
 void step_refresh_and_look_at_the_rotation(benchmark::State& state) {
-    Simulation simulation(paper_scene(48));
+    Simulation simulation(paper_dish(48));
     simulation.run(20000);
     Snapshot snapshot = simulation.snapshot();
     ClusterRotation rotation;

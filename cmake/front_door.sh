@@ -65,7 +65,7 @@ install_packages() {
 # Sources, and the packages they are built with, whose status changed since the stamp; ctime, so
 # that a file moved here with an old date, or a removed one (its folder changed), counts as well.
 changed_since() {
-    changed=$(cd "$home" && find src cmake CMakeLists.txt CMakePresets.json packages "$@" \
+    changed=$(cd "$home" && find src include cmake CMakeLists.txt CMakePresets.json packages "$@" \
         -cnewer "$stamp" -print -quit 2>/dev/null) || return 0
     [ -n "$changed" ]
 }
@@ -110,7 +110,7 @@ build() {
     # ninja goes by the date of a file alone; make the date tell.
     if [ -e "$stamp" ]; then
         # shellcheck disable=SC2086
-        (cd "$home" && find src cmake CMakeLists.txt ${4-} -type f -cnewer "$stamp" ! -newer "$stamp" \
+        (cd "$home" && find src include cmake CMakeLists.txt ${4-} -type f -cnewer "$stamp" ! -newer "$stamp" \
             -exec touch {} + 2>/dev/null) || true
     fi
     [ -e "$stamp" ] || say "building, once; this takes a minute or two"

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "physics/vec2.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

@@ -1,11 +1,11 @@
-#include "app/appearance_options.hpp"
+#include "swirl/app/appearance_options.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "lab/failure.hpp"
-#include "lab/run_parameters.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 namespace {

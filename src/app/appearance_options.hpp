@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lab/movie.hpp"
+#include "swirl/film/movie.hpp"
 
 namespace swirl {
 

@@ -1,14 +1,14 @@
 // swirl bench: how fast the engine is on this machine.
 #include <fmt/format.h>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "lab/bench.hpp"
-#include "lab/failure.hpp"
-#include "lab/run_parameters.hpp"
+#include "swirl/app/command_line.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/study/bench.hpp"
 
 namespace swirl {
 namespace {

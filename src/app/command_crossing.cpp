@@ -1,16 +1,16 @@
 // swirl crossing: at how many discs rotation turns into counterrotation.
 #include <fmt/format.h>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/run_options.hpp"
-#include "app/stop_signal.hpp"
-#include "lab/crossing_search.hpp"
-#include "lab/run_json.hpp"
-#include "lab/run_report.hpp"
-#include "lab/version.hpp"
+#include "swirl/app/command_line.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/run_options.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {

@@ -1,14 +1,14 @@
 // swirl export: a trajectory for other programs.
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "files/export.hpp"
-#include "files/trajectory.hpp"
-#include "lab/failure.hpp"
-#include "lab/run_parameters.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/files/export.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 namespace {

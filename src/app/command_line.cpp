@@ -1,8 +1,8 @@
-#include "app/command_line.hpp"
+#include "swirl/app/command_line.hpp"
 
 #include <filesystem>
 
-#include "lab/shell_word.hpp"
+#include "swirl/study/shell_word.hpp"
 
 namespace swirl {
 namespace {

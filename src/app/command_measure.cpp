@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "app/track_options.hpp"
-#include "files/trajectory.hpp"
-#include "lab/failure.hpp"
-#include "lab/measurements.hpp"
-#include "lab/run_json.hpp"
-#include "lab/run_report.hpp"
-#include "lab/version.hpp"
-#include "measure/cluster_rotation.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/app/track_options.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
 
 namespace swirl {
 namespace {

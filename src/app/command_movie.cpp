@@ -5,14 +5,14 @@
 #include <cmath>
 #include <optional>
 
-#include "app/appearance_options.hpp"
-#include "app/commands.hpp"
-#include "app/footage_options.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "lab/failure.hpp"
-#include "lab/movie.hpp"
+#include "swirl/app/appearance_options.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/footage_options.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/film/movie.hpp"
+#include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {

@@ -1,16 +1,16 @@
 // swirl paper: the paper's figures.
 #include <fmt/format.h>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "lab/failure.hpp"
-#include "lab/paper.hpp"
-#include "lab/paper_movies.hpp"
-#include "lab/run_parameters.hpp"
-#include "lab/run_report.hpp"
+#include "swirl/app/command_line.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/paper/movies.hpp"
+#include "swirl/paper/paper.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/report.hpp"
 
 namespace swirl {
 namespace {

@@ -1,12 +1,12 @@
 // swirl picture: the dish at one instant.
 #include <fmt/format.h>
 
-#include "app/appearance_options.hpp"
-#include "app/commands.hpp"
-#include "app/footage_options.hpp"
-#include "app/output.hpp"
-#include "lab/failure.hpp"
-#include "lab/picture.hpp"
+#include "swirl/app/appearance_options.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/footage_options.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/film/picture.hpp"
+#include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {

@@ -3,18 +3,18 @@
 
 #include <filesystem>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/recording_options.hpp"
-#include "app/run_options.hpp"
-#include "app/stop_signal.hpp"
-#include "lab/failure.hpp"
-#include "lab/measurements.hpp"
-#include "lab/run.hpp"
-#include "lab/run_json.hpp"
-#include "lab/run_report.hpp"
+#include "swirl/app/command_line.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/recording_options.hpp"
+#include "swirl/app/run_options.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/run/run.hpp"
 
 namespace swirl {
 namespace {

@@ -5,18 +5,18 @@
 #include <cstdio>
 #include <map>
 
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/run_options.hpp"
-#include "app/stop_signal.hpp"
-#include "files/config.hpp"
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
-#include "lab/failure.hpp"
-#include "lab/measurements.hpp"
-#include "lab/slurm.hpp"
-#include "lab/sweep.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/run_options.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/files/config.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/study/slurm.hpp"
+#include "swirl/study/sweep.hpp"
 
 namespace swirl {
 namespace {

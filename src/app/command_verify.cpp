@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <fstream>
 
-#include "app/commands.hpp"
-#include "app/output.hpp"
-#include "app/progress_line.hpp"
-#include "app/stop_signal.hpp"
-#include "files/event_log.hpp"
-#include "files/trajectory.hpp"
-#include "files/whole_file.hpp"
-#include "lab/failure.hpp"
-#include "lab/run.hpp"
-#include "lab/run_json.hpp"
-#include "lab/version.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
+#include "swirl/files/event_log.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/run.hpp"
+#include "swirl/run/version.hpp"
 
 namespace swirl {
 namespace {
@@ -73,7 +73,7 @@ void verify_result(const std::string& file, bool quiet) {
 void verify_trajectory(const std::string& file, bool quiet) {
     TrajectoryReader reader(file);
     const RunConfig config = config_in(file, reader.provenance("parameters"));
-    Simulation simulation(make_scene(config));
+    Simulation simulation(make_initial_state(config));
     ProgressLine line("again", quiet);
     for (std::uint64_t k = 0; k < reader.frames(); ++k) {
         if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
@@ -106,7 +106,7 @@ bool same_events(const Event& a, const Event& b) {
 /// Every event against the engine's, and the state that they lead to against its state.
 void verify_event_log(const std::string& file, bool quiet) {
     EventLogReader log(file);
-    Simulation simulation(make_scene(config_in(file, log.provenance("parameters"))));
+    Simulation simulation(make_initial_state(config_in(file, log.provenance("parameters"))));
     Replay replay(log.initial(), log.swirl_end());
     ProgressLine line("again", quiet);
     const auto refuse = [&](std::uint64_t event, const char* what) {

@@ -1,4 +1,4 @@
-#include "app/commands.hpp"
+#include "swirl/app/commands.hpp"
 
 #include <algorithm>
 

@@ -18,7 +18,7 @@ class Command {
     using Add = void (*)(CLI::App& subcommand);
 
     /// `place` decides about the order in `swirl --help`. `add` gives the subcommand its options
-    /// and its callback; what goes wrong in there is thrown (lab/failure.hpp).
+    /// and its callback; what goes wrong in there is thrown (run/failure.hpp).
     Command(int place, const char* name, const char* description, Add add);
 
     int place() const { return place_; }

@@ -1,15 +1,15 @@
-#include "app/footage_options.hpp"
+#include "swirl/app/footage_options.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <utility>
 
-#include "app/run_options.hpp"
-#include "draw/film.hpp"
-#include "draw/label.hpp"
-#include "lab/failure.hpp"
-#include "lab/measurements.hpp"
+#include "swirl/app/run_options.hpp"
+#include "swirl/draw/film.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/measurements.hpp"
 
 namespace swirl {
 namespace {

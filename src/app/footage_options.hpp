@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "app/track_options.hpp"
-#include "lab/footage.hpp"
-#include "lab/movie.hpp"
-#include "lab/run_parameters.hpp"
+#include "swirl/app/track_options.hpp"
+#include "swirl/film/frame_source.hpp"
+#include "swirl/film/movie.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "app/output.hpp"
+#include "swirl/app/output.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "files/whole_file.hpp"
-#include "lab/failure.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/progress_line.hpp"
+#include "swirl/app/progress_line.hpp"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

@@ -1,4 +1,4 @@
-#include "app/recording_options.hpp"
+#include "swirl/app/recording_options.hpp"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <charconv>
 #include <filesystem>
 
-#include "app/output.hpp"
-#include "files/checksum.hpp"
-#include "files/config.hpp"
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
-#include "lab/failure.hpp"
-#include "lab/run_json.hpp"
+#include "swirl/app/output.hpp"
+#include "swirl/files/checksum.hpp"
+#include "swirl/files/config.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 
 namespace swirl {
 namespace {

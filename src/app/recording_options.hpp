@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "lab/recorded_run.hpp"
-#include "lab/run_parameters.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/recorded_run.hpp"
 
 namespace swirl {
 

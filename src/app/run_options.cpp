@@ -1,4 +1,4 @@
-#include "app/run_options.hpp"
+#include "swirl/app/run_options.hpp"
 
 #include <algorithm>
 

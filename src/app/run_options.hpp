@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "lab/run_parameters.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "app/stop_signal.hpp"
+#include "swirl/app/stop_signal.hpp"
 
 #include <unistd.h>
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
-#include "lab/failure.hpp"
-#include "lab/run_parameters.hpp"
-#include "lab/version.hpp"
+#include "swirl/app/command_line.hpp"
+#include "swirl/app/commands.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/version.hpp"
 
 namespace {
 

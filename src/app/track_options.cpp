@@ -1,4 +1,4 @@
-#include "app/track_options.hpp"
+#include "swirl/app/track_options.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "lab/failure.hpp"
-#include "lab/run_parameters.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "files/tracks.hpp"
+#include "swirl/files/tracks.hpp"
 
 namespace swirl {
 

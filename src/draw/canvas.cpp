@@ -1,4 +1,4 @@
-#include "draw/canvas.hpp"
+#include "swirl/draw/canvas.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "draw/color.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/draw/color.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "draw/ffmpeg.hpp"
+#include "swirl/draw/ffmpeg.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -13,7 +13,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "draw/canvas.hpp"
+#include "swirl/draw/canvas.hpp"
 
 extern char** environ;
 

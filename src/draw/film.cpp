@@ -1,4 +1,4 @@
-#include "draw/film.hpp"
+#include "swirl/draw/film.hpp"
 
 #include <sys/socket.h>
 #include <unistd.h>

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "draw/ffmpeg.hpp"
-#include "draw/image.hpp"
+#include "swirl/draw/ffmpeg.hpp"
+#include "swirl/draw/image.hpp"
 
 namespace swirl {
 

@@ -1,12 +1,12 @@
-#include "draw/frame_diagram.hpp"
+#include "swirl/draw/frame_diagram.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "draw/label.hpp"
-#include "draw/scene.hpp"
-#include "draw/view.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/draw/scene.hpp"
+#include "swirl/draw/view.hpp"
 
 namespace swirl {
 

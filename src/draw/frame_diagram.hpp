@@ -4,9 +4,9 @@
 // disc's velocity.
 #pragma once
 
-#include "draw/canvas.hpp"
-#include "draw/theme.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/theme.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

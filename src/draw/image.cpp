@@ -1,4 +1,4 @@
-#include "draw/image.hpp"
+#include "swirl/draw/image.hpp"
 
 #include <cstddef>
 

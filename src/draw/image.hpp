@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "draw/canvas.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "draw/label.hpp"
+#include "swirl/draw/label.hpp"
 
 #include <algorithm>
 #include <vector>

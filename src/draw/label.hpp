@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "draw/canvas.hpp"
+#include "swirl/draw/canvas.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "draw/movie.hpp"
+#include "swirl/draw/movie.hpp"
 
 #include <fcntl.h>
 #include <sys/socket.h>

@@ -14,8 +14,8 @@
 #include <span>
 #include <string>
 
-#include "draw/canvas.hpp"
-#include "draw/ffmpeg.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/ffmpeg.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "draw/planar.hpp"
+#include "swirl/draw/planar.hpp"
 
 namespace swirl {
 

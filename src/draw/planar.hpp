@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "draw/canvas.hpp"
+#include "swirl/draw/canvas.hpp"
 
 namespace swirl {
 

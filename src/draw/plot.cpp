@@ -1,10 +1,10 @@
-#include "draw/plot.hpp"
+#include "swirl/draw/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "draw/label.hpp"
+#include "swirl/draw/label.hpp"
 
 namespace swirl {
 

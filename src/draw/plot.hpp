@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/theme.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/theme.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "draw/scene.hpp"
+#include "swirl/draw/scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "draw/label.hpp"
+#include "swirl/draw/label.hpp"
 
 namespace swirl {
 

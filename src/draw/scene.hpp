@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/image.hpp"
-#include "draw/theme.hpp"
-#include "draw/view.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/image.hpp"
+#include "swirl/draw/theme.hpp"
+#include "swirl/draw/view.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

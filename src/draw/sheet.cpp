@@ -1,11 +1,11 @@
-#include "draw/sheet.hpp"
+#include "swirl/draw/sheet.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 
-#include "draw/label.hpp"
+#include "swirl/draw/label.hpp"
 
 namespace swirl {
 

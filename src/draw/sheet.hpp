@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/label.hpp"
-#include "draw/plot.hpp"
-#include "draw/scene.hpp"
-#include "draw/theme.hpp"
-#include "draw/view.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/draw/plot.hpp"
+#include "swirl/draw/scene.hpp"
+#include "swirl/draw/theme.hpp"
+#include "swirl/draw/view.hpp"
 
 namespace swirl {
 

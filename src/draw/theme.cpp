@@ -1,4 +1,4 @@
-#include "draw/theme.hpp"
+#include "swirl/draw/theme.hpp"
 
 namespace swirl {
 

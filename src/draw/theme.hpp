@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "draw/color.hpp"
+#include "swirl/draw/color.hpp"
 
 namespace swirl {
 

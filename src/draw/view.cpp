@@ -1,4 +1,4 @@
-#include "draw/view.hpp"
+#include "swirl/draw/view.hpp"
 
 #include <algorithm>
 

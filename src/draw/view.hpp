@@ -10,10 +10,10 @@
 
 #include <optional>
 
-#include "draw/canvas.hpp"
-#include "measure/m_frame.hpp"
-#include "physics/snapshot.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "files/checkpoint.hpp"
+#include "swirl/files/checkpoint.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "files/checksum.hpp"
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/checksum.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

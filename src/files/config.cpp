@@ -1,4 +1,4 @@
-#include "files/config.hpp"
+#include "swirl/files/config.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

@@ -1,11 +1,11 @@
-#include "files/event_log.hpp"
+#include "swirl/files/event_log.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

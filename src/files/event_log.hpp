@@ -33,11 +33,11 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
-#include "files/trajectory.hpp"
-#include "physics/disc.hpp"
-#include "physics/snapshot.hpp"
-#include "simulation/event.hpp"
+#include "swirl/files/hdf5.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/physics/disc.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

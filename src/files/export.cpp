@@ -1,4 +1,4 @@
-#include "files/export.hpp"
+#include "swirl/files/export.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <iterator>
 
-#include "files/file_error.hpp"
-#include "files/trajectory.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

@@ -17,7 +17,7 @@
 #include <optional>
 #include <string_view>
 
-#include "files/series.hpp"
+#include "swirl/files/series.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "files/hdf5.hpp"
+#include "swirl/files/hdf5.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "files/file_error.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 namespace {

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/staged_file.hpp"
+#include "swirl/files/staged_file.hpp"
 
 namespace swirl {
 

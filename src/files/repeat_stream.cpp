@@ -1,11 +1,11 @@
-#include "files/repeat_stream.hpp"
+#include "swirl/files/repeat_stream.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

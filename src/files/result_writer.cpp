@@ -1,4 +1,4 @@
-#include "files/result_writer.hpp"
+#include "swirl/files/result_writer.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

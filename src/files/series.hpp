@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "physics/snapshot.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "files/staged_file.hpp"
+#include "swirl/files/staged_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,9 +10,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "files/checksum.hpp"
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/checksum.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/file_error.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "files/tracks.hpp"
+#include "swirl/files/tracks.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include <optional>
 #include <set>
 
-#include "files/file_error.hpp"
-#include "files/whole_file.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {

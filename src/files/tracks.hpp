@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "files/series.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/files/series.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,12 +1,12 @@
-#include "files/trajectory.hpp"
+#include "swirl/files/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "files/file_error.hpp"
-#include "files/series.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/series.hpp"
 
 namespace swirl {
 namespace {

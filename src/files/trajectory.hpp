@@ -36,8 +36,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/hdf5.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/files/hdf5.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -10,11 +10,11 @@
 #include <mutex>
 #include <thread>
 
-#include "files/file_error.hpp"
-#include "files/repeat_stream.hpp"
-#include "files/trajectory.hpp"
-#include "files/whole_file.hpp"
-#include "measure/wide.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/repeat_stream.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

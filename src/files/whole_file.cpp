@@ -1,4 +1,4 @@
-#include "files/whole_file.hpp"
+#include "swirl/files/whole_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "files/file_error.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "measure/statistics.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

@@ -1,8 +1,8 @@
-#include "measure/angular_profile.hpp"
+#include "swirl/measure/angular_profile.hpp"
 
 #include <algorithm>
 
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

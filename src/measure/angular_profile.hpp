@@ -19,8 +19,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "measure/cell_averages.hpp"
-#include "measure/m_frame.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
 
 namespace swirl {
 

@@ -23,7 +23,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/statistics.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

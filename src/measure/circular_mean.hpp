@@ -15,9 +15,9 @@
 
 #include <cmath>
 
-#include "measure/statistics.hpp"
-#include "physics/real.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

@@ -1,10 +1,10 @@
 #define SWIRL_ROTATION_KERNEL
-#include "measure/cluster_rotation.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
 
 #include <cstddef>
 
-#include "measure/cluster_rotation_kernel.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/measure/cluster_rotation_kernel.hpp"
 
 namespace swirl {
 namespace {
@@ -73,45 +73,19 @@ SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c
     return rates_one_by_one(s, c, closest_square);
 }
 
-const RotationKernel& kernel_for(VectorWidth width) {
+const RotationKernel& kernel_for(Width width) {
+    width = has_width(width) ? width_meant(width) : Width::baseline;
 #if defined(__x86_64__)
-    if (width == VectorWidth::avx512) return rotation_avx512::kernel;
-    if (width == VectorWidth::avx2) return rotation_avx2::kernel;
+    if (width == Width::avx512) return rotation_avx512::kernel;
+    if (width == Width::avx2) return rotation_avx2::kernel;
 #endif
-    (void)width;
-    return rotation_baseline::kernel;
-}
-
-const RotationKernel& available_kernel(VectorWidth width) {
-    return kernel_for(processor_has(width) ? width : VectorWidth::baseline);
-}
-
-const RotationKernel& best_kernel() {
-    for (const VectorWidth width : {VectorWidth::avx512, VectorWidth::avx2})
-        if (processor_has(width)) return kernel_for(width);
     return rotation_baseline::kernel;
 }
 
 }  // namespace
 
-bool processor_has(VectorWidth width) {
-    if (width == VectorWidth::baseline) return true;
-#if defined(__x86_64__)
-    if (width == VectorWidth::avx2) return __builtin_cpu_supports("avx2");
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-#else
-    return false;
-#endif
-}
-
-RotationSample cluster_rotation(const Snapshot& snapshot, VectorWidth width) {
-    const RotationKernel& kernel = available_kernel(width);
-    return sample_of(snapshot, centre_of(snapshot, kernel), kernel);
-}
-
-RotationSample cluster_rotation(const Snapshot& snapshot) {
-    const RotationKernel& kernel = best_kernel();
+RotationSample cluster_rotation(const Snapshot& snapshot, Width width) {
+    const RotationKernel& kernel = kernel_for(width);
     return sample_of(snapshot, centre_of(snapshot, kernel), kernel);
 }
 
@@ -136,8 +110,7 @@ RotationSample ClusterRotation::look_in_time(const Snapshot& snapshot) {
     return sample;
 }
 
-ClusterRotation::ClusterRotation() : kernel_(&best_kernel()) {}
-ClusterRotation::ClusterRotation(VectorWidth width) : kernel_(&available_kernel(width)) {}
+ClusterRotation::ClusterRotation(Width width) : kernel_(&kernel_for(width)) {}
 
 void ClusterRotation::OpenBlock::close_into(BlockSeries& individual_series,
                                             BlockSeries& rigid_series) {

@@ -29,10 +29,11 @@
 
 #include <cstdint>
 
-#include "measure/cluster_rotation_kernel.hpp"
-#include "measure/statistics.hpp"
-#include "physics/event.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/math/cpu_width.hpp"
+#include "swirl/measure/cluster_rotation_kernel.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 
@@ -42,12 +43,8 @@ struct RotationSample {
 };
 
 /// Both estimators for one snapshot.
-RotationSample cluster_rotation(const Snapshot& snapshot);
-
-/// The widths the kernel comes in; for tests, which hold that all give the same bits.
-enum class VectorWidth : std::uint8_t { baseline, avx2, avx512 };
-bool processor_has(VectorWidth width);
-RotationSample cluster_rotation(const Snapshot& snapshot, VectorWidth width);
+/// Every width gives the same bits.
+RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::best);
 
 /// In units of Ω.
 struct RotationEstimates {
@@ -56,8 +53,7 @@ struct RotationEstimates {
 
 class ClusterRotation {
   public:
-    ClusterRotation();
-    explicit ClusterRotation(VectorWidth width);
+    explicit ClusterRotation(Width width = Width::best);
 
     /// Call after every event, with the snapshot brought up to date.
     void follow(const Snapshot& snapshot, const Event& event) {

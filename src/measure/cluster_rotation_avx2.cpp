@@ -1,5 +1,5 @@
 // The kernel of cluster_rotation.hpp for AVX2. Empty where the compiler was not told to use it.
 #if defined(__AVX2__)
 #define SWIRL_ROTATION_KERNEL
-#include "measure/cluster_rotation_kernel.hpp"
+#include "swirl/measure/cluster_rotation_kernel.hpp"
 #endif

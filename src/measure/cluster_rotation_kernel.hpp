@@ -9,8 +9,8 @@
 
 #include <cstddef>
 
-#include "physics/real.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define SWIRL_ROTATION_TARGET rotation_avx512

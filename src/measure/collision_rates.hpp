@@ -11,9 +11,9 @@
 // no collision: the mean free time is infinite.
 #pragma once
 
-#include "measure/cell_averages.hpp"
-#include "measure/statistics.hpp"
-#include "physics/event.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/event.hpp"
 
 namespace swirl {
 

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/real.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

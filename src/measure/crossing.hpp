@@ -22,7 +22,7 @@
 
 #include <span>
 
-#include "measure/statistics.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

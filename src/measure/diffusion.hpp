@@ -19,9 +19,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/cell_averages.hpp"
-#include "measure/statistics.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "measure/energy_budget.hpp"
+#include "swirl/measure/energy_budget.hpp"
 
 namespace swirl {
 namespace {

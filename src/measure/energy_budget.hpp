@@ -21,10 +21,10 @@
 // (round-off). Limits: no time: NaN; needs spins.
 #pragma once
 
-#include "measure/statistics.hpp"
-#include "physics/collision_law.hpp"
-#include "physics/event.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -16,9 +16,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/cell_averages.hpp"
-#include "measure/m_frame.hpp"
-#include "measure/square_grid.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
 

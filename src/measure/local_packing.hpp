@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <span>
 
-#include "measure/all_and_pinned.hpp"
-#include "measure/m_frame.hpp"
-#include "measure/voronoi.hpp"
+#include "swirl/measure/all_and_pinned.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/voronoi.hpp"
 
 namespace swirl {
 

@@ -1,7 +1,7 @@
-#include "measure/m_frame.hpp"
+#include "swirl/measure/m_frame.hpp"
 
-#include "measure/statistics.hpp"
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

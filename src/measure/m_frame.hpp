@@ -20,9 +20,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/snapshot.hpp"
-#include "physics/unit_circle.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,8 +1,8 @@
-#include "measure/pinned_loose.hpp"
+#include "swirl/measure/pinned_loose.hpp"
 
 #include <cmath>
 
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

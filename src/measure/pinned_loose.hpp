@@ -33,10 +33,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/circular_mean.hpp"
-#include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
-#include "physics/event.hpp"
+#include "swirl/measure/circular_mean.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/event.hpp"
 
 namespace swirl {
 

@@ -1,6 +1,6 @@
-#include "measure/radial_density.hpp"
+#include "swirl/measure/radial_density.hpp"
 
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

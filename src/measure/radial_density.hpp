@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/cell_averages.hpp"
-#include "measure/m_frame.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "measure/slip.hpp"
+#include "swirl/measure/slip.hpp"
 
 namespace swirl {
 namespace {

@@ -28,9 +28,9 @@
 #include <span>
 #include <vector>
 
-#include "measure/convex_hull.hpp"
-#include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
+#include "swirl/measure/convex_hull.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 

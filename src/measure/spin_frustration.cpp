@@ -1,4 +1,4 @@
-#include "measure/spin_frustration.hpp"
+#include "swirl/measure/spin_frustration.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -25,10 +25,10 @@
 #include <span>
 #include <vector>
 
-#include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
-#include "measure/touching.hpp"
-#include "physics/event.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/measure/touching.hpp"
+#include "swirl/physics/event.hpp"
 
 namespace swirl {
 

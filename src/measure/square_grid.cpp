@@ -1,6 +1,6 @@
-#include "measure/square_grid.hpp"
+#include "swirl/measure/square_grid.hpp"
 
-#include "measure/wide.hpp"
+#include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {

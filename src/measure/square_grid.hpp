@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "physics/vec2.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

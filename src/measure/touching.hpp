@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-#include "measure/m_frame.hpp"
+#include "swirl/measure/m_frame.hpp"
 
 namespace swirl {
 

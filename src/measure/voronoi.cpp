@@ -1,4 +1,4 @@
-#include "measure/voronoi.hpp"
+#include "swirl/measure/voronoi.hpp"
 
 #include <algorithm>
 #include <cmath>

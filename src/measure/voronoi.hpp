@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/m_frame.hpp"
+#include "swirl/measure/m_frame.hpp"
 
 namespace swirl {
 

@@ -13,10 +13,10 @@
 
 #include <algorithm>
 
-#include "measure/cell_averages.hpp"
-#include "measure/m_frame.hpp"
-#include "measure/statistics.hpp"
-#include "physics/event.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/event.hpp"
 
 namespace swirl {
 

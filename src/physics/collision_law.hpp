@@ -31,9 +31,9 @@
 // cond-mat/0501223; with e = 1, β = 0 it is the paper's.
 #pragma once
 
-#include "physics/disc.hpp"
-#include "physics/real.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
 
 namespace swirl {
 

@@ -13,9 +13,9 @@
 // approaching means now. The roots are taken in the form in which nothing cancels.
 #pragma once
 
-#include "physics/container_path.hpp"
-#include "physics/disc.hpp"
-#include "physics/real.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/physics/container_path.hpp"
+#include "swirl/physics/disc.hpp"
 
 namespace swirl {
 

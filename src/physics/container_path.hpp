@@ -8,9 +8,9 @@
 
 #include <vector>
 
-#include "physics/real.hpp"
-#include "physics/unit_circle.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

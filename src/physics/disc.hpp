@@ -2,8 +2,8 @@
 // constant rate. There is no friction with the floor (paper, SI "Overview").
 #pragma once
 
-#include "physics/real.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
 
 namespace swirl {
 

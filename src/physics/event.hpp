@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "physics/collision_law.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/collision_law.hpp"
 
 namespace swirl {
 

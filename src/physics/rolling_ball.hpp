@@ -17,9 +17,9 @@
 // Units: those of the container. Limits: 0 < R_ball < R_container, 0 ≤ s ≤ 1.
 #pragma once
 
-#include "physics/container_path.hpp"
-#include "physics/snapshot.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/physics/container_path.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

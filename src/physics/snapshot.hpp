@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/disc.hpp"
-#include "physics/vec2.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
 
 namespace swirl {
 
@@ -40,14 +40,19 @@ struct Snapshot {
         return {{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
                 held_at[i],   radius[i],      mass[i],  inertia[i]};
     }
+    /// What changes in the course of a simulation.
+    void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
+                    double new_spin) {
+        x[i] = flight.position.x;
+        y[i] = flight.position.y;
+        vx[i] = flight.velocity.x;
+        vy[i] = flight.velocity.y;
+        angle[i] = new_angle;
+        spin[i] = new_spin;
+        held_at[i] = flight.time;
+    }
     void set(std::size_t i, const Disc& d) {
-        x[i] = d.position.x;
-        y[i] = d.position.y;
-        vx[i] = d.velocity.x;
-        vy[i] = d.velocity.y;
-        angle[i] = d.angle;
-        spin[i] = d.spin;
-        held_at[i] = d.time;
+        set_motion(i, d.flight(), d.angle, d.spin);
         radius[i] = d.radius;
         mass[i] = d.mass;
         inertia[i] = d.inertia;

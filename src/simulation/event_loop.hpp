@@ -14,9 +14,9 @@
 // or static, and a test looks at the objects.
 #pragma once
 
-#include "simulation/event_queue.hpp"
-#include "simulation/execution.hpp"
-#include "simulation/machine.hpp"
+#include "swirl/simulation/resolve.hpp"
+#include "swirl/simulation/search/state.hpp"
+#include "swirl/simulation/search/tournament.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -117,7 +117,7 @@ static std::uint64_t run(Machine& m, std::uint64_t count, std::int64_t swirls, d
     return count;
 }
 
-/// `Whom` says who may meet whom: Lists (lists.hpp) or Cells (cells.hpp).
+/// `Whom` says who may meet whom: Lists (verlet_lists.hpp) or Cells (linked_cells.hpp).
 template <class Whom>
 constexpr EventLoop event_loop(const char* width, void (*start)(Machine&)) {
     return {width, start, step<Whom>, run<Whom>};

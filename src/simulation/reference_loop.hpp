@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/collision_law.hpp"
-#include "simulation/reference_scan.hpp"
-#include "simulation/simulation.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/simulation/reference_scan.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 
@@ -16,7 +16,7 @@ SoonestMeeting soonest_meeting(Width width);
 
 class ReferenceLoop {
   public:
-    explicit ReferenceLoop(const Scene& scene, Width width = Width::baseline)
+    explicit ReferenceLoop(const InitialState& scene, Width width = Width::baseline)
         : scene_(scene), soonest_meeting_(soonest_meeting(width)) {
         for (auto* column : {&x_, &y_, &vx_, &vy_, &time_, &radius_, &wall_times_, &times_})
             column->resize(scene.discs.size());
@@ -86,7 +86,7 @@ class ReferenceLoop {
                 {},      J, 0.0};
     }
 
-    Scene scene_;
+    InitialState scene_;
     SoonestMeeting soonest_meeting_;
     std::vector<double> x_, y_, vx_, vy_, time_, radius_, wall_times_, times_;
     std::size_t leg_ = 0;

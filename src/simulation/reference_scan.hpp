@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "physics/contact_time.hpp"
+#include "swirl/physics/contact_time.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "simulation/simulation.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,18 +13,15 @@
 #include <sys/mman.h>
 #endif
 
-#include "physics/real.hpp"
-#include "simulation/machine.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 namespace {
 
 const EventLoops& event_loops(Width width) {
+    width = width_meant(width);
 #if defined(__x86_64__)
-    if (width == Width::best)
-        width = has_width(Width::avx512) ? Width::avx512
-                : has_width(Width::avx2) ? Width::avx2
-                                         : Width::baseline;
     if (width == Width::avx512) return event_loops_avx512;
     if (width == Width::avx2) return event_loops_avx2;
 #endif
@@ -72,7 +69,7 @@ std::uint32_t list_capacity(double ratio) {
 struct Radii {
     double smallest, largest;
 };
-Radii radii_of(const Scene& scene) {
+Radii radii_of(const InitialState& scene) {
     Radii radii{never, 0.0};
     for (const Disc& d : scene.discs) {
         radii.smallest = smaller(radii.smallest, d.radius);
@@ -81,18 +78,17 @@ Radii radii_of(const Scene& scene) {
     return radii;
 }
 
-/// Of a thin gas, in radii of the smallest disc (cells.hpp).
+/// Of a thin gas, in radii of the smallest disc (linked_cells.hpp).
 constexpr double cell_width = 3.6;
 
-bool cells_can_be_laid(const Scene& scene) {
-    const Radii radii = radii_of(scene);
+bool cells_can_be_laid(const InitialState& scene, const Radii& radii) {
     if (2.01 * radii.largest > cell_width * radii.smallest) return false;
     return std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
                        [](const Leg& leg) { return leg.turning == 0.0; });
 }
 
 /// A gas at rest so thin that lists do not last, and not so thin that cells are mostly empty.
-bool is_thin_gas(const Scene& scene) {
+bool is_thin_gas(const InitialState& scene) {
     double packing = 0.0;
     for (const Disc& d : scene.discs) packing += d.radius * d.radius;
     packing /= scene.container_radius * scene.container_radius;
@@ -102,13 +98,14 @@ bool is_thin_gas(const Scene& scene) {
            });
 }
 
-Neighbours neighbours_for(const Scene& scene, const Tuning& tuning, std::uint32_t few) {
+Neighbours neighbours_for(const InitialState& scene, const Radii& radii, const Tuning& tuning,
+                          std::uint32_t few) {
     const bool few_enough = scene.discs.size() <= few;
     switch (tuning.neighbours) {
         case Neighbours::all_pairs:
             return few_enough ? Neighbours::all_pairs : Neighbours::lists;
         case Neighbours::cells:
-            return cells_can_be_laid(scene) ? Neighbours::cells : Neighbours::lists;
+            return cells_can_be_laid(scene, radii) ? Neighbours::cells : Neighbours::lists;
         case Neighbours::lists:
             return Neighbours::lists;
         case Neighbours::best:
@@ -116,20 +113,11 @@ Neighbours neighbours_for(const Scene& scene, const Tuning& tuning, std::uint32_
     }
     if (tuning.cells_per_side != 0) return Neighbours::lists;
     if (few_enough) return Neighbours::all_pairs;
-    return is_thin_gas(scene) && cells_can_be_laid(scene) ? Neighbours::cells : Neighbours::lists;
+    return is_thin_gas(scene) && cells_can_be_laid(scene, radii) ? Neighbours::cells
+                                                                 : Neighbours::lists;
 }
 
 }  // namespace
-
-bool has_width(Width width) {
-#if defined(__x86_64__)
-    if (width == Width::avx512)
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-    if (width == Width::avx2) return __builtin_cpu_supports("avx2");
-#endif
-    return width == Width::baseline || width == Width::best;
-}
 
 struct Simulation::Storage {
     const EventLoop* loop;
@@ -138,19 +126,21 @@ struct Simulation::Storage {
     Columns columns;
     Machine machine{};
 
-    Storage(const Scene& scene, const Progress& progress, const Tuning& tuning);
+    Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
     void allocate(std::size_t size, Neighbours neighbours);
-    void lay_grid(const Scene& scene, int cells_per_side);
-    void lay_cells(const Scene& scene);
-    void place(const Scene& scene);
+    void lay_grid(const InitialState& scene, double largest, int cells_per_side);
+    void lay_cells(const InitialState& scene);
+    void place(const InitialState& scene);
 };
 
-Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const Tuning& tuning)
+Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
+                             const Tuning& tuning)
     : legs(scene.path.legs) {
     const EventLoops& loops = event_loops(tuning.width);
     Machine& m = machine;
     m.size = static_cast<std::uint32_t>(scene.discs.size());
-    const Neighbours neighbours = neighbours_for(scene, tuning, loops.few);
+    const Radii radii = radii_of(scene);
+    const Neighbours neighbours = neighbours_for(scene, radii, tuning, loops.few);
     loop = neighbours == Neighbours::all_pairs ? &loops.all_pairs[(m.size - 1) / 8]
            : neighbours == Neighbours::cells   ? &loops.cells
                                                : &loops.lists;
@@ -168,16 +158,14 @@ Simulation::Storage::Storage(const Scene& scene, const Progress& progress, const
     m.path_vertex = progress.events.path_vertex;
     m.lasting = progress.events.lasting;
 
-    const Radii radii = radii_of(scene);
     m.smallest_radius = radii.smallest;
     m.equal_radii = radii.smallest == radii.largest;
     m.capacity =
         neighbours == Neighbours::lists ? list_capacity(radii.largest / radii.smallest) : 0;
     m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
-    m.longest_freedom = radii.largest;  // until lay_grid
     m.prefetches = m.size > 4000;
     allocate(scene.discs.size(), neighbours);
-    if (neighbours == Neighbours::lists) lay_grid(scene, tuning.cells_per_side);
+    if (neighbours == Neighbours::lists) lay_grid(scene, radii.largest, tuning.cells_per_side);
     if (neighbours == Neighbours::cells) lay_cells(scene);
     place(scene);
     loop->start(m);
@@ -205,9 +193,8 @@ void Simulation::Storage::allocate(std::size_t size, Neighbours neighbours) {
 /// Cells wide enough that the neighbourhoods of discs in cells that do not touch never overlap:
 /// |X_i − X_k| < 2 (largest radius + longest freedom) = the width. On average a cell's worth of
 /// area holds three discs; a small dish is one cell, all pairs.
-void Simulation::Storage::lay_grid(const Scene& scene, int cells_per_side) {
+void Simulation::Storage::lay_grid(const InitialState& scene, double largest, int cells_per_side) {
     Machine& m = machine;
-    const double largest = radii_of(scene).largest;
     double reach = scene.container_radius;
     for (const Leg& leg : legs)
         if (leg.turning != 0.0)
@@ -229,7 +216,7 @@ void Simulation::Storage::lay_grid(const Scene& scene, int cells_per_side) {
 
 /// Two cells more than the dish needs on each side, so that a disc in a cell always has eight
 /// around.
-void Simulation::Storage::lay_cells(const Scene& scene) {
+void Simulation::Storage::lay_cells(const InitialState& scene) {
     Machine& m = machine;
     const double width = cell_width * m.smallest_radius;
     m.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
@@ -238,7 +225,7 @@ void Simulation::Storage::lay_cells(const Scene& scene) {
     m.cells = columns.add<Cell>(static_cast<std::size_t>(m.cells_per_side) * m.cells_per_side);
 }
 
-void Simulation::Storage::place(const Scene& scene) {
+void Simulation::Storage::place(const InitialState& scene) {
     Machine& m = machine;
     std::map<std::array<double, 3>, std::uint32_t> rows;
     for (std::uint32_t i = 0; i < m.size; ++i) {
@@ -264,9 +251,10 @@ void Simulation::Storage::place(const Scene& scene) {
     }
 }
 
-Simulation::Simulation(const Scene& scene, const Progress& progress, const Tuning& tuning)
+Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
     if (!storage_->machine.discs_overlap) return;
+    // The cells of a thin gas are made for discs that do not; lists take any.
     const Tuning lists{tuning.cells_per_side, tuning.width, Neighbours::lists};
     storage_ = std::make_unique<Storage>(scene, progress, lists);
 }
@@ -333,16 +321,9 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     s.clock = m.clock;
     s.container_centre = leg.position_at(m.clock);
     s.container_velocity = leg.velocity_at(m.clock);
-    // Radius, mass and inertia stay what they are.
     const auto hand_over = [&](std::uint32_t i) {
         const HotDisc& d = m.discs[i];
-        s.x[i] = d.position.x;
-        s.y[i] = d.position.y;
-        s.vx[i] = d.velocity.x;
-        s.vy[i] = d.velocity.y;
-        s.angle[i] = m.plan(i).angle;
-        s.spin[i] = d.spin;
-        s.held_at[i] = d.time;
+        s.set_motion(i, {d.position, d.velocity, d.time}, m.plan(i).angle, d.spin);
     };
     if (event.kind != EventKind::path_vertex) {
         hand_over(event.i);

@@ -6,21 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "physics/collision_law.hpp"
-#include "physics/container_path.hpp"
-#include "physics/disc.hpp"
-#include "physics/snapshot.hpp"
-#include "simulation/event.hpp"
+#include "swirl/math/cpu_width.hpp"
+#include "swirl/physics/disc.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/initial_state.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
-
-/// Everything that determines a trajectory. Disc times count from the start of the first swirl.
-struct Scene {
-    std::vector<Disc> discs;
-    ContainerPath path;
-    double container_radius;
-    Surface disc_surface, wall_surface;
-};
 
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
@@ -37,10 +29,6 @@ struct Progress {
     EventCounts events;
 };
 
-/// Vector width of the event loop. Every width gives the same bits; `best` is the widest that this
-/// processor has.
-enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
-
 /// How the discs are found that a disc may meet: all of them; those on its list; those in its cell
 /// and in the cells around. `best` is what is fastest for the scene.
 enum class Neighbours : std::uint8_t { best, all_pairs, lists, cells };
@@ -55,9 +43,6 @@ struct Tuning {
     Neighbours neighbours = Neighbours::best;
 };
 
-/// Whether this processor can run the loop at that width.
-bool has_width(Width width);
-
 /// Work of the loop besides the events themselves.
 struct LoopCounts {
     std::uint64_t stale = 0;        // cards whose partner had changed, predicted again
@@ -70,7 +55,7 @@ struct LoopCounts {
 
 class Simulation {
   public:
-    explicit Simulation(const Scene& scene, const Progress& progress = {},
+    explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;

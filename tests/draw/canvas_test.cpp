@@ -1,4 +1,4 @@
-#include "draw/canvas.hpp"
+#include "swirl/draw/canvas.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "draw/label.hpp"
-#include "draw/scene.hpp"
 #include "pictures.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/draw/scene.hpp"
 
 namespace swirl {
 namespace {

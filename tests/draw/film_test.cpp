@@ -1,12 +1,12 @@
-#include "draw/film.hpp"
+#include "swirl/draw/film.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "draw/scene.hpp"
 #include "pictures.hpp"
+#include "swirl/draw/scene.hpp"
 
 namespace swirl {
 namespace {

@@ -1,4 +1,4 @@
-#include "draw/movie.hpp"
+#include "swirl/draw/movie.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "draw/planar.hpp"
 #include "pictures.hpp"
+#include "swirl/draw/planar.hpp"
 
 namespace swirl {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/color.hpp"
-#include "physics/snapshot.hpp"
-#include "physics/unit_circle.hpp"
+#include "swirl/draw/canvas.hpp"
+#include "swirl/draw/color.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

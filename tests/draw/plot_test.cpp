@@ -1,4 +1,4 @@
-#include "draw/plot.hpp"
+#include "swirl/draw/plot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "draw/scene.hpp"
+#include "swirl/draw/scene.hpp"
 
 #include <gtest/gtest.h>
 
-#include "draw/frame_diagram.hpp"
-#include "draw/sheet.hpp"
 #include "pictures.hpp"
+#include "swirl/draw/frame_diagram.hpp"
+#include "swirl/draw/sheet.hpp"
 
 namespace swirl {
 namespace {

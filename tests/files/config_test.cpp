@@ -1,8 +1,8 @@
-#include "files/config.hpp"
+#include "swirl/files/config.hpp"
 
 #include <gtest/gtest.h>
 
-#include "files/file_error.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 namespace {

@@ -1,13 +1,13 @@
-#include "files/event_log.hpp"
+#include "swirl/files/event_log.hpp"
 
 #include <ctime>
 
-#include "files/checkpoint.hpp"
-#include "files/file_error.hpp"
 #include "files/scratch.hpp"
-#include "files/state_archive.hpp"
-#include "files/whole_file.hpp"
-#include "measure/cluster_rotation.hpp"
+#include "swirl/files/checkpoint.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/state_archive.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
 
 namespace swirl {
 namespace {
@@ -26,8 +26,8 @@ void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simu
 }
 
 /// A mixture, so that no factor of 1 hides anything.
-Scene mixed_scene() {
-    Scene scene = paper_scene(20, 7);
+InitialState mixed_dish() {
+    InitialState scene = paper_dish(20, 7);
     scene.disc_surface.mu = 0.3;
     scene.path = polygon_path(1.892, 10.7, 7);  // 7 · (10.7/7) is not 10.7
     for (std::size_t i = 0; i < scene.discs.size(); i += 3) {
@@ -40,7 +40,7 @@ Scene mixed_scene() {
 
 TEST(EventLog, ReplaysTheRunBitForBit) {
     const Scratch scratch;
-    const Scene scene = mixed_scene();
+    const InitialState scene = mixed_dish();
     Simulation simulation(scene);
     {
         EventLogWriter log(scratch / "events.h5", simulation.snapshot(), scene.path.legs.back().end,
@@ -69,7 +69,7 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
 
 TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
     const Scratch scratch;
-    const Scene scene = mixed_scene();
+    const InitialState scene = mixed_dish();
     const double end = scene.path.legs.back().end;
     Simulation simulation(scene);
     std::vector<Event> happened;
@@ -91,7 +91,7 @@ TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
 
 TEST(StateArchive, GivesBackWhatItGot) {
     ClusterRotation rotation;
-    Simulation simulation(paper_scene(9, 3));
+    Simulation simulation(paper_dish(9, 3));
     for (int k = 0; k < 3'000; ++k) {
         const Event event = simulation.step();
         rotation.look(simulation.snapshot(), event);

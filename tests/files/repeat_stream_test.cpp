@@ -1,11 +1,11 @@
-#include "files/repeat_stream.hpp"
+#include "swirl/files/repeat_stream.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <cstring>
 
-#include "simulation/random.hpp"
+#include "swirl/math/random.hpp"
 
 namespace swirl {
 namespace {

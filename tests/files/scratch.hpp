@@ -12,10 +12,10 @@
 #include <fstream>
 #include <string>
 
-#include "physics/snapshot.hpp"
-#include "simulation/packing.hpp"
-#include "simulation/random.hpp"
-#include "simulation/simulation.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/physics/snapshot.hpp"
+#include "swirl/simulation/placement.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 
@@ -45,8 +45,8 @@ inline void write_quickly(const std::filesystem::path& path, const std::string& 
 }
 
 /// The paper's dish.
-inline Scene paper_scene(int discs, std::uint64_t seed) {
-    Scene scene;
+inline InitialState paper_dish(int discs, std::uint64_t seed) {
+    InitialState scene;
     const std::vector<double> radii(std::size_t(discs), 1.0);
     const auto places = place_discs(radii, paper_container_radius, seed);
     Random random(seed + 1);

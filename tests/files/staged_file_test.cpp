@@ -1,13 +1,13 @@
-#include "files/staged_file.hpp"
+#include "swirl/files/staged_file.hpp"
 
 #include <csignal>
 #include <cstring>
 #include <map>
 
-#include "files/checksum.hpp"
-#include "files/file_error.hpp"
 #include "files/scratch.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/checksum.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

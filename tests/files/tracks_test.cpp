@@ -1,11 +1,11 @@
-#include "files/tracks.hpp"
+#include "swirl/files/tracks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "files/file_error.hpp"
 #include "files/scratch.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 namespace {

@@ -1,11 +1,11 @@
-#include "files/trajectory.hpp"
+#include "swirl/files/trajectory.hpp"
 
 #include <csignal>
 
-#include "files/export.hpp"
-#include "files/file_error.hpp"
 #include "files/scratch.hpp"
-#include "files/whole_file.hpp"
+#include "swirl/files/export.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 
 namespace swirl {
 namespace {

@@ -10,16 +10,20 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
     os.path.abspath(__file__)))))
 
 # Which floors each may look at, its own aside.
+ENGINE = ("math", "physics", "simulation", "measure")
 BELOW = {
-    "physics": set(),
-    "simulation": {"physics"},
-    "measure": {"physics"},
-    "files": {"physics", "simulation", "measure"},
-    "draw": {"physics", "measure"},
-    "lab": {"physics", "simulation", "measure", "files", "draw"},
-    "app": {"physics", "simulation", "measure", "files", "draw", "lab"},
+    "math": set(),
+    "physics": {"math"},
+    "simulation": {"math", "physics"},
+    "measure": {"math", "physics"},
+    "files": {*ENGINE},
+    "draw": {"math", "physics", "measure"},
+    "run": {*ENGINE, "files"},
+    "study": {*ENGINE, "files", "run"},
+    "film": {*ENGINE, "files", "draw", "run"},
+    "paper": {*ENGINE, "files", "draw", "run", "study", "film"},
+    "app": {*ENGINE, "files", "draw", "run", "study", "film", "paper"},
 }
-ENGINE = ("physics", "simulation", "measure")
 
 FORBIDDEN_HEADERS = {
     "iostream", "fstream", "sstream", "cstdio", "stdio.h", "filesystem", "chrono", "ctime", "time.h",
@@ -76,17 +80,20 @@ class Floors(unittest.TestCase):
         for floor, below in BELOW.items():
             for file in sources(floor):
                 for what, _ in includes(file):
-                    other = what.split("/")[0]
-                    if "/" in what and other in BELOW and other != floor:
+                    if not what.startswith("swirl/"):
+                        continue
+                    other = what.split("/")[1]
+                    if other != floor:
                         self.assertIn(other, below, f"{file} includes {what}")
 
-    def test_own_headers_are_named_from_src(self):
+    def test_own_headers_are_named_as_whoever_uses_the_library_names_them(self):
         for floor in BELOW:
             for file in sources(floor):
                 for what, quoted in includes(file):
                     if quoted and what != "version.inc":
-                        self.assertIn(what.split("/")[0], BELOW, f"{file} includes {what}")
-                        self.assertTrue(os.path.exists(os.path.join(SOURCE, "src", what)),
+                        self.assertTrue(what.startswith("swirl/"), f"{file} includes {what}")
+                        self.assertIn(what.split("/")[1], BELOW, f"{file} includes {what}")
+                        self.assertTrue(os.path.exists(os.path.join(SOURCE, "include", what)),
                                         f"{file} includes {what}, which is not there")
 
     def test_the_engine_uses_nothing_but_the_standard_library(self):

@@ -1,4 +1,4 @@
-#include "measure/angular_profile.hpp"
+#include "swirl/measure/angular_profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/cell_averages.hpp"
+#include "swirl/measure/cell_averages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/circular_mean.hpp"
+#include "swirl/measure/circular_mean.hpp"
 
 #include <gtest/gtest.h>
 

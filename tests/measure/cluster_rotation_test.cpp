@@ -1,4 +1,4 @@
-#include "measure/cluster_rotation.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,12 +71,12 @@ TEST(ClusterRotation, AgreesWithItsDefinitionForEveryNumberAndAnyMasses) {
     }
 }
 
-TEST(ClusterRotation, EveryVectorWidthGivesTheSameBits) {
+TEST(ClusterRotation, EveryWidthGivesTheSameBits) {
     for (std::size_t n = 2; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));
-        const RotationSample base = cluster_rotation(s, VectorWidth::baseline);
-        for (const VectorWidth width : {VectorWidth::avx2, VectorWidth::avx512}) {
-            if (!processor_has(width)) continue;
+        const RotationSample base = cluster_rotation(s, Width::baseline);
+        for (const Width width : {Width::avx2, Width::avx512}) {
+            if (!has_width(width)) continue;
             const RotationSample wide = cluster_rotation(s, width);
             EXPECT_EQ(base.individual, wide.individual) << n;
             EXPECT_EQ(base.rigid, wide.rigid) << n;
@@ -161,10 +161,10 @@ TEST(ClusterRotation, TheCentreOfMassIsFollowedFromPushToPush) {
     }
 }
 
-TEST(ClusterRotation, EveryVectorWidthFollowsWithTheSameBits) {
+TEST(ClusterRotation, EveryWidthFollowsWithTheSameBits) {
     for (const std::size_t n : {5u, 8u, 13u, 48u, 55u}) {
         Snapshot s = held_earlier(random_discs(n, n));
-        ClusterRotation best, baseline(VectorWidth::baseline), avx2(VectorWidth::avx2);
+        ClusterRotation best, baseline(Width::baseline), avx2(Width::avx2);
         Noise noise(n);
         for (int k = 0; k < 50; ++k) {
             s.clock += 0.01;

@@ -1,4 +1,4 @@
-#include "measure/collision_rates.hpp"
+#include "swirl/measure/collision_rates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/convex_hull.hpp"
+#include "swirl/measure/convex_hull.hpp"
 
 #include <gtest/gtest.h>
 

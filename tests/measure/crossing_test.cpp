@@ -1,4 +1,4 @@
-#include "measure/crossing.hpp"
+#include "swirl/measure/crossing.hpp"
 
 #include <gtest/gtest.h>
 

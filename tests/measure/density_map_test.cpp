@@ -1,4 +1,4 @@
-#include "measure/density_map.hpp"
+#include "swirl/measure/density_map.hpp"
 
 #include <gtest/gtest.h>
 

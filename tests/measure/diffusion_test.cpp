@@ -1,4 +1,4 @@
-#include "measure/diffusion.hpp"
+#include "swirl/measure/diffusion.hpp"
 
 #include <gtest/gtest.h>
 

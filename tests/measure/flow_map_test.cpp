@@ -1,4 +1,4 @@
-#include "measure/flow_map.hpp"
+#include "swirl/measure/flow_map.hpp"
 
 #include <gtest/gtest.h>
 

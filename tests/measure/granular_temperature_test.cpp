@@ -1,4 +1,4 @@
-#include "measure/granular_temperature.hpp"
+#include "swirl/measure/granular_temperature.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "measure/m_frame.hpp"
+#include "swirl/measure/m_frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "measure/cluster_rotation.hpp"
 #include "measure/snapshots.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
 
 namespace swirl {
 namespace {

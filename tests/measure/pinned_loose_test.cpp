@@ -1,4 +1,4 @@
-#include "measure/pinned_loose.hpp"
+#include "swirl/measure/pinned_loose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/radial_density.hpp"
+#include "swirl/measure/radial_density.hpp"
 
 #include <gtest/gtest.h>
 

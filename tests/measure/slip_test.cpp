@@ -1,11 +1,11 @@
-#include "measure/slip.hpp"
+#include "swirl/measure/slip.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "measure/snapshots.hpp"
-#include "physics/rolling_ball.hpp"
+#include "swirl/physics/rolling_ball.hpp"
 
 namespace swirl {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/container_path.hpp"
-#include "physics/snapshot.hpp"
+#include "swirl/physics/container_path.hpp"
+#include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "measure/statistics.hpp"
+#include "swirl/measure/statistics.hpp"
 
 #include <gtest/gtest.h>
 

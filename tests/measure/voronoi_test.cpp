@@ -1,12 +1,12 @@
-#include "measure/voronoi.hpp"
+#include "swirl/measure/voronoi.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "measure/hexatic_order.hpp"
-#include "measure/local_packing.hpp"
 #include "measure/snapshots.hpp"
+#include "swirl/measure/hexatic_order.hpp"
+#include "swirl/measure/local_packing.hpp"
 
 namespace swirl {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/wall_stress.hpp"
+#include "swirl/measure/wall_stress.hpp"
 
 #include <gtest/gtest.h>
 

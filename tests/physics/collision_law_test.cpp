@@ -1,12 +1,12 @@
-#include "physics/collision_law.hpp"
+#include "swirl/physics/collision_law.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "physics/unit_circle.hpp"
 #include "random_cases.hpp"
+#include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {

@@ -1,12 +1,12 @@
-#include "physics/contact_time.hpp"
+#include "swirl/physics/contact_time.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "physics/lanes.hpp"
 #include "random_cases.hpp"
+#include "swirl/math/lanes.hpp"
 
 namespace swirl {
 namespace {

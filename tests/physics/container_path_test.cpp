@@ -1,4 +1,4 @@
-#include "physics/container_path.hpp"
+#include "swirl/physics/container_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/rolling_ball.hpp"
+#include "swirl/physics/rolling_ball.hpp"
 
 #include <gtest/gtest.h>
 

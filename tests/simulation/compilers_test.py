@@ -15,8 +15,8 @@ import unittest
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
 # One translation unit, so that the standard headers are read once.
-PARTS = ("src/simulation/packing.cpp", "src/simulation/simulation.cpp",
-         "src/simulation/event_loop_baseline.cpp", "tests/simulation/compilers/baseline_only.cpp",
+PARTS = ("src/simulation/placement.cpp", "src/simulation/simulation.cpp",
+         "src/simulation/targets/event_loop_baseline.cpp", "tests/simulation/compilers/baseline_only.cpp",
          "tests/simulation/compilers/print_hashes.cpp")
 
 EVERY_LEVEL = "--every-level" in sys.argv
@@ -32,7 +32,7 @@ def hashes(folder, cxx, level):
         f.writelines(f'#include "{SOURCE}/{part}"\n' for part in PARTS)
     program = os.path.join(folder, "print_hashes")
     subprocess.run([cxx, "-std=c++20", level, "-ffp-contract=off", "-w",
-                    f"-I{SOURCE}/src", f"-I{SOURCE}/tests", unit, "-o", program], check=True)
+                    f"-I{SOURCE}/include", f"-I{SOURCE}/tests", unit, "-o", program], check=True)
     return subprocess.run([program], check=True, capture_output=True, text=True).stdout
 
 

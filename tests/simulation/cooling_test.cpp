@@ -33,7 +33,7 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
     if (sanitized) GTEST_SKIP() << "half a million events";
     constexpr std::size_t N = 3000;
     constexpr double e = 0.95;
-    Scene scene = gas_scene(N, 0.3);
+    InitialState scene = gas_at_rest(N, 0.3);
     Simulation warm(scene);
     warm.run(50 * N);  // Maxwell's velocities
 
@@ -65,7 +65,7 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
 
 // Luding, McNamara 1998: what meets again within the duration of a contact loses nothing.
 TEST(InelasticGas, LosesNothingWhileContactsLastForEver) {
-    Scene scene = gas_scene(300, 0.3);
+    InitialState scene = gas_at_rest(300, 0.3);
     scene.disc_surface.restitution = scene.wall_surface.restitution = 0.5;
     scene.disc_surface.contact_duration = scene.wall_surface.contact_duration = 1e9;
     Simulation simulation(scene);

@@ -11,18 +11,18 @@ namespace swirl {
 
 struct GoldenRun {
     const char* name;
-    Scene scene;
+    InitialState scene;
     std::uint64_t events;
     std::uint64_t hash;  // Simulation::state_hash() after so many events
 };
 
-inline Scene golden_circle() {
-    Scene scene = paper_scene(28);
+inline InitialState golden_circle() {
+    InitialState scene = paper_dish(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     return scene;
 }
-inline Scene golden_walton() {
-    Scene scene = paper_scene(36);
+inline InitialState golden_walton() {
+    InitialState scene = paper_dish(36);
     scene.disc_surface = {0.5, 0.97, 0.4};
     scene.wall_surface = {0.8, 0.95, 0.2};
     return scene;
@@ -30,12 +30,12 @@ inline Scene golden_walton() {
 
 inline std::vector<GoldenRun> golden_runs() {
     return {
-        {"48 discs, mu = 1", paper_scene(48), 50000, 0xfa8f17a6b78853c0u},
-        {"28 discs, mu = 1", paper_scene(28), 50000, 0x6eb38e0dd0a3178bu},
-        {"mixture", mixture_scene(), 50000, 0x54d636010ea73d68u},
+        {"48 discs, mu = 1", paper_dish(48), 50000, 0xfa8f17a6b78853c0u},
+        {"28 discs, mu = 1", paper_dish(28), 50000, 0x6eb38e0dd0a3178bu},
+        {"mixture", mixture_dish(), 50000, 0x54d636010ea73d68u},
         {"exact circle", golden_circle(), 5000, 0x30d1522a8c9e549eu},
         {"restitution", golden_walton(), 20000, 0xb89cac39392593cfu},
-        {"gas of 2000", gas_scene(2000, 0.7), 50000, 0x802cf8bbd151c318u},
+        {"gas of 2000", gas_at_rest(2000, 0.7), 50000, 0x802cf8bbd151c318u},
     };
 }
 

@@ -29,7 +29,8 @@ struct Core {
 Core measure_core(std::size_t n, double container_radius, std::uint64_t equilibration, int blocks,
                   int looks_per_block) {
     const double core_radius = container_radius - 14.0;
-    Scene scene = gas_scene(n, static_cast<double>(n) / (container_radius * container_radius));
+    InitialState scene =
+        gas_at_rest(n, static_cast<double>(n) / (container_radius * container_radius));
     Simulation simulation(scene);
     simulation.run(equilibration);
 

@@ -34,11 +34,11 @@ double virial(const Snapshot& s) {
     return sum;
 }
 
-Scene circle_scene(std::size_t n, double mu_disc, double mu_wall) {
-    Scene scene = paper_scene(n, mu_disc, mu_wall);
+InitialState circle_dish(std::size_t n, double mu_disc, double mu_wall) {
+    InitialState scene = paper_dish(n, mu_disc, mu_wall);
     scene.path = circular_path(paper_amplitude, paper_period);
     const Leg& leg = scene.path.legs.front();
-    for (Disc& d : scene.discs) d.velocity = d.velocity - paper_scene(1).path.legs[0].velocity;
+    for (Disc& d : scene.discs) d.velocity = d.velocity - paper_dish(1).path.legs[0].velocity;
     for (Disc& d : scene.discs) d.velocity = d.velocity + leg.velocity;
     return scene;
 }
@@ -46,7 +46,7 @@ Scene circle_scene(std::size_t n, double mu_disc, double mu_wall) {
 // In the frame that turns with the swirl centre the dish stands still, and K − ΩL is the energy
 // there. A smooth wall and smooth discs conserve it.
 TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction) {
-    const Scene scene = circle_scene(48, 0.0, 0.0);
+    const InitialState scene = circle_dish(48, 0.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     const auto invariant = [&] {
@@ -65,7 +65,7 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction)
 
 // The discs' friction is a loss in every frame, so there K − ΩL can only fall.
 TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionOnly) {
-    const Scene scene = circle_scene(40, 1.0, 0.0);
+    const InitialState scene = circle_dish(40, 1.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     Snapshot s = simulation.snapshot();
@@ -83,7 +83,7 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionO
 // With friction at the wall, each hit changes it by −ΩR J_t − loss: the test of the wall's part in
 // the budget. The loss in the frame of the wall follows from the disc's velocities there.
 TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
-    const Scene scene = circle_scene(20, 0.0, 1.0);
+    const InitialState scene = circle_dish(20, 0.0, 1.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     Snapshot s = simulation.snapshot();
@@ -113,7 +113,7 @@ TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
 }
 
 TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
-    Scene scene = gas_scene(1, 0.02);
+    InitialState scene = gas_at_rest(1, 0.02);
     scene.discs[0].position = {1.3, -2.1};
     scene.discs[0].velocity = {0.83, 0.41};
     scene.discs[0].spin = 0.7;
@@ -140,7 +140,7 @@ TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
 }
 
 TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
-    Scene scene = paper_scene(48, 0.0, 0.0);
+    InitialState scene = paper_dish(48, 0.0, 0.0);
     scene.path = still_path(10.0);
     Random random(4);
     for (Disc& d : scene.discs) {
@@ -155,7 +155,7 @@ TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
 }
 
 TEST(StillDish, SmoothDiscsKeepTheirAngularMomentum) {
-    Simulation simulation(gas_scene(200, 0.5));
+    Simulation simulation(gas_at_rest(200, 0.5));
     const double before = angular_momentum(simulation.snapshot());
     simulation.run(200000);
     EXPECT_NEAR(angular_momentum(simulation.snapshot()), before, 1e-9);  // Σ|r × v| = 10³
@@ -166,7 +166,7 @@ TEST(StillDish, SmoothDiscsKeepTheirAngularMomentum) {
 // friction acts across the line of centres and does not enter.
 TEST(StillDish, TheVirialIdentityHoldsWithAndWithoutFriction) {
     for (const double mu : {0.0, 0.8}) {
-        Scene scene = gas_scene(60, 0.6);
+        InitialState scene = gas_at_rest(60, 0.6);
         scene.disc_surface.mu = scene.wall_surface.mu = mu;
         for (std::size_t i = 0; i < scene.discs.size(); i += 3) {
             scene.discs[i].radius = 0.7;

@@ -26,7 +26,7 @@ double deepest_overlap(const Snapshot& s) {
     return deepest;
 }
 
-void expect_no_overlap(const Scene& scene, int events) {
+void expect_no_overlap(const InitialState& scene, int events) {
     if (sanitized) events /= 50;
     Simulation simulation(scene);
     double deepest = -1.0;
@@ -39,16 +39,16 @@ void expect_no_overlap(const Scene& scene, int events) {
     EXPECT_GT(deepest, -1e-12);  // the contacts were looked at
 }
 
-TEST(Overlap, NoneInSixMillionEventsOfTheFullDish) { expect_no_overlap(paper_scene(48), 6000000); }
+TEST(Overlap, NoneInSixMillionEventsOfTheFullDish) { expect_no_overlap(paper_dish(48), 6000000); }
 TEST(Overlap, NoneInTwoMillionEventsOfTheHalfFullDish) {
-    expect_no_overlap(paper_scene(28), 2000000);
+    expect_no_overlap(paper_dish(28), 2000000);
 }
-TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_scene(), 1000000); }
+TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_dish(), 1000000); }
 TEST(Overlap, NoneInAMillionEventsAfterTheEnergyHasGrown) {
-    expect_no_overlap(paper_scene(40, 0.0, 0.0), 1000000);
+    expect_no_overlap(paper_dish(40, 0.0, 0.0), 1000000);
 }
 TEST(Overlap, NoneOnTheTrueCircle) {
-    Scene scene = paper_scene(28);
+    InitialState scene = paper_dish(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     expect_no_overlap(scene, 100000);
 }

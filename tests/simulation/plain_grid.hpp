@@ -11,15 +11,15 @@
 #include <queue>
 #include <vector>
 
-#include "physics/collision_law.hpp"
-#include "physics/contact_time.hpp"
-#include "simulation/simulation.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/contact_time.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 
 class PlainGrid {
   public:
-    explicit PlainGrid(const Scene& scene) : scene_(scene), changes_(scene.discs.size(), 0) {
+    explicit PlainGrid(const InitialState& scene) : scene_(scene), changes_(scene.discs.size(), 0) {
         double largest = 0.0;
         for (const Disc& d : scene.discs) largest = larger(largest, d.radius);
         reach_ = scene.container_radius;
@@ -198,7 +198,7 @@ class PlainGrid {
         return event;
     }
 
-    Scene scene_;
+    InitialState scene_;
     std::vector<std::uint32_t> changes_;
     std::vector<std::int64_t> cell_of_;
     std::vector<std::vector<std::uint32_t>> cells_;

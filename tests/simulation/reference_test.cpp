@@ -1,4 +1,4 @@
-#include "simulation/reference_loop.hpp"
+#include "swirl/simulation/reference_loop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 /// Runs both and compares every event's time, partners and impulse, and all discs at the end.
 template <class Plain = ReferenceLoop>
-void expect_same_trajectory(const Scene& scene, int events, const Tuning& tuning) {
+void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
     Plain plain(scene);
     Simulation engine(scene, {}, tuning);
     for (int k = 0; k < events; ++k) {
@@ -55,73 +55,73 @@ class EveryWidth : public ::testing::TestWithParam<Width> {
 // Without a grid (0 cells), a few discs go by all pairs; one cell has neighbour lists.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInThePaperDish) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
-        expect_same_trajectory(paper_scene(n), 100000, tuning());
+        expect_same_trajectory(paper_dish(n), 100000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAtEveryNumberOfVectors) {
     for (const std::size_t n : {8u, 9u, 16u, 17u, 24u, 25u, 32u, 33u, 40u, 41u})
-        expect_same_trajectory(paper_scene(n), 3000, tuning());
+        expect_same_trajectory(paper_dish(n), 3000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhereDiscsAreFew) {
     for (const std::size_t n : {1u, 2u, 5u, 28u})
-        expect_same_trajectory(paper_scene(n), 20000, tuning(1));
+        expect_same_trajectory(paper_dish(n), 20000, tuning(1));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
-    expect_same_trajectory(paper_scene(40, 0.0, 0.0), 30000, tuning());
+    expect_same_trajectory(paper_dish(40, 0.0, 0.0), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
-    expect_same_trajectory(mixture_scene(), 100000, tuning());
-    expect_same_trajectory(mixture_scene(), 30000, tuning(3));
-    expect_same_trajectory(mixture_scene(20), 30000, tuning());
+    expect_same_trajectory(mixture_dish(), 100000, tuning());
+    expect_same_trajectory(mixture_dish(), 30000, tuning(3));
+    expect_same_trajectory(mixture_dish(20), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
-    Scene scene = paper_scene(28);
+    InitialState scene = paper_dish(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     expect_same_trajectory(scene, 10000, tuning());
     expect_same_trajectory(scene, 5000, tuning(1));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
-    Scene scene = paper_scene(40);
+    InitialState scene = paper_dish(40);
     scene.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     scene.wall_surface = {0.8, 0.8, 0.2, 1e-3};
     expect_same_trajectory(scene, 30000, tuning());
     // Discs that stay together when they meet may meet again at once.
-    Scene sticky = paper_scene(28);
+    InitialState sticky = paper_dish(28);
     sticky.disc_surface = sticky.wall_surface = {1.0, 0.0, 0.0, 0.05};
     expect_same_trajectory(sticky, 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGas) {
     for (const Neighbours neighbours : {Neighbours::lists, Neighbours::cells}) {
-        expect_same_trajectory(gas_scene(200, 0.6), 8000, tuning(neighbours));
-        expect_same_trajectory(gas_scene(200, 0.05), 4000, tuning(neighbours));
+        expect_same_trajectory(gas_at_rest(200, 0.6), 8000, tuning(neighbours));
+        expect_same_trajectory(gas_at_rest(200, 0.05), 4000, tuning(neighbours));
     }
 }
 // The cells move with the container, here over several swirls.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInThePaperDish) {
     for (const std::size_t n : {1u, 5u, 48u})
-        expect_same_trajectory(paper_scene(n), 20000, tuning(Neighbours::cells));
-    Scene dissipative = paper_scene(40);
+        expect_same_trajectory(paper_dish(n), 20000, tuning(Neighbours::cells));
+    InitialState dissipative = paper_dish(40);
     dissipative.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     expect_same_trajectory(dissipative, 20000, tuning(Neighbours::cells));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
     Disc large = unit_disc();
     large.radius = 1.7;
-    const Scene two_sizes =
-        scene_of({unit_disc(), large}, 60, 20.0,
+    const InitialState two_sizes =
+        state_of({unit_disc(), large}, 60, 20.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
     expect_same_trajectory(two_sizes, 20000, tuning(Neighbours::cells));
     // Too unequal for cells: lists take their place.
-    expect_same_trajectory(mixture_scene(), 5000, tuning(Neighbours::cells));
+    expect_same_trajectory(mixture_dish(), 5000, tuning(Neighbours::cells));
 }
 // More discs on one spot than a cell has room for, flying apart.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
-    Scene scene = gas_scene(60, 0.2);
+    InitialState scene = gas_at_rest(60, 0.2);
     for (std::size_t i = 0; i < 12; ++i) scene.discs[i].position = 0.01 * scene.discs[i].velocity;
     expect_same_trajectory(scene, 500, tuning(Neighbours::cells));
     EXPECT_EQ(Simulation(scene, {}, tuning(Neighbours::cells)).loop_counts().bytes,
               Simulation(scene, {}, tuning(Neighbours::lists)).loop_counts().bytes);
     // Two are enough for lists to take over.
-    Scene pair = gas_scene(60, 0.2);
+    InitialState pair = gas_at_rest(60, 0.2);
     pair.discs[0].position = pair.discs[1].position + Vec2{1.9, 0.0};
     expect_same_trajectory(pair, 500, tuning(Neighbours::cells));
     EXPECT_EQ(Simulation(pair, {}, tuning(Neighbours::cells)).loop_counts().bytes,
@@ -130,7 +130,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
 // A disc that flies along the edges of cells, or through their corners: fourteen cells of
 // 3.6 lie across this dish, so there are edges at 0, 3.6, 7.2 and so on.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
-    Scene scene = gas_scene(60, 0.2);
+    InitialState scene = gas_at_rest(60, 0.2);
     scene.discs.resize(1);
     for (const Vec2 position : {Vec2{0.0, 0.0}, Vec2{3.6, -3.6}, Vec2{1.8, 7.2}})
         for (const Vec2 velocity :
@@ -142,8 +142,8 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
 }
 
 TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
-    for (const Scene& scene :
-         {paper_scene(5), paper_scene(28), paper_scene(48), mixture_scene(), gas_scene(101, 0.3)}) {
+    for (const InitialState& scene :
+         {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(), gas_at_rest(101, 0.3)}) {
         ReferenceLoop narrow(scene), wide(scene, GetParam());
         for (int k = 0; k < 5000; ++k) {
             const Event expected = narrow.step(), found = wide.step();
@@ -157,7 +157,7 @@ TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
 // Many discs, against a second plain loop that has cells and a queue (plain_grid.hpp); that one
 // against the first, where that is possible.
 TEST(PlainGrid, IsTheReferenceBitForBit) {
-    const Scene scene = paper_scene(48);
+    const InitialState scene = paper_dish(48);
     ReferenceLoop all_pairs(scene);
     PlainGrid grid(scene);
     for (int k = 0; k < 20000; ++k) {
@@ -167,19 +167,19 @@ TEST(PlainGrid, IsTheReferenceBitForBit) {
         ASSERT_EQ(expected.j, found.j) << "event " << k;
     }
 }
-Scene large_dish(std::size_t n) {
+InitialState large_dish(std::size_t n) {
     const double scale = square_root(static_cast<double>(n) / 48.0);
-    return scene_of({unit_disc()}, n, scale * paper_container_radius,
+    return state_of({unit_disc()}, n, scale * paper_container_radius,
                     polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides), 1.0,
                     1.0);
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInADenseGas) {
     if (sanitized) GTEST_SKIP() << "two hundred thousand events";
-    expect_same_trajectory<PlainGrid>(gas_scene(10000, 0.7), 200000, tuning());
+    expect_same_trajectory<PlainGrid>(gas_at_rest(10000, 0.7), 200000, tuning());
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinGas) {
     for (const Neighbours neighbours : {Neighbours::lists, Neighbours::cells})
-        expect_same_trajectory<PlainGrid>(gas_scene(2000, 0.2), 20000, tuning(neighbours));
+        expect_same_trajectory<PlainGrid>(gas_at_rest(2000, 0.2), 20000, tuning(neighbours));
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
     if (sanitized) GTEST_SKIP() << "a million events";
@@ -187,11 +187,11 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
 }
 TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfTenThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
-    expect_same_trajectory<PlainGrid>(gas_scene(10000, 0.7), 1000000, {});
+    expect_same_trajectory<PlainGrid>(gas_at_rest(10000, 0.7), 1000000, {});
 }
 TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsInAThinGasOfTenThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
-    expect_same_trajectory<PlainGrid>(gas_scene(10000, 0.2), 1000000, {});
+    expect_same_trajectory<PlainGrid>(gas_at_rest(10000, 0.2), 1000000, {});
 }
 TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfAHundredThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryWidth,
                          });
 
 TEST(Grid, EveryGridGivesTheSameBits) {
-    const Scene scene = paper_scene(48);
+    const InitialState scene = paper_dish(48);
     Simulation all_pairs(scene, {}, {1, Width::best});
     all_pairs.run(100000);
     for (const int cells : {2, 3, 4, 5, 6, 7, 8, 1000}) {
@@ -223,7 +223,7 @@ TEST(Grid, EveryGridGivesTheSameBits) {
 }
 
 TEST(Observation, LookingDoesNotChangeABit) {
-    const Scene scene = paper_scene(48);
+    const InitialState scene = paper_dish(48);
     Simulation alone(scene), watched(scene);
     alone.run(50000);
     Snapshot snapshot = watched.snapshot();
@@ -241,7 +241,7 @@ TEST(Observation, LookingDoesNotChangeABit) {
 }
 
 TEST(Observation, RefreshedSnapshotEqualsANewOne) {
-    Simulation simulation(paper_scene(28));
+    Simulation simulation(paper_dish(28));
     Snapshot kept = simulation.snapshot();
     for (int k = 0; k < 5000; ++k) simulation.refresh(kept, simulation.step());
     const Snapshot fresh = simulation.snapshot();
@@ -254,11 +254,11 @@ TEST(Observation, RefreshedSnapshotEqualsANewOne) {
 }
 
 TEST(Resume, FromTheDiscsAndTheProgressContinuesBitForBit) {
-    const Scene scene = paper_scene(48);
+    const InitialState scene = paper_dish(48);
     Simulation whole(scene), first(scene);
     whole.run(60000);
     first.run(23456);
-    Scene saved = scene;
+    InitialState saved = scene;
     for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
     Simulation resumed(saved, first.progress());
     resumed.run(60000 - 23456);

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "physics/container_path.hpp"
-#include "simulation/packing.hpp"
-#include "simulation/random.hpp"
-#include "simulation/simulation.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/physics/container_path.hpp"
+#include "swirl/simulation/placement.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 
@@ -20,14 +20,14 @@ inline constexpr bool sanitized = true;
 inline constexpr bool sanitized = false;
 #endif
 
-inline Scene scene_of(const std::vector<Disc>& kinds, std::size_t n, double container_radius,
-                      ContainerPath path, double mu_disc, double mu_wall, double speed = 0.1,
-                      std::uint64_t seed = 1) {
+inline InitialState state_of(const std::vector<Disc>& kinds, std::size_t n, double container_radius,
+                             ContainerPath path, double mu_disc, double mu_wall, double speed = 0.1,
+                             std::uint64_t seed = 1) {
     std::vector<double> radii;
     for (std::size_t i = 0; i < n; ++i) radii.push_back(kinds[i % kinds.size()].radius);
     const auto centres = place_discs(radii, container_radius, seed);
     if (!centres) throw std::runtime_error("the test's discs do not fit");
-    Scene scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
+    InitialState scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
     Random random(seed + 1);
     const Leg& leg = scene.path.legs.front();
     for (std::size_t i = 0; i < n; ++i) {
@@ -44,24 +44,24 @@ inline Disc unit_disc(double inertia = paper_inertia) {
 }
 
 /// The paper's dish.
-inline Scene paper_scene(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
-                         std::uint64_t seed = 1) {
-    return scene_of({unit_disc()}, n, paper_container_radius,
+inline InitialState paper_dish(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
+                               std::uint64_t seed = 1) {
+    return state_of({unit_disc()}, n, paper_container_radius,
                     polygon_path(paper_amplitude, paper_period, paper_sides), mu_disc, mu_wall, 0.1,
                     seed);
 }
 
 /// Three kinds of disc, in the paper's dish.
-inline Scene mixture_scene(std::size_t n = 40) {
-    return scene_of({{{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, 10.0},
+inline InitialState mixture_dish(std::size_t n = 40) {
+    return state_of({{{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, 10.0},
                      {{0, 0}, {0, 0}, 0, 0, 0, 0.6, 0.36, 0.0648},
                      {{0, 0}, {0, 0}, 0, 0, 0, 1.4, 2.0, 3.92}},
                     n, 10.0, polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
 }
 
 /// An elastic gas of smooth discs in a dish that stands still.
-inline Scene gas_scene(std::size_t n, double packing_fraction, double speed = 1.0) {
-    return scene_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),
+inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double speed = 1.0) {
+    return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),
                     still_path(10.0), 0.0, 0.0, speed, 3);
 }
 

@@ -1,5 +1,5 @@
 // The wide loops, left out to build fast: nothing here may run them.
-#include "simulation/machine.hpp"
+#include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 const EventLoops event_loops_avx2{};

@@ -1,0 +1,34 @@
+# The engine and what an observer sees of it: math, physics, simulation, measure. Nothing but the
+# standard library, and no exceptions.
+add_library(swirl_physics INTERFACE)
+target_include_directories(swirl_physics INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/include)
+target_link_libraries(swirl_physics INTERFACE swirl_options)
+
+# The event loop is compiled once for each vector width, and the widest that the processor has is
+# chosen at run time; so are the plain loop's scan and the averages by event. The files of these
+# names get wider instructions; everything else is baseline x86-64.
+file(GLOB_RECURSE simulation_sources CONFIGURE_DEPENDS src/simulation/*.cpp)
+file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/measure/*.cpp)
+set(avx2_sources ${simulation_sources} ${measure_sources})
+set(avx512_sources ${avx2_sources})
+list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
+list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  # The same text three times; undefined behaviour is looked for once, as that takes the compiler a
+  # minute and more.
+  set(once $<$<BOOL:${SWIRL_SANITIZE}>:-fno-sanitize=undefined>)
+  set_source_files_properties(${avx2_sources} PROPERTIES COMPILE_OPTIONS "-mavx2;${once}")
+  # g++ 12 warns about its own intrinsics there.
+  set_source_files_properties(${avx512_sources} PROPERTIES COMPILE_OPTIONS
+    "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>;${once}")
+else()
+  list(FILTER simulation_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+  list(FILTER measure_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+endif()
+
+add_library(swirl_simulation STATIC ${simulation_sources})
+target_link_libraries(swirl_simulation PUBLIC swirl_physics)
+target_compile_options(swirl_simulation PRIVATE -fno-exceptions)
+add_library(swirl_measure STATIC ${measure_sources})
+target_link_libraries(swirl_measure PUBLIC swirl_physics)
+target_compile_options(swirl_measure PRIVATE -fno-exceptions)

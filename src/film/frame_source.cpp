@@ -1,0 +1,271 @@
+#include "swirl/film/frame_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "swirl/draw/film.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/simulation/simulation.hpp"
+
+namespace swirl {
+
+namespace {
+
+/// A number as people write it, with the true minus sign.
+std::string plain(double value) {
+    const std::string text = fmt::format("{:g}", std::abs(value));
+    return value < 0.0 ? "−" + text : text;
+}
+
+/// To four digits: a caption, not a result.
+double rounded(double value) {
+    const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value) + 1e-300)));
+    return value == 0.0 ? 0.0 : std::round(value * scale) / scale;
+}
+
+/// Points along the path of C; the circle gets enough of them to look round.
+std::vector<Vec2> outline(const ContainerPath& path) {
+    std::vector<Vec2> points;
+    for (const Leg& leg : path.legs) {
+        const int parts = leg.turning == 0.0 ? 1 : 180;
+        for (int k = 0; k < parts; ++k)
+            points.push_back(leg.position_at(leg.begin + (leg.end - leg.begin) * k / parts));
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<std::string> parameter_labels(const RunConfig& config) {
+    std::vector<std::string> labels{fmt::format("$N$ = {}", config.discs)};
+    labels.push_back("$μ_{d}$ = " + plain(config.mu_disc));
+    labels.push_back("$μ_{w}$ = " + plain(config.mu_wall));
+    if (config.restitution != 1.0) labels.push_back("$e$ = " + plain(config.restitution));
+    if (config.tangential_restitution != 0.0)
+        labels.push_back("$β$ = " + plain(config.tangential_restitution));
+    labels.push_back(
+        "$I$ = " + plain(config.inertia / (config.mass * config.radius * config.radius)) +
+        " $m$$r^{2}$");
+    labels.push_back("$R$ = " + plain(config.container_radius / config.radius) + " $r$");
+    labels.push_back("$A$ = " + plain(config.amplitude / config.radius) + " $r$");
+    if (config.mixture)
+        labels.push_back(fmt::format("{} discs of {} $r$", config.mixture->count,
+                                     plain(config.mixture->radius / config.radius)));
+    labels.push_back(fmt::format("seed {}", config.seed));
+    return labels;
+}
+
+Footage simulated(const RunConfig& config) {
+    Footage footage;
+    const ContainerPath path = make_path(config);
+    footage.open = [config]() -> Reel {
+        auto simulation = std::make_shared<Simulation>(make_initial_state(config));
+        return [simulation, period = config.period](double swirls) {
+            const double whole = std::floor(swirls);
+            simulation->advance_to(static_cast<std::int64_t>(whole), (swirls - whole) * period);
+            return simulation->snapshot();
+        };
+    };
+    footage.path = outline(path);
+    footage.container_radius = config.container_radius;
+    footage.amplitude = config.amplitude;
+    footage.period = config.period;
+    footage.caption = fmt::format("{} disc{}", config.discs, config.discs == 1 ? "" : "s");
+    footage.parameters = parameter_labels(config);
+    return footage;
+}
+
+Footage rolling(const RollingBall& ball, double amplitude, double period) {
+    Footage footage;
+    footage.open = [=]() -> Reel {
+        return [=](double swirls) { return snapshot_at(ball, amplitude, period, swirls * period); };
+    };
+    footage.path = outline(circular_path(amplitude, period));
+    footage.container_radius = ball.container_radius;
+    footage.amplitude = amplitude;
+    footage.period = period;
+    footage.caption = ball.slip == 0.0 ? "one ball that slips" : "one ball that rolls";
+    footage.parameters = {"$s$ = " + plain(ball.slip),
+                          "$γ$ = $s$ $R$/$R_{ball}$ = " + plain(rounded(ball.gamma())),
+                          "$ϖ$/$Ω$ = 1 − $γ$ = " + plain(rounded(ball.rotation()))};
+    return footage;
+}
+
+namespace {
+
+double swirls_of(const Snapshot& s) {
+    return static_cast<double>(s.swirls) + (s.period > 0.0 ? s.clock / s.period : 0.0);
+}
+
+/// Between `a` and `b`, a share u of the way: straight lines.
+Snapshot between(const Snapshot& a, const Snapshot& b, double u, double swirls) {
+    Snapshot s = a;
+    const double whole = std::floor(swirls);
+    s.swirls = static_cast<std::int64_t>(whole);
+    s.clock = (swirls - whole) * s.period;
+    s.container_centre = a.container_centre + u * (b.container_centre - a.container_centre);
+    const bool same = a.size() == b.size();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec2 p = a.position(i), q = same ? b.position(i) : p;
+        s.x[i] = p.x + u * (q.x - p.x);
+        s.y[i] = p.y + u * (q.y - p.y);
+        const double from = a.orientation(i);
+        s.angle[i] = same ? from + u * (b.orientation(i) - from) : from;
+        s.held_at[i] = s.clock;
+    }
+    return s;
+}
+
+/// Two neighbouring frames of a recording, moved forwards.
+class Projector {
+  public:
+    explicit Projector(const SnapshotSeries& series) : series_(series), left_(series.frame(0)) {
+        right_ = series_.frames > 1 ? series_.frame(1) : left_;
+    }
+
+    Snapshot at(double swirls) {
+        while (swirls_of(right_) < swirls && next_ + 1 < series_.frames) {
+            left_ = std::move(right_);
+            right_ = series_.frame(++next_);
+        }
+        const double from = swirls_of(left_), step = swirls_of(right_) - from;
+        const double share = step > 0.0 ? (swirls - from) / step : 0.0;
+        // On a frame, to the last bits: exactly that frame.
+        if (share < 1e-9) return left_;
+        if (share > 1.0 - 1e-9) return right_;
+        return between(left_, right_, share, swirls);
+    }
+
+  private:
+    SnapshotSeries series_;
+    Snapshot left_, right_;
+    std::uint64_t next_ = 1;  // number of right_
+};
+
+}  // namespace
+
+Footage recorded(const SnapshotSeries& series, const std::string& caption) {
+    if (series.frames == 0) throw Failure("There is not one frame in " + caption + ".");
+    Footage footage;
+    const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
+    footage.open = [series]() -> Reel {
+        auto projector = std::make_shared<Projector>(series);
+        return [projector](double swirls) { return projector->at(swirls); };
+    };
+    footage.container_radius = first.container_radius;
+    footage.amplitude = std::max(series.reach - first.container_radius, 0.0);
+    footage.period = first.period;
+    if (footage.amplitude > 0.0) footage.path = outline(circular_path(footage.amplitude, 1.0));
+    footage.caption = caption;
+    footage.parameters = {fmt::format("$N$ = {}", first.size()),
+                          "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
+                          "$A$ = " + plain(rounded(footage.amplitude)) + " $r$",
+                          fmt::format("{} recorded frames", series.frames)};
+    footage.from = swirls_of(first);
+    footage.to = swirls_of(last);
+    const auto known = [](const std::vector<double>& values) {
+        return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+    };
+    if (*footage.to > *footage.from)
+        footage.frames_per_swirl =
+            static_cast<double>(series.frames - 1) / (*footage.to - *footage.from);
+    footage.knows_spin = known(first.spin);
+    footage.knows_orientation = known(first.angle);
+    return footage;
+}
+
+namespace {
+
+/// When the frames of a camera were taken, in swirls.
+class FrameTable {
+  public:
+    FrameTable(const Tracks& tracks, const TrackScale& scale) {
+        for (const TrackFrame& frame : tracks.frames) {
+            numbers.push_back(frame.number);
+            times_.push_back(static_cast<double>(frame.number) /
+                             (scale.frames_per_time * scale.period));
+            ids.push_back(frame.id);
+        }
+    }
+
+    std::size_t nearest(double swirls) const {
+        const auto after = std::lower_bound(times_.begin(), times_.end(), swirls);
+        if (after == times_.begin()) return 0;
+        const auto k = static_cast<std::size_t>(after - times_.begin());
+        if (after == times_.end()) return k - 1;
+        return swirls - times_[k - 1] < times_[k] - swirls ? k - 1 : k;
+    }
+
+    std::vector<std::int64_t> numbers;
+    std::vector<std::vector<std::int64_t>> ids;
+
+  private:
+    std::vector<double> times_;
+};
+
+/// Where the camera's pixels lie in the plane of the discs.
+Backdrop placed(const TrackScale& scale, bool y_down) {
+    const double unit = 1.0 / scale.pixels_per_radius;
+    Backdrop backdrop;
+    backdrop.along_x = {scale.clockwise ? -unit : unit, 0.0};
+    backdrop.along_y = {0.0, y_down ? -unit : unit};
+    backdrop.origin =
+        -scale.swirl_centre.x * backdrop.along_x - scale.swirl_centre.y * backdrop.along_y;
+    return backdrop;
+}
+
+}  // namespace
+
+Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
+                const std::string& pictures, std::int64_t first_picture) {
+    const auto table = std::make_shared<const FrameTable>(tracks, scale);
+    const Backdrop place = placed(scale, tracks.y_down);
+    const SnapshotSeries series = series_of(std::move(tracks), scale);
+    Footage footage = recorded(series, caption);
+    footage.frames_per_swirl = scale.frames_per_time * scale.period;
+    if (series.same_discs) footage.open_between = footage.open;
+    if (!series.same_discs || !pictures.empty())
+        footage.open = [series, table]() -> Reel {
+            return [series, table](double swirls) { return series.frame(table->nearest(swirls)); };
+        };
+    if (!series.same_discs)
+        footage.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
+    if (pictures.empty()) return footage;
+
+    const Film film(pictures);
+    for (const std::int64_t number : {table->numbers.front(), table->numbers.back()})
+        if (!film.may_have(number + first_picture))
+            throw Failure(fmt::format(
+                "There is no picture '{}', which frame {} of the tracks would be drawn over.",
+                film.name(number + first_picture), number));
+    footage.open_backdrop = [=]() -> BackdropReel {
+        const auto reel = std::make_shared<Film>(pictures);
+        return [=](double swirls) {
+            Backdrop backdrop = place;
+            const std::int64_t number = table->numbers[table->nearest(swirls)];
+            backdrop.image = reel->picture(number + first_picture);
+            return backdrop;
+        };
+    };
+    return footage;
+}
+
+Footage recorded(const std::string& file) try {
+    auto reader = std::make_shared<TrajectoryReader>(file);
+    if (reader->frames() == 0) throw Failure("There is not one frame in " + file + ".");
+    const std::string name = std::filesystem::path(file).filename().string();
+    return recorded(series_of(reader), escaped(name));
+} catch (const FileError& error) {
+    throw Failure(error.what());
+}
+
+}  // namespace swirl

@@ -1,0 +1,32 @@
+// Which vector instructions this processor has, asked in one place: the event loop, the averages by
+// event and the benchmark are compiled once for each width, and the widest is taken when the
+// program runs. Every width gives the same bits.
+#pragma once
+
+#include <cstdint>
+
+namespace swirl {
+
+/// `best` is the widest that this processor has.
+enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
+
+/// Whether this processor can run code of that width.
+inline bool has_width(Width width) {
+#if defined(__x86_64__)
+    if (width == Width::avx512)
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    if (width == Width::avx2) return __builtin_cpu_supports("avx2");
+#endif
+    return width == Width::baseline || width == Width::best;
+}
+
+/// The width itself; for `best`, the widest that this processor has.
+inline Width width_meant(Width width) {
+    if (width != Width::best) return width;
+    return has_width(Width::avx512) ? Width::avx512
+           : has_width(Width::avx2) ? Width::avx2
+                                    : Width::baseline;
+}
+
+}  // namespace swirl

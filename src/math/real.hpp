@@ -1,0 +1,33 @@
+// The handful of operations on real numbers that the event loop may use besides + − × ÷: square
+// root, choice and comparison. Each is exactly rounded or exact, so every compiler, processor and
+// vector width gives the same bits. lanes.hpp overloads them for eight doubles at once.
+#pragma once
+
+#include <limits>
+
+#include "swirl/math/vec2.hpp"
+
+namespace swirl {
+
+/// A time that does not come.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+SWIRL_INLINE double square_root(double x) { return __builtin_sqrt(x); }
+SWIRL_INLINE constexpr double select(bool condition, double yes, double no) {
+    return condition ? yes : no;
+}
+/// The larger of the two; `b` if they are equal or either is not a number.
+template <class Real>
+SWIRL_INLINE constexpr Real larger(const Real& a, const Real& b) {
+    return select(a > b, a, b);
+}
+template <class Real>
+SWIRL_INLINE constexpr Real smaller(const Real& a, const Real& b) {
+    return select(a < b, a, b);
+}
+template <class Real>
+SWIRL_INLINE constexpr Real magnitude(const Real& a) {
+    return select(a < Real(0.0), -a, a);
+}
+
+}  // namespace swirl

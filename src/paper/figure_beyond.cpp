@@ -1,0 +1,471 @@
+// Figures the paper does not have, about what it leaves open: the kind of average, the transient
+// without disc friction, and every parameter that it holds fixed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/paper/figures.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/study/crossing.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// One curve ϖ(N) at other parameters than the paper's.
+struct Curve {
+    std::string name;  // in keys and tables
+    double value;      // of the parameter
+    std::function<void(RunConfig&)> change;
+};
+
+std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings) {
+    if (settings.quick) return {8, 20, 28, 36, 42, 48};
+    return {5, 8, 12, 16, 20, 24, 26, 28, 30, 32, 34, 36, 38, 40, 42, 44, 46, 48};
+}
+
+/// Half the events of the paper: many curves, and the error is small enough.
+std::int64_t events_of_a_curve(const PaperSettings& settings) {
+    return settings.events.value_or(settings.quick ? 100'000 : 500'000);
+}
+
+FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
+                       const std::string& parameter, const std::vector<Curve>& curves) {
+    FigurePlan plan;
+    plan.script = "figure_" + name + ".py";
+    struct Point {
+        std::size_t curve;
+        std::int64_t discs;
+    };
+    std::vector<Point> points;
+    for (std::size_t c = 0; c < curves.size(); ++c)
+        for (const std::int64_t n : sparse_numbers(settings)) {
+            RunConfig config = paper_config(settings, high_friction, n);
+            config.events = events_of_a_curve(settings);
+            curves[c].change(config);
+            points.push_back({c, n});
+            plan.tasks.push_back(varied_point(
+                fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events), config));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined({"curve", parameter, "discs"}, rotation_columns()));
+        FigureOutcome outcome;
+        std::vector<NamedCurve> named;
+        for (std::size_t c = 0; c < curves.size(); ++c) {
+            std::vector<RotationPoint> curve;
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                if (points[k].curve != c) continue;
+                std::vector<Table::Cell> row{curves[c].name, curves[c].value, points[k].discs};
+                add_rotation(row, results[k]);
+                table.add(std::move(row));
+                curve.push_back(
+                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+            }
+            outcome.findings.push_back(
+                fmt::format("{} {}: {}.", parameter, curves[c].name, crossing_sentence(curve)));
+            named.push_back({curves[c].name, curve});
+        }
+        outcome.files.push_back(out / ("figure_" + name + ".csv"));
+        table.write(outcome.files.back());
+        outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+        write_crossings(named, outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+}  // namespace
+
+// --- by event and by time -------------------------------------------------------------------
+
+namespace {
+
+/// Where the two averages differ most.
+std::string farthest_apart(const Friction& friction, std::span<const Json> results) {
+    double most = -1.0;
+    std::string found = "no runs";
+    for (const Json& r : results) {
+        const RotationPoint event = rotation_point(0.0, r, "by_event"),
+                            time = rotation_point(0.0, r, "by_time");
+        if (!(std::fabs(event.mean - time.mean) > most)) continue;
+        most = std::fabs(event.mean - time.mean);
+        found = fmt::format("farthest apart at N = {}, ϖ/Ω = {} by event and {} by time",
+                            number(at(r, {"config", "discs"})), with_error(event.mean, event.error),
+                            with_error(time.mean, time.error));
+    }
+    return fmt::format("{} (μ_d = {}, μ_w = {}): {}.", friction.words, friction.mu_disc,
+                       friction.mu_wall, found);
+}
+
+}  // namespace
+
+FigurePlan plan_figure_averages(const PaperSettings& settings) {
+    FigurePlan plan = plan_figure_5b(settings);  // the same runs
+    const auto table_of_5b = plan.finish;
+    plan.script = "figure_averages.py";
+    plan.finish = [table_of_5b](const std::vector<Json>& results, const fs::path& out) {
+        FigureOutcome outcome = table_of_5b(results, out);
+        // The table has the runs of one friction after those of the other.
+        const std::size_t numbers = results.size() / std::size(frictions_of_5b);
+        const fs::path table = out / "figure_averages.csv";
+        std::error_code error;
+        fs::copy_file(outcome.files.front(), table, fs::copy_options::overwrite_existing, error);
+        if (error)
+            throw Failure(
+                fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
+        outcome.files = {table};
+        outcome.findings.clear();
+        for (std::size_t f = 0; f < std::size(frictions_of_5b); ++f)
+            outcome.findings.push_back(farthest_apart(
+                frictions_of_5b[f], std::span(results).subspan(f * numbers, numbers)));
+        return outcome;
+    };
+    return plan;
+}
+
+// --- the transient without disc friction ----------------------------------------------------
+
+namespace {
+
+constexpr int seeds_of_the_transient = 4;
+
+/// One swirl after the other, from rest.
+Json transient(const RunConfig& config, const RunControl& outer) {
+    Json json{{"varpi", Json::array()}, {"spin", Json::array()}, {"events", Json::array()}};
+    RunControl control = outer;
+    double rotation = 0.0, spin = 0.0, looks = 0.0, events = 0.0;
+    control.after_event = [&](const Snapshot&, const Event&) { events += 1.0; };
+    control.samplers.push_back({64, [&](const Snapshot& s) {
+                                    rotation += cluster_rotation(s).individual / config.omega();
+                                    double sum = 0.0;
+                                    for (const double one : s.spin) sum += one;
+                                    spin += sum / static_cast<double>(s.size()) / config.omega();
+                                    looks += 1.0;
+                                }});
+    control.swirl_begins = [&](bool) {
+        if (looks == 0.0) return;
+        json["varpi"].push_back(rotation / looks);
+        json["spin"].push_back(spin / looks);
+        json["events"].push_back(events);
+        rotation = spin = looks = 0.0;
+    };
+    if (!run(config, control).complete) throw Interrupted("Stopped.");
+    return json;
+}
+
+}  // namespace
+
+FigurePlan plan_figure_transient(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_transient.py";
+    const std::vector<std::int64_t> numbers =
+        settings.quick ? std::vector<std::int64_t>{48} : std::vector<std::int64_t>{40, 44, 46, 48};
+    const std::int64_t swirls = settings.swirls(settings.quick ? 200 : 600, 20);
+    for (const std::int64_t n : numbers)
+        for (int s = 0; s < seeds_of_the_transient; ++s) {
+            RunConfig config = paper_config(settings, no_disc_friction, n);
+            config.periods = swirls;
+            config.warmup = 0;
+            config.seed += static_cast<std::uint64_t>(s);
+            plan.tasks.push_back(
+                {fmt::format("transient_N{}_{}swirls_seed{}", n, swirls, config.seed),
+                 expected_events_per_swirl(config) * static_cast<double>(swirls),
+                 [config](const RunControl& control) { return transient(config, control); }});
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table({"discs", "swirl", "varpi", "varpi_error", "spin", "spin_error", "events"});
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            double early = 0.0, late = 0.0, spin = 0.0, reached = not_known;
+            for (std::int64_t t = 0; t < swirls; ++t) {
+                std::vector<double> varpi, spins;
+                double events = 0.0;
+                for (int s = 0; s < seeds_of_the_transient; ++s) {
+                    const Json& one = results[k * seeds_of_the_transient + std::size_t(s)];
+                    if (failed(one)) continue;
+                    varpi.push_back(number(one["varpi"][std::size_t(t)]));
+                    spins.push_back(number(one["spin"][std::size_t(t)]));
+                    events += number(one["events"][std::size_t(t)]);
+                }
+                events /= static_cast<double>(varpi.size());
+                const Estimate v = estimate_of(varpi), w = estimate_of(spins);
+                table.add({numbers[k], t + 1, v.mean, v.error, w.mean, w.error, events});
+                if (t < swirls / 10) early += v.mean / static_cast<double>(swirls / 10);
+                if (t >= swirls / 2) late += v.mean / static_cast<double>(swirls - swirls / 2);
+                if (t + 1 == swirls) spin = w.mean;
+                if (std::isnan(reached) && events >= 1e6) reached = static_cast<double>(t + 1);
+            }
+            outcome.findings.push_back(fmt::format(
+                "μ_d = 0, N = {}: ϖ/Ω = {:.3f} in the first {} swirls, {:.4f} in the last {}, when "
+                "the mean spin is {:.3f} Ω; 10^6 events last {} swirls.",
+                numbers[k], early, swirls / 10, late, swirls - swirls / 2, spin,
+                std::isnan(reached) ? fmt::format("more than {}", swirls)
+                                    : fmt::format("{:.0f}", reached)));
+        }
+        outcome.files.push_back(out / "figure_transient.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+// --- the crossing against the friction ------------------------------------------------------
+
+FigurePlan plan_figure_friction(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_friction.py";
+    const std::vector<double> frictions =
+        settings.quick ? std::vector<double>{0.1, 0.5, 1.0}
+                       : std::vector<double>{0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0};
+    for (const double mu : frictions) {
+        CrossingSettings search;
+        search.config = paper_config(settings, {"", "", mu, mu}, 48);
+        search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
+        search.from = 20;
+        search.tolerance = settings.quick ? 0.5 : 0.2;
+        search.rounds = settings.quick ? 1 : 4;
+        plan.tasks.push_back(
+            {fmt::format("crossing_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
+             40.0 * static_cast<double>(search.config.events), [search](const RunControl& control) {
+                 CrossingControl inner;
+                 inner.stop = control.stop;
+                 inner.threads = 1;
+                 const CrossingSearch found = search_crossing(search, inner);
+                 const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
+                 return Json{{"crosses", crosses},
+                             {"drifting", found.drifting},
+                             {"discs", found.crossing.discs},
+                             {"error", found.crossing.error},
+                             {"lower", found.crossing.lower},
+                             {"upper", found.crossing.upper},
+                             {"events", found.events},
+                             {"runs", found.runs},
+                             {"report", crossing_report(search, found)}};
+             }});
+    }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
+                     "events", "drifting_runs", "steady_state"});
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < frictions.size(); ++k) {
+            const Json& r = results[k];
+            if (failed(r)) continue;
+            table.add({frictions[k], std::int64_t{r["crosses"].get<bool>()}, number(r["discs"]),
+                       number(r["error"]), number(r["lower"]), number(r["upper"]), whole(r["runs"]),
+                       whole(r["events"]), whole(r["drifting"]),
+                       std::string(r["drifting"] == 0 ? "steady" : "drifting")});
+            outcome.findings.push_back(
+                fmt::format("μ = {}: {}", frictions[k], r["report"].get<std::string>()));
+        }
+        outcome.files.push_back(out / "figure_friction.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+// --- inertia, restitution, path -------------------------------------------------------------
+
+FigurePlan plan_figure_inertia(const PaperSettings& settings) {
+    std::vector<Curve> curves;
+    for (const double inertia : {0.5, 1.0, 10.0})
+        curves.push_back({fmt::format("{}", inertia), inertia,
+                          [inertia](RunConfig& c) { c.inertia = inertia; }});
+    return plan_curves(settings, "inertia", "inertia", curves);
+}
+
+FigurePlan plan_figure_restitution(const PaperSettings& settings) {
+    std::vector<Curve> curves;
+    for (const double e : {1.0, 0.99, 0.9})
+        curves.push_back({fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
+    return plan_curves(settings, "restitution", "restitution", curves);
+}
+
+FigurePlan plan_figure_tangential(const PaperSettings& settings) {
+    std::vector<Curve> curves;
+    for (const double beta : {0.0, 0.5, 1.0})
+        curves.push_back({fmt::format("{}", beta), beta, [beta](RunConfig& c) {
+                              c.tangential_restitution = beta;
+                              c.inertia = solid_inertia(c.mass, c.radius);
+                          }});
+    return plan_curves(settings, "tangential", "tangential_restitution", curves);
+}
+
+FigurePlan plan_figure_polygon(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_polygon.py";
+    const std::vector<int> sides = settings.quick
+                                       ? std::vector<int>{6, 30, 300, 0}
+                                       : std::vector<int>{6, 10, 20, 30, 60, 100, 300, 0};
+    const std::vector<std::int64_t> numbers{28, 48};
+    for (const std::int64_t n : numbers)
+        for (const int m : sides) {
+            RunConfig config = paper_config(settings, high_friction, n);
+            // Corners are events too: swirls, not events, so that every path gets the same time.
+            const std::int64_t swirls =
+                n == 28 ? (settings.quick ? 300 : 2000) : (settings.quick ? 60 : 300);
+            config.periods = settings.swirls(swirls, 5);
+            if (m > 0)
+                config.sides = m;
+            else
+                config.path = PathShape::circle;
+            plan.tasks.push_back(varied_point(
+                fmt::format("polygon_M{}_N{}_{}periods", m, n, *config.periods), config));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined({"sides", "discs"}, rotation_columns()));
+        FigureOutcome outcome;
+        std::size_t k = 0;
+        for (const std::int64_t n : numbers) {
+            std::string sentence = fmt::format("N = {}: ϖ/Ω by time =", n);
+            for (const int m : sides) {
+                std::vector<Table::Cell> row{std::int64_t{m}, n};
+                add_rotation(row, results[k]);
+                table.add(std::move(row));
+                const RotationPoint p = rotation_point(0.0, results[k], "by_time");
+                sentence += fmt::format("{} {} on {}", m == sides.front() ? "" : ",",
+                                        with_error(p.mean, p.error),
+                                        m > 0 ? fmt::format("{} sides", m) : "the circle");
+                ++k;
+            }
+            outcome.findings.push_back(sentence + ".");
+        }
+        outcome.files.push_back(out / "figure_polygon.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+// --- energy without any friction ------------------------------------------------------------
+
+namespace {
+
+/// Energy at the beginning of every swirl.
+Json energy_series(const RunConfig& config, const RunControl& outer) {
+    Json json{{"energy", Json::array()}, {"invariant", Json::array()}};
+    RunControl control = outer;
+    control.samplers.push_back({1, [&](const Snapshot& s) {
+                                    double K = 0.0, L = 0.0;
+                                    for (std::size_t i = 0; i < s.size(); ++i) {
+                                        const Disc d = s.disc(i);
+                                        K += kinetic_energy(d);
+                                        L += d.mass * cross(s.position(i), d.velocity) +
+                                             d.inertia * d.spin;
+                                    }
+                                    json["energy"].push_back(K);
+                                    json["invariant"].push_back(K - config.omega() * L);
+                                }});
+    if (!run(config, control).complete) throw Interrupted("Stopped.");
+    return json;
+}
+
+}  // namespace
+
+FigurePlan plan_figure_energy(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_energy.py";
+    const std::int64_t discs = 28, swirls = settings.swirls(settings.quick ? 100 : 400, 10);
+    const std::vector<int> sides{6, 30, 300, 0};
+    for (const int m : sides) {
+        RunConfig config = paper_config(settings, {"", "", 0.0, 0.0}, discs);
+        config.periods = swirls;
+        config.warmup = 0;
+        if (m > 0)
+            config.sides = m;
+        else
+            config.path = PathShape::circle;
+        plan.tasks.push_back(
+            {fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
+             3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
+             [config](const RunControl& control) { return energy_series(config, control); }});
+    }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table({"sides", "discs", "swirl", "energy", "invariant"});
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            if (failed(results[k])) continue;
+            const Json &energy = results[k]["energy"], &invariant = results[k]["invariant"];
+            for (std::size_t t = 0; t < energy.size(); ++t)
+                table.add({std::int64_t{sides[k]}, discs, static_cast<std::int64_t>(t),
+                           number(energy[t]), number(invariant[t])});
+            outcome.findings.push_back(fmt::format(
+                "No friction at all, {}: in {} swirls the energy goes from {:.3g} to {:.3g}, and "
+                "K − ΩL changes by {}.",
+                sides[k] > 0 ? fmt::format("{} sides", sides[k]) : "the true circle", swirls,
+                number(energy.front()), number(energy.back()),
+                with_error(number(invariant.back()) - number(invariant.front()), not_known)));
+        }
+        outcome.files.push_back(out / "figure_energy.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+// --- both frictions at once -----------------------------------------------------------------
+
+namespace {
+
+std::string lowest_of_the_map(const std::vector<std::pair<double, double>>& points,
+                              const std::vector<Json>& results) {
+    std::size_t lowest = points.size(), counterrotating = 0;
+    RotationPoint least{};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const RotationPoint p = rotation_point(0.0, results[k], "by_time");
+        if (p.mean < -3.0 * p.error) ++counterrotating;
+        if (!std::isfinite(p.mean) || (lowest < points.size() && p.mean >= least.mean)) continue;
+        lowest = k;
+        least = p;
+    }
+    if (lowest == points.size()) return "No run came to its end.";
+    return fmt::format(
+        "48 discs certainly counterrotate at {} of {} pairs of frictions; lowest is ϖ/Ω = {} at "
+        "μ_d = {}, μ_w = {}.",
+        counterrotating, points.size(), with_error(least.mean, least.error), points[lowest].first,
+        points[lowest].second);
+}
+
+}  // namespace
+
+FigurePlan plan_figure_map(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_map.py";
+    const std::vector<double> frictions =
+        settings.quick ? std::vector<double>{0.0, 0.1, 0.3, 1.0}
+                       : std::vector<double>{0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
+    std::vector<std::pair<double, double>> points;
+    for (const double mu_disc : frictions)
+        for (const double mu_wall : frictions) {
+            if (mu_disc == 0.0 && mu_wall == 0.0) continue;  // no steady state there
+            RunConfig config = paper_config(settings, {"", "", mu_disc, mu_wall}, 48);
+            config.warmup = settings.swirls(settings.quick ? 30 : 100, 2);
+            config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 4);
+            points.emplace_back(mu_disc, mu_wall);
+            plan.tasks.push_back(varied_point(fmt::format("map_d{}_w{}_{}of{}periods", mu_disc,
+                                                          mu_wall, *config.warmup, *config.periods),
+                                              config));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined({"mu_disc", "mu_wall", "discs"}, rotation_columns()));
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            std::vector<Table::Cell> row{points[k].first, points[k].second, std::int64_t{48}};
+            add_rotation(row, results[k]);
+            table.add(std::move(row));
+        }
+        outcome.findings.push_back(lowest_of_the_map(points, results));
+        outcome.files.push_back(out / "figure_map.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+}  // namespace swirl

@@ -1,0 +1,228 @@
+// What the paper plots against the number of discs or the angle, N = 24 … 48: the pancake line
+// (1b), the angular profiles (3a, 3b), slip (4a), frustration (4b) and two frictions (4c).
+//
+// The experiment's smooth and roughened particles are two frictions here: 0.1 and 1.
+#include <fmt/format.h>
+
+#include "swirl/paper/figures.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr Friction rough = high_friction, smooth = low_friction;
+
+struct Point {
+    Friction friction;
+    std::int64_t discs;
+};
+
+std::vector<Point> points_of(const PaperSettings& settings, std::vector<Friction> frictions) {
+    std::vector<Point> points;
+    for (const Friction& friction : frictions)
+        for (const std::int64_t n : numbers_of_the_experiment(settings))
+            points.push_back({friction, n});
+    return points;
+}
+
+/// The numbers of these measurements, "slip.cluster" and so on, each with its error.
+std::vector<std::string> number_columns(const std::vector<std::string>& names) {
+    std::vector<std::string> columns;
+    for (const std::string& name : names) {
+        const std::string column = name.substr(name.find('.') + 1);
+        columns.push_back(column);
+        columns.push_back(column + "_error");
+    }
+    return columns;
+}
+void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& names,
+                 const Json& result) {
+    for (const std::string& name : names) {
+        const std::size_t dot = name.find('.');
+        const std::string measurement = name.substr(0, dot), quantity = name.substr(dot + 1);
+        for (const char* what : {"mean", "error"})
+            row.emplace_back(number(at(result, {"measured", measurement, quantity, what})));
+    }
+}
+
+using Sentences =
+    std::function<std::vector<std::string>(const std::vector<Point>&, const std::vector<Json>&)>;
+
+FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name,
+                          const std::vector<Friction>& frictions,
+                          const std::vector<std::string>& names, const Sentences& sentences) {
+    FigurePlan plan;
+    plan.script = "figure_" + name + ".py";
+    const std::vector<Point> points = points_of(settings, frictions);
+    for (const Point& p : points)
+        plan.tasks.push_back(measured_point(settings, p.friction, p.discs));
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(
+            joined(joined({"setting", "mu_disc", "mu_wall", "discs"}, number_columns(names)),
+                   rotation_columns()));
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const Friction& f = points[k].friction;
+            std::vector<Table::Cell> row{std::string(f.name), f.mu_disc, f.mu_wall,
+                                         points[k].discs};
+            add_numbers(row, names, results[k]);
+            add_rotation(row, results[k]);
+            table.add(std::move(row));
+        }
+        FigureOutcome outcome;
+        outcome.files.push_back(out / ("figure_" + name + ".csv"));
+        table.write(outcome.files.back());
+        outcome.findings = sentences(points, results);
+        std::vector<NamedCurve> curves;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (k == 0 || points[k].friction.name != points[k - 1].friction.name)
+                curves.push_back({points[k].friction.name, {}});
+            curves.back().points.push_back(
+                rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+        }
+        outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+        write_crossings(curves, outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+std::string first_and_last(const std::string& what, const Friction& friction,
+                           const std::string& measurement, const std::string& quantity,
+                           const std::vector<Point>& points, const std::vector<Json>& results) {
+    std::string text;
+    std::size_t first = points.size(), last = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (points[k].friction.name != friction.name || failed(results[k])) continue;
+        first = std::min(first, k);
+        last = k;
+    }
+    const auto value = [&](std::size_t k) {
+        const Json& v = results[k]["measured"][measurement][quantity];
+        return with_error(number(v["mean"]), number(v["error"]));
+    };
+    if (first == points.size()) return fmt::format("{} ({}): no runs.", what, friction.words);
+    return fmt::format("{} ({}): {} at N = {}, {} at N = {}.", what, friction.words, value(first),
+                       points[first].discs, value(last), points[last].discs);
+}
+
+}  // namespace
+
+FigurePlan plan_figure_1b(const PaperSettings& settings) {
+    return plan_against_n(
+        settings, "1b", {high_friction}, {"slip.cluster_perimeter", "slip.pancake"},
+        [](const std::vector<Point>& points, const std::vector<Json>& results) {
+            std::vector<RotationPoint> curve;
+            for (std::size_t k = 0; k < points.size(); ++k)
+                curve.push_back(
+                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+            return std::vector<std::string>{
+                fmt::format("ϖ by time: {}.", crossing_sentence(curve)),
+                first_and_last("pancake line", high_friction, "slip", "pancake", points, results)};
+        });
+}
+
+FigurePlan plan_figure_4a(const PaperSettings& settings) {
+    return plan_against_n(settings, "4a", {smooth, rough}, {"slip.cluster", "slip.pinned_region"},
+                          [](const std::vector<Point>& points, const std::vector<Json>& results) {
+                              return std::vector<std::string>{
+                                  first_and_last("slip of the pinned region", smooth, "slip",
+                                                 "pinned_region", points, results),
+                                  first_and_last("slip of the pinned region", rough, "slip",
+                                                 "pinned_region", points, results)};
+                          });
+}
+
+FigurePlan plan_figure_4b(const PaperSettings& settings) {
+    return plan_against_n(
+        settings, "4b", {high_friction},
+        {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.spin_correlation",
+         "frustration.triangles", "frustration.coordination", "frustration.disc_sticking",
+         "frustration.wall_sticking"},
+        [](const std::vector<Point>& points, const std::vector<Json>& results) {
+            return std::vector<std::string>{
+                first_and_last("spin of the pinned discs at the wall, in Ω", high_friction,
+                               "frustration", "pinned_wall_spin", points, results),
+                first_and_last("spin correlation of neighbours", high_friction, "frustration",
+                               "spin_correlation", points, results),
+                first_and_last("contacts in triangles", high_friction, "frustration", "triangles",
+                               points, results)};
+        });
+}
+
+FigurePlan plan_figure_4c(const PaperSettings& settings) {
+    return plan_against_n(
+        settings, "4c", {smooth, rough}, {},
+        [](const std::vector<Point>& points, const std::vector<Json>& results) {
+            std::vector<std::string> sentences;
+            for (const Friction& friction : {smooth, rough}) {
+                std::vector<RotationPoint> curve;
+                for (std::size_t k = 0; k < points.size(); ++k)
+                    if (points[k].friction.name == friction.name)
+                        curve.push_back(rotation_point(static_cast<double>(points[k].discs),
+                                                       results[k], "by_time"));
+                sentences.push_back(
+                    fmt::format("{}: {}.", friction.words, crossing_sentence(curve)));
+            }
+            return sentences;
+        });
+}
+
+namespace {
+
+FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name) {
+    FigurePlan plan;
+    plan.script = "figure_" + name + ".py";
+    const std::vector<std::int64_t> numbers = numbers_of_the_experiment(settings);
+    for (const std::int64_t n : numbers)
+        plan.tasks.push_back(measured_point(settings, high_friction, n));
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        const std::vector<std::string> columns{"theta",           "visits", "varpi_m",
+                                               "varpi_m_error",   "wall",   "normalised",
+                                               "normalised_error"};
+        const std::vector<std::string> angles{"becoming_pinned", "becoming_free",
+                                              "becoming_pinned_by_collisions",
+                                              "becoming_free_by_collisions", "share"};
+        std::vector<std::string> heads = joined({"discs", "steady_state"}, columns);
+        for (const std::string& angle : angles)
+            heads = joined(std::move(heads), {angle, angle + "_error"});
+        Table table(heads);
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            if (failed(results[k])) continue;
+            const Json& measured = results[k]["measured"];
+            for (std::size_t r = 0; r < measured["profile"]["theta"].size(); ++r) {
+                std::vector<Table::Cell> row{numbers[k], steadiness(results[k])};
+                for (const std::string& column : columns)
+                    row.emplace_back(number(measured["profile"][column][r]));
+                for (const std::string& angle : angles) {
+                    row.emplace_back(number(measured["pinned"][angle]["mean"]));
+                    row.emplace_back(number(measured["pinned"][angle]["error"]));
+                }
+                table.add(std::move(row));
+            }
+            if (k > 0 && k + 1 < numbers.size()) continue;
+            const auto angle = [&](const char* which) {
+                const Json& value = measured["pinned"][which];
+                return with_error(number(value["mean"]), number(value["error"]));
+            };
+            outcome.findings.push_back(fmt::format(
+                "N = {}: pinned from θ = {}°, free from {}°; {} of the discs are pinned.",
+                numbers[k], angle("becoming_pinned"), angle("becoming_free"), angle("share")));
+        }
+        outcome.files.push_back(out / ("figure_" + name + ".csv"));
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+}  // namespace
+
+FigurePlan plan_figure_3a(const PaperSettings& settings) { return plan_profiles(settings, "3a"); }
+FigurePlan plan_figure_3b(const PaperSettings& settings) { return plan_profiles(settings, "3b"); }
+
+}  // namespace swirl

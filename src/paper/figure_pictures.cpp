@@ -1,0 +1,102 @@
+// The paper's drawn figures: 1c (what the M-frame is), 2a (pinned and loose discs), 5a (a
+// snapshot).
+#include <filesystem>
+
+#include "swirl/draw/frame_diagram.hpp"
+#include "swirl/film/picture.hpp"
+#include "swirl/paper/paper.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+namespace {
+
+using Files = std::vector<std::filesystem::path>;
+
+/// No table, no script: the picture is drawn at once, in all formats.
+template <class Draw>
+FigurePlan picture_plan(const std::string& stem, const std::string& finding, Draw draw) {
+    FigurePlan plan;
+    plan.finish = [=](const std::vector<nlohmann::ordered_json>&,
+                      const std::filesystem::path& out) {
+        FigureOutcome outcome;
+        outcome.findings = {finding};
+        for (const char* ending : {".png", ".svg", ".pdf"}) {
+            const std::filesystem::path file = out / (stem + ending);
+            draw(file.string());
+            outcome.files.push_back(file);
+        }
+        return outcome;
+    };
+    return plan;
+}
+
+RunConfig paper_run(std::int64_t discs, std::uint64_t seed) {
+    RunConfig config;
+    config.discs = discs;
+    config.seed = seed;
+    return config;
+}
+
+PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
+    PictureConfig config;
+    config.footage = {simulated(paper_run(48, seed))};
+    config.appearance.frames = {frame};
+    config.appearance.theme = light_theme();
+    config.appearance.size = {1000, 1000};
+    config.appearance.clock = false;
+    config.at = 50.3;
+    config.out = file;
+    return config;
+}
+
+void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
+    const Snapshot s = simulated(paper_run(28, seed)).open()(20.13);
+    // The disc nearest to a place where its arrows have room, right of C.
+    const FrameAt at(s, Frame::m);
+    std::size_t chosen = 0;
+    double nearest = never;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 away = at.position(s.position(i)) - Vec2{4.6, -1.6};
+        if (dot(away, away) >= nearest) continue;
+        nearest = dot(away, away);
+        chosen = i;
+    }
+    Canvas canvas(Size{1500, 560}, *picture_format(file), file);
+    draw_frame_diagram(canvas, light_theme(), s, chosen);
+    canvas.finish();
+} catch (const DrawFailure& failure) {
+    throw Failure(failure.what());
+}
+
+}  // namespace
+
+FigurePlan plan_figure_1c(const PaperSettings& settings) {
+    return picture_plan(
+        "figure_1c", "Figure 1c: drawn; the forces are those on one of 28 discs at swirl 20.13.",
+        [seed = settings.seed](const std::string& file) { draw_figure_1c(seed, file); });
+}
+
+FigurePlan plan_figure_2a(const PaperSettings& settings) {
+    return picture_plan("figure_2a",
+                        "Figure 2a: 48 discs in the M-frame at swirl 50.3, pinned and loose.",
+                        [seed = settings.seed](const std::string& file) {
+                            PictureConfig config = light_picture(seed, Frame::m, file);
+                            config.appearance.coloring = Coloring::pinned;
+                            config.appearance.angles = true;
+                            config.appearance.slice = 0.75 * pi;
+                            config.appearance.title = "Pinned and loose discs in the M-frame";
+                            make_picture(config);
+                        });
+}
+
+FigurePlan plan_figure_5a(const PaperSettings& settings) {
+    return picture_plan("figure_5a", "Figure 5a: 48 discs in the lab frame at swirl 50.3.",
+                        [seed = settings.seed](const std::string& file) {
+                            PictureConfig config = light_picture(seed, Frame::lab, file);
+                            config.appearance.title = "The simulated discs";
+                            make_picture(config);
+                        });
+}
+
+}  // namespace swirl

@@ -1,0 +1,311 @@
+#include "swirl/paper/paper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/paper/parts.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/paper/python_script.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/study/all_cores.hpp"
+
+namespace swirl {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// How far all tasks are together, from what each says of itself.
+class StudyProgress {
+  public:
+    StudyProgress(const PaperControl& control, double total) : control_(control), total_(total) {}
+
+    void add(double cost) {
+        const std::lock_guard lock(mutex_);
+        done_ += cost;
+        if (!control_.progress) return;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+        control_.progress(done_ / total_, done_ / elapsed.count());
+    }
+
+  private:
+    const PaperControl& control_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::mutex mutex_;
+    double total_, done_ = 0.0;
+};
+
+bool stopped(const PaperControl& control) {
+    return control.stop && control.stop->load(std::memory_order_relaxed);
+}
+
+Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& progress) {
+    double reported = 0.0;
+    RunControl inner;
+    inner.stop = control.stop;
+    inner.progress = [&](const RunProgress& p) {
+        progress.add(task.cost * (p.fraction - reported));
+        reported = p.fraction;
+    };
+    Json result = task.work(inner);
+    progress.add(task.cost * (1.0 - reported));
+    return result;
+}
+
+/// Of a whole set of measurements, in events.
+constexpr double cost_of_a_look = 6.0;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// What every run has unless its figure says otherwise.
+RunConfig paper_run(const PaperSettings& settings) {
+    RunConfig config;
+    config.events = settings.events_of_a_run();
+    config.seed = settings.seed;
+    return config;
+}
+
+[[noreturn]] void throw_interrupted(const PaperSettings& settings) {
+    throw Interrupted(fmt::format(
+        "Stopped before the end; what is done is kept in '{}', and the same call continues there.",
+        (settings.out / "parts").string()));
+}
+
+}  // namespace
+
+const PaperFigure& paper_figure(const std::string& name) {
+    std::string known;
+    for (const PaperFigure& figure : paper_figures()) {
+        if (figure.name == name) return figure;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.name);
+    }
+    throw WrongCall(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
+}
+
+// In the paper's dish 480 at N = 28 and 3400 at N = 48; few when it is thin, by the corners alone.
+double expected_events_per_swirl(const RunConfig& config) {
+    const double filled = static_cast<double>(config.discs) * config.radius * config.radius /
+                          (config.container_radius * config.container_radius);
+    return config.sides + static_cast<double>(config.discs) * (5.0 + 275.0 * std::pow(filled, 3.3));
+}
+
+PaperTask run_task(const std::string& key, const RunConfig& config,
+                   const std::vector<std::string>& measurements) {
+    const double events =
+        config.periods ? expected_events_per_swirl(config) * static_cast<double>(*config.periods)
+                       : static_cast<double>(config.events);
+    const double swirls = events / expected_events_per_swirl(config);
+    const double looks = measurements.empty() ? 0.0 : looks_per_swirl * swirls;
+    const double cost = events + looks * cost_of_a_look;
+    return {key, cost, [config, measurements](const RunControl& control) {
+                const MeasuredRun done = measured_run(config, measurements, control);
+                if (!done.run.complete) throw Interrupted("Stopped.");
+                Json json = result_json(done.run);
+                json["measured"] = done.measured;
+                return json;
+            }};
+}
+
+std::int64_t PaperSettings::swirls(std::int64_t by_default, std::int64_t least) const {
+    const double share =
+        static_cast<double>(events_of_a_run()) / static_cast<double>(events_by_default());
+    const double swirls = std::round(static_cast<double>(by_default) * share);
+    return std::max(least, static_cast<std::int64_t>(swirls));
+}
+
+namespace {
+
+/// What is to be done for all figures together, what of it is known already, and what is left.
+struct Work {
+    std::map<std::string, PaperTask> tasks;
+    std::map<std::string, Json> results;
+    std::vector<const PaperTask*> left;         // the most costly first
+    std::map<std::string, std::string> served;  // by another task
+
+    Work(const std::vector<FigurePlan>& plans, const PaperParts& parts) {
+        for (const FigurePlan& plan : plans)
+            for (const PaperTask& task : plan.tasks) tasks.emplace(task.key, task);
+        for (const auto& [key, task] : tasks) {
+            if (auto known = parts.recall(key))
+                results[key] = std::move(*known);
+            else if (!task.served_by.empty() && tasks.contains(task.served_by))
+                served[key] = task.served_by;
+            else if (auto larger = parts.recall(task.served_by))
+                results[key] = std::move(*larger);
+            else
+                left.push_back(&task);
+        }
+        std::stable_sort(left.begin(), left.end(),
+                         [](const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; });
+    }
+    double cost() const {
+        return std::accumulate(left.begin(), left.end(), 0.0,
+                               [](double sum, const PaperTask* t) { return sum + t->cost; });
+    }
+};
+
+/// One task; a failure of its run is a result too, but not one to remember.
+Json result_of(const PaperTask& task, const PaperControl& control, const PaperParts& parts,
+               StudyProgress& progress) {
+    const auto started = std::chrono::steady_clock::now();
+    try {
+        const Json result = work_on(task, control, progress);
+        return parts.remember(task.key, result, seconds_since(started));
+    } catch (const Failure& failure) {
+        return {{"seconds", seconds_since(started)}, {"result", {{"failed", failure.what()}}}};
+    }
+}
+
+/// What a reader must know of the runs of a figure: which of them failed, how many drift.
+std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results) {
+    std::vector<std::string> remarks;
+    std::size_t drifting = 0, too_short = 0, judged = 0;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        if (failed(results[k]))
+            remarks.push_back(fmt::format("The run '{}' failed, and its place is empty: {}",
+                                          plan.tasks[k].key,
+                                          results[k]["failed"].get<std::string>()));
+        const Json& verdict = at(results[k], {"steady_state", "verdict"});
+        if (!verdict.is_string()) continue;
+        ++judged;
+        drifting += verdict == "drifting" ? 1 : 0;
+        too_short += verdict == "too short to tell" ? 1 : 0;
+    }
+    if (drifting + too_short > 0)
+        remarks.push_back(fmt::format(
+            "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
+            "tell). They are marked in the figure and in the column steady_state.",
+            drifting + too_short, judged, drifting, too_short));
+    return remarks;
+}
+
+MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
+                    const std::map<std::string, Json>& results, const fs::path& out) {
+    std::vector<Json> in_order;
+    for (const PaperTask& task : plan.tasks) in_order.push_back(results.at(task.key)["result"]);
+    MadeFigure made{figure.name, figure.description, {}};
+    const std::vector<std::string> remarks = remarks_on(plan, in_order);
+    try {
+        made.outcome = plan.finish(in_order, out);
+    } catch (const Failure& failure) {
+        made.problem = failure.what();
+    }
+    auto& findings = made.outcome.findings;
+    findings.insert(findings.end(), remarks.begin(), remarks.end());
+    return made;
+}
+
+void draw(MadeFigure& made, const FigurePlan& plan) {
+    if (plan.script.empty() || !made.problem.empty()) return;
+    auto& files = made.outcome.files;
+    try {
+        const std::vector<fs::path> drawn = draw_figure(plan.script, files.front());
+        files.insert(files.end(), drawn.begin(), drawn.end());
+    } catch (const Failure& failure) {
+        made.problem = failure.what();
+    }
+}
+
+}  // namespace
+
+PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
+                         const PaperControl& control) {
+    const auto begin = std::chrono::steady_clock::now();
+    const PaperParts parts(settings.out);
+    std::vector<FigurePlan> plans;
+    for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
+    Work work(plans, parts);
+    PaperResult all;
+    all.tasks = work.tasks.size();
+    all.remembered = work.results.size();
+
+    StudyProgress progress(control, work.cost());
+    std::mutex results_mutex;
+    try {
+        on_all_cores(
+            work.left.size(),
+            [&](std::size_t k) {
+                if (stopped(control)) throw_interrupted(settings);
+                Json part = result_of(*work.left[k], control, parts, progress);
+                const std::lock_guard lock(results_mutex);
+                all.failed += failed(part["result"]) ? 1 : 0;
+                work.results[work.left[k]->key] = std::move(part);
+            },
+            control.threads);
+    } catch (const Interrupted&) {
+        throw_interrupted(settings);
+    }
+    for (const auto& [key, part] : work.results) all.task_seconds += part["seconds"].get<double>();
+    for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
+
+    for (std::size_t f = 0; f < plans.size(); ++f)
+        all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
+    // The drawings are independent too, and take a second each.
+    on_all_cores(
+        plans.size(),
+        [&](std::size_t f) {
+            if (stopped(control)) throw_interrupted(settings);
+            draw(all.figures[f], plans[f]);
+        },
+        control.threads);
+    for (MadeFigure& made : all.figures)
+        if (!made.problem.empty())
+            made.outcome.findings.push_back(
+                fmt::format("This figure could not be made: {}", made.problem));
+    all.seconds = seconds_since(begin);
+    return all;
+}
+
+std::vector<fs::path> write_report(const PaperResult& result, const PaperSettings& settings,
+                                   const std::string& command) {
+    Json figures = Json::array();
+    for (const MadeFigure& figure : result.figures) {
+        Json files = Json::array();
+        for (const fs::path& file : figure.outcome.files) files.push_back(file.filename().string());
+        figures.push_back({{"name", figure.name},
+                           {"description", figure.description},
+                           {"findings", figure.outcome.findings},
+                           {"files", files}});
+    }
+    const Json about{{"command", command},
+                     {"version", version()},
+                     {"build", build_description()},
+                     {"quick", settings.quick},
+                     {"seed", settings.seed},
+                     {"events_of_a_run", settings.events_of_a_run()},
+                     {"defaults", config_json(paper_run(settings))},
+                     {"runs", result.tasks},
+                     {"runs_of_earlier_calls", result.remembered},
+                     {"runs_that_failed", result.failed},
+                     {"seconds", result.seconds},
+                     {"seconds_on_one_core", result.task_seconds},
+                     {"figures", figures}};
+    const fs::path file = settings.out / "paper.json";
+    write_whole_file(file, about.dump(2) + "\n");
+    run_python_script("report.py", {settings.out.string()});
+    return {file, settings.out / "report.md", settings.out / "report.html"};
+}
+
+std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table) {
+    run_python_script(script, {table.string()});
+    std::vector<fs::path> drawn;
+    for (const char* kind : {".png", ".pdf"})
+        drawn.push_back(fs::path(table).replace_extension(kind));
+    return drawn;
+}
+
+}  // namespace swirl

@@ -1,0 +1,164 @@
+#include "swirl/paper/points.hpp"
+
+#include <fmt/format.h>
+
+#include "swirl/run/json.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// What the figures of the paper, or a reader of its tables, may ask of one run.
+const std::vector<std::string> measurements_of_the_paper = {"density", "flow", "profile",
+                                                            "pinned",  "slip", "frustration"};
+
+std::string key_of(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
+    return fmt::format("{}_N{}_{}events_seed{}", friction.name, discs, settings.events_of_a_run(),
+                       settings.seed);
+}
+
+}  // namespace
+
+std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
+    if (settings.quick) return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 38, 40, 42, 44, 46, 48};
+    std::vector<std::int64_t> all;
+    for (std::int64_t n = 5; n <= 48; ++n) all.push_back(n);
+    return all;
+}
+
+std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings) {
+    std::vector<std::int64_t> some;
+    for (const std::int64_t n : numbers_of_discs(settings))
+        if (n >= 24) some.push_back(n);
+    return some;
+}
+
+RunConfig paper_config(const PaperSettings& settings, const Friction& friction,
+                       std::int64_t discs) {
+    RunConfig config;
+    config.discs = discs;
+    config.mu_disc = friction.mu_disc;
+    config.mu_wall = friction.mu_wall;
+    config.events = settings.events_of_a_run();
+    config.seed = settings.seed;
+    return config;
+}
+
+PaperTask point(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
+    const std::string key = key_of(settings, friction, discs);
+    PaperTask task = run_task("run_" + key, paper_config(settings, friction, discs));
+    task.served_by = "measured_" + key;
+    return task;
+}
+
+PaperTask measured_point(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs) {
+    return run_task("measured_" + key_of(settings, friction, discs),
+                    paper_config(settings, friction, discs), measurements_of_the_paper);
+}
+
+PaperTask varied_point(const std::string& name, const RunConfig& config) {
+    return run_task(fmt::format("varied_{}_seed{}", name, config.seed), config);
+}
+
+bool failed(const Json& result) { return result.is_object() && result.contains("failed"); }
+
+const Json& at(const Json& result, std::initializer_list<std::string_view> path) {
+    static const Json nothing;
+    const Json* here = &result;
+    for (const std::string_view name : path) {
+        if (!here->is_object() || !here->contains(name)) return nothing;
+        here = &here->at(std::string(name));
+    }
+    return *here;
+}
+
+double number(const Json& value) { return value.is_number() ? value.get<double>() : not_known; }
+
+std::string steadiness(const Json& result) {
+    const Json& verdict = at(result, {"steady_state", "verdict"});
+    return verdict.is_string() ? verdict.get<std::string>() : "failed";
+}
+
+std::vector<std::string> rotation_columns() {
+    return {"by_event",          "by_event_error",
+            "by_time",           "by_time_error",
+            "rigid_by_event",    "rigid_by_event_error",
+            "rigid_by_time",     "rigid_by_time_error",
+            "effective_samples", "events",
+            "periods",           "warmup_periods",
+            "steady_state",      "seed",
+            "state_hash"};
+}
+
+Table::Cell whole(const Json& value) {
+    if (value.is_number_integer()) return value.get<std::int64_t>();
+    return not_known;
+}
+
+void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
+    for (const char* which : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"}) {
+        row.emplace_back(number(at(r, {"rotation", which, "mean"})));
+        row.emplace_back(number(at(r, {"rotation", which, "error"})));
+    }
+    row.emplace_back(number(at(r, {"rotation", "by_event", "effective_samples"})));
+    row.push_back(whole(at(r, {"events", "total"})));
+    row.emplace_back(number(at(r, {"periods"})));
+    row.push_back(whole(at(r, {"warmup", "periods"})));
+    row.emplace_back(steadiness(r));
+    row.push_back(whole(at(r, {"config", "seed"})));
+    const Json& hash = at(r, {"state_hash"});
+    row.emplace_back(hash.is_string() ? hash.get<std::string>() : "");
+}
+
+RotationPoint rotation_point(double x, const Json& r, const char* average) {
+    return {x, number(at(r, {"rotation", average, "mean"})),
+            number(at(r, {"rotation", average, "error"}))};
+}
+
+std::string crossing_sentence(std::span<const RotationPoint> curve) {
+    const Crossing crossing = find_crossing(curve);
+    if (crossing.verdict == Crossing::Verdict::crosses)
+        return fmt::format("crosses zero at N = {} (95 %: {:.1f} to {:.1f})",
+                           with_error(crossing.discs, crossing.error), crossing.lower,
+                           crossing.upper);
+    const RotationPoint* lowest = nullptr;
+    for (const RotationPoint& p : curve)
+        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
+    if (!lowest) return "has no points";
+    return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f}",
+                       crossing.verdict == Crossing::Verdict::undecided
+                           ? "the errors are too large to tell whether it crosses zero"
+                           : "does not cross zero",
+                       with_error(lowest->mean, lowest->error), lowest->discs);
+}
+
+void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file) {
+    Table table({"curve", "verdict", "crossing", "crossing_error", "lower", "upper", "lowest",
+                 "lowest_error", "lowest_discs"});
+    for (const NamedCurve& curve : curves) {
+        const Crossing c = find_crossing(curve.points);
+        RotationPoint lowest{not_known, not_known, not_known};
+        for (const RotationPoint& p : curve.points)
+            if (std::isfinite(p.mean) && !(p.mean >= lowest.mean)) lowest = p;
+        const char* const verdict =
+            c.verdict == Crossing::Verdict::crosses                 ? "crosses"
+            : c.verdict == Crossing::Verdict::always_rotates        ? "always rotates"
+            : c.verdict == Crossing::Verdict::always_counterrotates ? "always counterrotates"
+                                                                    : "undecided";
+        table.add({curve.name, std::string(verdict), c.discs, c.error, c.lower, c.upper,
+                   lowest.mean, lowest.error, lowest.discs});
+    }
+    table.write(file);
+}
+
+std::vector<std::string> joined(std::vector<std::string> front,
+                                const std::vector<std::string>& back) {
+    front.insert(front.end(), back.begin(), back.end());
+    return front;
+}
+
+}  // namespace swirl

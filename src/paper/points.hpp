@@ -1,0 +1,92 @@
+// The runs that the paper's figures share: one disc number at one pair of frictions, with the
+// paper's parameters. Several figures ask for the same point; it is run once.
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "swirl/files/table.hpp"
+#include "swirl/measure/crossing.hpp"
+#include "swirl/paper/paper.hpp"
+
+namespace swirl {
+
+/// A pair of frictions, as in Figure 5b.
+struct Friction {
+    const char* name;   // in tables and keys
+    const char* words;  // in sentences
+    double mu_disc, mu_wall;
+};
+
+// Caption of Figure 5: "When one friction is completely turned off, the other is set to 1.0."
+inline constexpr Friction high_friction{"high", "high friction", 1.0, 1.0};
+inline constexpr Friction medium_friction{"medium", "medium friction", 0.5, 0.5};
+inline constexpr Friction low_friction{"low", "low friction", 0.1, 0.1};
+inline constexpr Friction no_wall_friction{"no-wall", "no wall friction", 1.0, 0.0};
+inline constexpr Friction no_disc_friction{"no-disc", "no disc friction", 0.0, 1.0};
+inline constexpr Friction frictions_of_5b[] = {high_friction, medium_friction, low_friction,
+                                               no_wall_friction, no_disc_friction};
+
+/// N = 5 … 48; a choice of them when it must be quick.
+std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings);
+/// N = 24 … 48, the numbers of the experiment.
+std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings);
+
+/// The paper's 10^6 events, the seed of the study, and nothing else but defaults.
+RunConfig paper_config(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
+
+/// The rotation alone.
+PaperTask point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
+/// The same run with everything measured that the figures need.
+PaperTask measured_point(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs);
+
+/// The same at other parameters than the paper's; `name` says which.
+PaperTask varied_point(const std::string& name, const RunConfig& config);
+
+// --- reading results ------------------------------------------------------------------------
+
+/// Is it that of a run that failed?
+bool failed(const nlohmann::ordered_json& result);
+
+/// result["a"]["b"]…, or null if there is no such thing, as in the result of a run that failed.
+const nlohmann::ordered_json& at(const nlohmann::ordered_json& result,
+                                 std::initializer_list<std::string_view> path);
+
+/// What JSON has as null is not known: NaN.
+double number(const nlohmann::ordered_json& value);
+/// The same for a cell of a table that holds a whole number.
+Table::Cell whole(const nlohmann::ordered_json& value);
+
+/// Columns of the rotation, in the order of add_rotation(); empty for a run that failed.
+std::vector<std::string> rotation_columns();
+void add_rotation(std::vector<Table::Cell>& row, const nlohmann::ordered_json& result);
+
+/// "steady", "drifting", "too short to tell", or "failed".
+std::string steadiness(const nlohmann::ordered_json& result);
+
+/// The point of a curve: "by_event" or "by_time". Not known for a run that failed, and then no
+/// crossing looks at it.
+RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);
+
+/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or that it does not, and why.
+std::string crossing_sentence(std::span<const RotationPoint> curve);
+
+/// A curve by name, for the table of the crossings.
+struct NamedCurve {
+    std::string name;
+    std::vector<RotationPoint> points;
+};
+
+/// Where each of the curves crosses zero, or its lowest point if it does not.
+void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file);
+
+/// Columns of `front` before those of `back`.
+std::vector<std::string> joined(std::vector<std::string> front,
+                                const std::vector<std::string>& back);
+
+}  // namespace swirl

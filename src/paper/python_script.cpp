@@ -1,0 +1,101 @@
+#include "swirl/paper/python_script.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+
+#include "swirl/run/failure.hpp"
+
+extern char** environ;
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* interpreter = "/usr/bin/python3";
+
+/// Runs it to its end and returns what it wrote to stdout and stderr, and how it ended.
+struct Ended {
+    int status;
+    std::string said;
+};
+
+Ended run_program(const std::vector<std::string>& words) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw Failure(
+            fmt::format("No pipe could be made: {}.", std::generic_category().message(errno)));
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    const int error = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (error != 0) {
+        close(ends[0]);
+        throw Failure(
+            fmt::format("'{}' could not be started: {}. The figures need the Debian package "
+                        "python3-matplotlib; the tables are written.",
+                        words.front(), std::generic_category().message(error)));
+    }
+    Ended ended{0, ""};
+    std::array<char, 4096> block;
+    for (;;) {
+        const ssize_t got = read(ends[0], block.data(), block.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        ended.said.append(block.data(), static_cast<std::size_t>(got));
+    }
+    close(ends[0]);
+    while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
+    }
+    return ended;
+}
+
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
+}  // namespace
+
+fs::path figures_folder() {
+    if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given) return given;
+    std::error_code ignored;
+    for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+         folder.has_relative_path(); folder = folder.parent_path())
+        if (fs::exists(folder / "figures" / "style.py", ignored)) return folder / "figures";
+    throw Failure(
+        "The folder figures/ with the scripts that draw is not beside this program; set "
+        "SWIRL_FIGURES to where it is.");
+}
+
+void run_python_script(const std::string& script, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{interpreter, "-B", (figures_folder() / script).string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const Ended ended = run_program(words);
+    if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
+    if (ended.said.find("No module named 'matplotlib'") != ended.said.npos)
+        throw Failure(
+            "The tables are written, but the figures need matplotlib: install the Debian package "
+            "python3-matplotlib.");
+    throw Failure(fmt::format("The tables are written, but figures/{} failed: {}", script,
+                              ended.said.empty() ? "no reason given." : last_line(ended.said)));
+}
+
+}  // namespace swirl

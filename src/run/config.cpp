@@ -1,0 +1,164 @@
+#include "swirl/run/config.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "swirl/math/random.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/simulation/placement.hpp"
+
+namespace swirl {
+namespace {
+
+// Beyond these the arithmetic is still right but a result means nothing any more; most often a
+// number outside is a slip of the keyboard.
+constexpr double smallest = 1e-6, largest = 1e6;
+constexpr std::int64_t most_discs = 10'000'000;
+constexpr std::int64_t most_events = 1'000'000'000'000'000;
+constexpr std::int64_t most_periods = 1'000'000'000'000;
+constexpr std::int64_t most_sides = 1'000'000;
+
+/// No arrangement of equal discs covers more of the plane (Thue 1910): π/√12.
+constexpr double densest_packing = 0.9069;
+
+std::optional<std::string> outside(const char* name, double value, double from, double to) {
+    if (value >= from && value <= to) return {};
+    return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
+}
+
+std::optional<std::string> outside(const char* name, std::int64_t value, std::int64_t from,
+                                   std::int64_t to) {
+    if (value >= from && value <= to) return {};
+    return fmt::format("{} is {}, but it must be a whole number from {} to {}.", name, value, from,
+                       to);
+}
+
+std::optional<std::string> number_out_of_range(const RunConfig& c) {
+    const std::optional<std::string> answers[] = {
+        outside("--discs", c.discs, 1, most_discs),
+        outside("--mu-disc", c.mu_disc, 0.0, largest),
+        outside("--mu-wall", c.mu_wall, 0.0, largest),
+        outside("--restitution", c.restitution, 0.0, 1.0),
+        outside("--tangential-restitution", c.tangential_restitution, 0.0, 1.0),
+        outside("--mass", c.mass, smallest, largest),
+        outside("--radius", c.radius, smallest, largest),
+        outside("--inertia", c.inertia, 1e-12, 1e18),
+        outside("--container-radius", c.container_radius, smallest, largest),
+        outside("--amplitude", c.amplitude, 0.0, largest),
+        outside("--sides", std::int64_t{c.sides}, 3, most_sides),
+        outside("--period", c.period, smallest, largest),
+        outside("--contact-duration", c.contact_duration, 0.0, c.period),
+        outside("--events", c.events, 1, most_events),
+        outside("--periods", c.periods.value_or(1), 1, most_periods),
+        outside("--warmup", c.warmup.value_or(0), 0, most_periods),
+    };
+    for (const auto& answer : answers)
+        if (answer) return answer;
+    if (!c.mixture) return {};
+    if (auto answer = outside("the count in --mixture", c.mixture->count, 1, c.discs))
+        return answer;
+    if (auto answer = outside("the radius in --mixture", c.mixture->radius, smallest, largest))
+        return answer;
+    return outside("the mass in --mixture", c.mixture->mass, smallest, largest);
+}
+
+std::optional<std::string> does_not_fit(const RunConfig& c) {
+    const double R = c.container_radius;
+    const double big = c.mixture ? std::fmax(c.radius, c.mixture->radius) : c.radius;
+    if (big >= R)
+        return fmt::format(
+            "A disc of radius {} does not fit into a container of radius {}: --container-radius "
+            "must be larger than --radius.",
+            big, R);
+    double area = static_cast<double>(c.discs) * c.radius * c.radius;
+    if (c.mixture) {
+        const auto count = static_cast<double>(c.mixture->count);
+        area += count * (c.mixture->radius * c.mixture->radius - c.radius * c.radius);
+    }
+    // Mixtures of two sizes can be a little denser than equal discs.
+    const double limit = c.mixture ? 1.0 : densest_packing;
+    if (area <= limit * R * R) return {};
+    return fmt::format(
+        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
+        "it, and more than {:.0f} % is impossible; fewer --discs or a larger --container-radius "
+        "would be right.",
+        c.discs, R, 100.0 * area / (R * R), 100.0 * limit);
+}
+
+std::optional<std::string> warmup_too_long(const RunConfig& c) {
+    if (!c.warmup || *c.warmup == 0) return {};
+    if (c.periods) {
+        if (*c.warmup < *c.periods) return {};
+        return fmt::format(
+            "--warmup is {} periods, but the whole run is only --periods {}: the warm-up must be "
+            "shorter than the run.",
+            *c.warmup, *c.periods);
+    }
+    // Every swirl has at least the events at the ends of its legs.
+    const std::int64_t legs = c.path == PathShape::circle || c.amplitude == 0.0 ? 1 : c.sides;
+    if (*c.warmup < c.events / legs + 1) return {};
+    return fmt::format(
+        "--warmup is {} periods, but a run of --events {} cannot be longer than {} periods: the "
+        "warm-up must be shorter than the run.",
+        *c.warmup, c.events, c.events / legs);
+}
+
+}  // namespace
+
+std::optional<std::string> problem(const RunConfig& config) {
+    if (auto answer = number_out_of_range(config)) return answer;
+    if (auto answer = does_not_fit(config)) return answer;
+    return warmup_too_long(config);
+}
+
+ContainerPath make_path(const RunConfig& c) {
+    return c.path == PathShape::circle ? circular_path(c.amplitude, c.period)
+                                       : polygon_path(c.amplitude, c.period, c.sides);
+}
+
+double container_speed(const RunConfig& c) {
+    if (c.path == PathShape::circle) return c.amplitude * c.omega();
+    return 2.0 * c.amplitude * c.sides * std::sin(pi / c.sides) / c.period;
+}
+
+InitialState make_initial_state(const RunConfig& c) {
+    const auto n = static_cast<std::size_t>(c.discs);
+    const std::size_t second = c.mixture ? static_cast<std::size_t>(c.mixture->count) : 0;
+    std::vector<double> radii(n, c.radius);
+    for (std::size_t i = n - second; i < n; ++i) radii[i] = c.mixture->radius;
+
+    const auto centres = place_discs(radii, c.container_radius, c.seed);
+    if (!centres)
+        throw WrongCall(fmt::format(
+            "{} discs of radius {}{} could not be placed in a container of radius {} without "
+            "overlap; fewer --discs or a larger --container-radius would be right.",
+            c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
+            c.container_radius));
+
+    InitialState scene{{},
+                       make_path(c),
+                       c.container_radius,
+                       {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
+                       {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration}};
+    // Small against the container's speed (a tenth of it in the paper's dish), and there also when
+    // the container stands still.
+    const double small_speed = 0.02 * c.container_radius * c.omega();
+    const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
+    const Leg& leg = scene.path.legs.front();
+    // A stream of its own: the velocities must not repeat the numbers that placed the discs.
+    Random random(Random(c.seed ^ 0x76656c6f63697479u).bits());
+    scene.discs.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double mass = i < n - second ? c.mass : c.mixture->mass;
+        const double inertia =
+            i < n - second ? c.inertia : inertia_factor * mass * radii[i] * radii[i];
+        scene.discs.push_back({leg.start + (*centres)[i],
+                               leg.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0, radii[i],
+                               mass, inertia});
+    }
+    return scene;
+}
+
+}  // namespace swirl

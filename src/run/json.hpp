@@ -1,0 +1,24 @@
+// A run's configuration and result as JSON: the names are those of the options, the numbers those
+// of docs/physics.md, each written so that reading it back gives the same double. What is not known
+// (an error from too few blocks) is null.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/run.hpp"
+
+namespace swirl {
+
+/// Every parameter, resolved, in the order of `swirl run --help`.
+nlohmann::ordered_json config_json(const RunConfig& config);
+
+/// The parameters that resolve() to that configuration again.
+ParameterTexts parameters_in(const nlohmann::ordered_json& config);
+
+/// {"mean", "error", "effective_samples", "blocks"}
+nlohmann::ordered_json estimate_json(const Estimate& estimate);
+
+nlohmann::ordered_json result_json(const RunResult& result);
+
+}  // namespace swirl

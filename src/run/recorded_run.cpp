@@ -1,0 +1,211 @@
+#include "swirl/run/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "swirl/files/checkpoint.hpp"
+#include "swirl/files/event_log.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/version.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+Json frames_json(const RunFiles& files) {
+    if (files.trajectory.empty()) return nullptr;
+    if (files.frames.events) return Json{{"events", *files.frames.events}};
+    if (files.frames.interval) return Json{{"interval", *files.frames.interval}};
+    return Json{{"per_swirl", files.frames.per_swirl}};
+}
+
+/// What must agree for a run to be resumed.
+Json identity(const RunConfig& config, const RunFiles& files,
+              const std::vector<Gatherer>& gatherers) {
+    Json gathered = Json::array();
+    for (const Gatherer& gatherer : gatherers) gathered.push_back(gatherer.name);
+    return {{"parameters", config_json(config)},
+            {"frames", frames_json(files)},
+            {"event_log", !files.event_log.empty()},
+            {"measured", gathered}};
+}
+
+std::string difference(const Json& there, const Json& here) {
+    for (const auto& [name, value] : here.at("parameters").items())
+        if (there.at("parameters").value(name, Json()) != value)
+            return fmt::format("{} is {} there and {} here", name,
+                               there["parameters"].value(name, Json()).dump(), value.dump());
+    if (there.at("frames") != here.at("frames"))
+        return fmt::format("the frames of its trajectory are {} there and {} here",
+                           there["frames"].dump(), here["frames"].dump());
+    if (there.value("event_log", false) != here.at("event_log"))
+        return "one of the two writes an event log and the other does not";
+    return fmt::format("it measures {} there and {} here",
+                       there.value("measured", Json::array()).dump(), here.at("measured").dump());
+}
+
+class Recorder {
+  public:
+    Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
+             const std::vector<Gatherer>& gatherers)
+        : config_(config), files_(files), gatherers_(gatherers), last_kept_(Clock::now()) {
+        if (files.resume && std::filesystem::exists(files.checkpoint))
+            resume();
+        else
+            start(provenance);
+    }
+
+    RunResult operator()(RunControl control) {
+        add_to(control);
+        const RunResult result = run(config_, control);
+        if (!result.complete) {
+            if (trajectory_) trajectory_->flush(true);
+            if (event_log_) event_log_->flush(true);
+            return result;
+        }
+        if (trajectory_) trajectory_->finish();
+        if (event_log_) event_log_->finish();
+        return result;
+    }
+
+  private:
+    void start(const Provenance& provenance) {
+        if (files_.trajectory.empty() && files_.event_log.empty()) return;
+        const InitialState scene = make_initial_state(config_);
+        const Snapshot first = Simulation(scene).snapshot();
+        if (!files_.trajectory.empty())
+            trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
+        if (!files_.event_log.empty())
+            event_log_.emplace(files_.event_log, first, scene.path.legs.back().end, provenance,
+                               files_.compression);
+    }
+
+    void resume() {
+        const Checkpoint kept = read_checkpoint(files_.checkpoint);
+        const Json about = Json::parse(kept.about), here = identity(config_, files_, gatherers_);
+        if (about.at("identity") != here)
+            throw WrongCall(fmt::format(
+                "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
+                "or choose another checkpoint with --checkpoint.",
+                files_.checkpoint.string(), difference(about.at("identity"), here)));
+        StateReader state(kept.state);
+        std::uint64_t frames = 0, events = 0;
+        resumed_.emplace();
+        state(frames, events, *resumed_);
+        for (const Gatherer& gatherer : gatherers_) gatherer.resume(state);
+        state.expect_end();
+        if (!files_.trajectory.empty())
+            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames);
+        if (!files_.event_log.empty())
+            event_log_ = EventLogWriter::resume(files_.event_log, events);
+    }
+
+    void add_to(RunControl& control) {
+        control.resume = std::move(resumed_);
+        if (trajectory_ && !files_.frames.events) {
+            const auto write = [this](const Snapshot& s) { trajectory_->write(s, events_); };
+            control.samplers.push_back(
+                {files_.frames.per_swirl, write, files_.frames.interval.value_or(0.0)});
+        }
+        const auto asked = std::move(control.after_event);
+        if (asked || trajectory_ || event_log_)
+            control.after_event = [this, asked](const Snapshot& s, const Event& event) {
+                if (event_log_) event_log_->write(event);
+                ++events_;
+                if (trajectory_ && files_.frames.events &&
+                    events_ % std::uint64_t(*files_.frames.events) == 0)
+                    trajectory_->write(s, events_);
+                if (asked) asked(s, event);
+            };
+        if (control.resume) events_ = events_in(*control.resume);
+        if (files_.checkpoint.empty()) return;
+        control.wants_state = [this](bool stopped) {
+            if (given_up_) return false;
+            return stopped || std::chrono::duration<double>(Clock::now() - last_kept_).count() >=
+                                  files_.checkpoint_every;
+        };
+        control.keep_state = [this](const std::string& state) {
+            try {
+                keep(state);
+            } catch (const FileError& error) {
+                if (files_.checkpoint_needed) throw;
+                given_up_ = true;
+                if (files_.complain)
+                    files_.complain(
+                        fmt::format("{} The run goes on without checkpoints.", error.what()));
+            }
+        };
+    }
+
+    static std::uint64_t events_in(const std::string& state) {
+        // The moment comes first: swirls, clock, leg, events (run.cpp).
+        StateReader reader(state);
+        Progress p;
+        reader(p.swirls, p.clock, p.leg, p.events);
+        return p.events.total();
+    }
+
+    /// What the checkpoint counts on must be on the disk before it.
+    void keep(const std::string& run_state) {
+        if (trajectory_) trajectory_->flush(true);
+        if (event_log_) event_log_->flush(true);
+        StateWriter state;
+        std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
+        std::uint64_t events = event_log_ ? event_log_->events() : 0;
+        state(frames, events);
+        state(run_state);
+        for (const Gatherer& gatherer : gatherers_) gatherer.keep(state);
+        const Json about{{"version", version()},
+                         {"identity", identity(config_, files_, gatherers_)},
+                         {"call", files_.call}};
+        write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
+        last_kept_ = Clock::now();
+    }
+
+    const RunConfig& config_;
+    const RunFiles& files_;
+    const std::vector<Gatherer>& gatherers_;
+    std::optional<TrajectoryWriter> trajectory_;
+    std::optional<EventLogWriter> event_log_;
+    std::optional<std::string> resumed_;
+    std::uint64_t events_ = 0;
+    bool given_up_ = false;
+    Clock::time_point last_kept_;
+};
+
+}  // namespace
+
+RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
+                       const Provenance& provenance, const std::vector<Gatherer>& gatherers) {
+    return Recorder(config, files, provenance, gatherers)(control);
+}
+
+void forget_checkpoint(const RunFiles& files) {
+    std::error_code ignored;
+    if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
+}
+
+KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
+    const Json about = Json::parse(read_checkpoint(checkpoint).about);
+    return {about.at("identity").at("parameters").dump(), about.value("call", ParameterTexts())};
+}
+
+Provenance provenance_of(const RunConfig& config, const std::string& command,
+                         const std::string& config_text) {
+    return {{"version", version()},
+            {"build", build_description()},
+            {"command", command},
+            {"config", config_text},
+            {"parameters", config_json(config).dump()},
+            {"seed", fmt::format("{}", config.seed)},
+            {"generator", random_generator}};
+}
+
+}  // namespace swirl

@@ -1,0 +1,138 @@
+#include "swirl/run/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace swirl {
+namespace {
+
+std::string with_minus(const std::string& text) {
+    return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
+
+std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
+
+bool frictionless(const RunConfig& c) { return c.mu_disc == 0.0 && c.mu_wall == 0.0; }
+
+std::string energy_sentence(const RunResult& r) {
+    const double growth = r.invariant - r.invariant_at_start;
+    const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
+    if (r.config.path == PathShape::circle)
+        return fmt::format(
+            "Without friction on the true circle K − ΩL is conserved: it was {:.6g} at the start "
+            "and "
+            "changed by {:.1e}.",
+            r.invariant_at_start, growth);
+    return fmt::format(
+        "Without friction the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
+        "{:.1f} periods, {:.1f} times as much. K − ΩL, which a true circle (--path circle) would "
+        "conserve, grew by {:.4g}, or {:.3g} per period; the averages belong to no steady state.",
+        r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
+}
+
+std::string drift_sentence(const char* what, const SteadyState& steady) {
+    if (steady.drifts())
+        return fmt::format(
+            "Not steady: the {} was still changing after the warm-up ({:.1f} standard errors "
+            "between its first and last part); a longer --warmup and a longer run would be right.",
+            what, std::fabs(steady.drift));
+    return fmt::format(
+        "Perhaps not steady: going by the {}, the search for the end of the warm-up would leave "
+        "out another {} blocks, half of the run or more; a longer run would tell.",
+        what, steady.warm_up);
+}
+
+/// Nothing to be said of a single disc, which has no rotation about itself.
+std::string too_short_sentence(const RunResult& r) {
+    return fmt::format(
+        "Too short to tell whether it is steady: {} periods after the warm-up, and it takes {}.",
+        r.rotation.by_event.blocks, least_blocks_of_a_steady_state);
+}
+
+}  // namespace
+
+std::string with_commas(std::uint64_t number) {
+    std::string text;
+    const std::string digits = std::to_string(number);
+    for (std::size_t k = 0; k < digits.size(); ++k) {
+        if (k > 0 && (digits.size() - k) % 3 == 0) text += ',';
+        text += digits[k];
+    }
+    return text;
+}
+
+std::string with_error(double mean, double error) {
+    if (std::isnan(mean)) return "not known";
+    if (std::isnan(error) || error <= 0.0) return with_minus(fmt::format("{:.3g}", mean));
+    if (error < 1e-9) return with_minus(fmt::format("{:.2g} ± {:.1g}", mean, error));
+    // Two digits of an error that begins with 1, one of any other.
+    const double exponent = std::floor(std::log10(error));
+    const double leading = error / std::pow(10.0, exponent);
+    const int digits = static_cast<int>((leading < 1.95 ? 1.0 : 0.0) - exponent);
+    const int decimals = std::clamp(digits, 0, 12);
+    return with_minus(fmt::format("{:.{}f} ± {:.{}f}", mean, decimals, error, decimals));
+}
+
+std::string sense_of_rotation(const Estimate& e) {
+    if (std::isnan(e.mean)) return "have no rotation about their own centre";
+    const double uncertain = std::isnan(e.error) ? 0.0 : 2.0 * e.error;
+    if (std::fabs(e.mean) <= uncertain) return "stall";
+    return e.mean > 0.0 ? "rotate" : "counterrotate";
+}
+
+std::string headline(const RunResult& r) {
+    const Estimate& e = r.rotation.by_event;
+    if (r.config.discs == 1) return "1 disc has no rotation about its own centre of mass.";
+    const std::string who = fmt::format("{} discs {}", r.config.discs, sense_of_rotation(e));
+    if (std::isnan(e.mean)) return who + ".";
+    return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", who, with_error(e),
+                       with_error(r.rotation.by_time));
+}
+
+std::string report(const RunResult& r) {
+    std::string text = headline(r) + "\n";
+    const auto line = [&](std::string_view name, const std::string& value) {
+        text += fmt::format("  {:<12}{}\n", name, value);
+    };
+    if (r.config.discs > 1) {
+        line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
+                                  with_error(r.rotation.rigid_by_time)));
+        line("errors",
+             fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
+                         r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
+    }
+    line("events", fmt::format("{}: {} disc–disc, {} disc–wall, {} corners of the path",
+                               with_commas(r.events.total()), with_commas(r.events.disc_disc),
+                               with_commas(r.events.disc_wall), with_commas(r.events.path_vertex)));
+    line("periods",
+         fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
+                     r.warmup, r.config.warmup_found ? " (found automatically)" : ""));
+    line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
+    line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
+    line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
+    line("time",
+         fmt::format("{:.2f} s, {:.2f} million events/s", r.seconds, r.events_per_second() / 1e6));
+    for (const std::string& warning : warnings(r)) text += warning + "\n";
+    return text;
+}
+
+std::vector<std::string> warnings(const RunResult& r) {
+    std::vector<std::string> all;
+    if (!r.complete)
+        all.push_back(
+            fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
+                        r.periods, with_commas(r.events.total())));
+    if (frictionless(r.config) && r.config.amplitude > 0.0 && r.config.restitution == 1.0)
+        all.push_back(energy_sentence(r));
+    else if (r.steady.verdict == SteadyState::Verdict::drifting)
+        all.push_back(drift_sentence("rotation", r.steady));
+    else if (r.steady_spin.verdict == SteadyState::Verdict::drifting)
+        all.push_back(drift_sentence("mean spin of the discs", r.steady_spin));
+    else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1)
+        all.push_back(too_short_sentence(r));
+    return all;
+}
+
+}  // namespace swirl

@@ -1,5 +1,0 @@
-#include "simulation/event_loops.hpp"
-
-namespace swirl {
-const EventLoops event_loops_baseline = event_loops("baseline", 32);
-}  // namespace swirl

@@ -1,0 +1,249 @@
+#include "swirl/study/crossing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/study/all_cores.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr int coarse_points = 8;
+constexpr std::int64_t beside = 3;  // numbers on either side of the change of sign
+
+class Search {
+  public:
+    Search(const CrossingSettings& settings, const CrossingControl& control)
+        : settings_(settings), control_(control) {}
+
+    CrossingSearch operator()() {
+        look_at(coarse_numbers(), settings_.config.events, "coarse look");
+        narrow();
+        for (int round = 0; round < settings_.rounds && !good_enough(); ++round)
+            look_at(window(), settings_.config.events << round, "more events");
+        CrossingSearch search;
+        search.points = points();
+        for (const auto& [n, sum] : sums_) search.runs_made.push_back(sum.runs);
+        search.crossing = find_crossing(search.points);
+        search.events = events_;
+        search.runs = runs_;
+        for (const std::int64_t n : changes_sign() ? window() : all_numbers())
+            search.drifting += sums_.at(n).drifting;
+        search.within_tolerance = good_enough();
+        search.seconds = seconds();
+        return search;
+    }
+
+  private:
+    struct Sum {
+        double mean = 0.0, square_error = 0.0, weight = 0.0;
+        std::int64_t runs = 0, drifting = 0;
+    };
+
+    std::set<std::int64_t> coarse_numbers() const {
+        std::set<std::int64_t> numbers;
+        for (int k = 0; k < coarse_points; ++k)
+            numbers.insert(settings_.from +
+                           (settings_.to - settings_.from) * k / (coarse_points - 1));
+        return numbers;
+    }
+
+    std::set<std::int64_t> all_numbers() const {
+        std::set<std::int64_t> numbers;
+        for (const auto& [n, sum] : sums_) numbers.insert(n);
+        return numbers;
+    }
+
+    std::vector<RotationPoint> points() const {
+        std::vector<RotationPoint> all;
+        for (const auto& [n, sum] : sums_)
+            all.push_back({static_cast<double>(n), sum.mean / sum.weight,
+                           std::sqrt(sum.square_error) / sum.weight});
+        return all;
+    }
+
+    /// The neighbours between which the sign changes, as well as one can tell: the last of the cut
+    /// that leaves most rotation on its left and most counterrotation on its right.
+    std::pair<std::int64_t, std::int64_t> bracket() const {
+        const auto all = points();
+        std::pair<std::int64_t, std::int64_t> best{0, 0};
+        double most = 0.0;
+        for (std::size_t cut = 1; cut < all.size(); ++cut) {
+            double score = 0.0;
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                // A sign is certain at three errors; more certain than that does not count more.
+                const double sign = std::clamp(all[k].mean / (3.0 * all[k].error), -1.0, 1.0);
+                score += k < cut ? sign : -sign;
+            }
+            if (cut > 1 && score <= most) continue;
+            most = score;
+            best = {std::int64_t(all[cut - 1].discs), std::int64_t(all[cut].discs)};
+        }
+        return best;
+    }
+
+    bool changes_sign() const {
+        bool positive = false, negative = false;
+        for (const RotationPoint& p : points()) {
+            positive = positive || p.mean > 2.0 * p.error;
+            negative = negative || p.mean < -2.0 * p.error;
+        }
+        return positive && negative;
+    }
+
+    void narrow() {
+        while (changes_sign()) {
+            const auto [left, right] = bracket();
+            if (right - left <= 1) break;
+            look_at({(left + right) / 2}, settings_.config.events, "narrowing");
+        }
+        if (!changes_sign()) return;
+        std::set<std::int64_t> missing;
+        for (const std::int64_t n : window())
+            if (!sums_.contains(n)) missing.insert(n);
+        look_at(missing, settings_.config.events, "narrowing");
+    }
+
+    /// Where more events help: about the crossing; without one, where the sign is least certain.
+    std::set<std::int64_t> window() const {
+        std::set<std::int64_t> numbers;
+        if (changes_sign()) {
+            const auto [left, right] = bracket();
+            for (std::int64_t k = 0; k < beside; ++k) {
+                numbers.insert(std::max(left - k, settings_.from));
+                numbers.insert(std::min(right + k, settings_.to));
+            }
+            return numbers;
+        }
+        auto all = points();
+        std::sort(all.begin(), all.end(), [](const RotationPoint& a, const RotationPoint& b) {
+            return std::fabs(a.mean / a.error) < std::fabs(b.mean / b.error);
+        });
+        for (std::size_t k = 0; k < std::min<std::size_t>(3, all.size()); ++k)
+            numbers.insert(std::int64_t(all[k].discs));
+        return numbers;
+    }
+
+    bool good_enough() const {
+        const Crossing crossing = find_crossing(points());
+        if (crossing.verdict == Crossing::Verdict::crosses)
+            return crossing.error <= settings_.tolerance;
+        if (crossing.verdict == Crossing::Verdict::undecided) return false;
+        // No crossing: every sign must be certain.
+        for (const RotationPoint& p : points())
+            if (!(std::fabs(p.mean) > 3.0 * p.error)) return false;
+        return true;
+    }
+
+    void look_at(const std::set<std::int64_t>& numbers, std::int64_t events, const char* stage) {
+        const std::vector<std::int64_t> order(numbers.rbegin(), numbers.rend());  // long ones first
+        std::vector<RunResult> results(order.size());
+        on_all_cores(
+            order.size(),
+            [&](std::size_t k) {
+                RunConfig config = settings_.config;
+                config.discs = order[k];
+                config.events = events;
+                config.seed += static_cast<std::uint64_t>(runs_at(order[k]));
+                RunControl inner;
+                inner.stop = control_.stop;
+                results[k] = run(config, inner);
+                if (!results[k].complete)
+                    throw Interrupted("Stopped before the crossing was found.");
+                report(stage, results[k].events.total());
+            },
+            control_.threads);
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const RunResult& r = results[k];
+            const double weight = r.periods - static_cast<double>(r.warmup);
+            Sum& sum = sums_[order[k]];
+            sum.mean += weight * r.rotation.by_time.mean;
+            sum.square_error += std::pow(weight * r.rotation.by_time.error, 2);
+            sum.weight += weight;
+            ++sum.runs;
+            ++runs_;
+            sum.drifting += r.steady_state() == SteadyState::Verdict::drifting ? 1 : 0;
+        }
+    }
+
+    std::int64_t runs_at(std::int64_t n) const {
+        const auto found = sums_.find(n);
+        return found == sums_.end() ? 0 : found->second.runs;
+    }
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+    void report(const char* stage, std::uint64_t events) {
+        const std::lock_guard lock(mutex_);
+        events_ += events;
+        if (control_.progress) control_.progress(stage, static_cast<double>(events_) / seconds());
+    }
+
+    const CrossingSettings& settings_;
+    const CrossingControl& control_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::map<std::int64_t, Sum> sums_;
+    std::mutex mutex_;
+    std::uint64_t events_ = 0, runs_ = 0;
+};
+
+}  // namespace
+
+CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
+    if (!(settings.from >= 2 && settings.to > settings.from))
+        throw WrongCall(fmt::format(
+            "The search goes from --from {} to --to {} discs, but it must begin at 2 or more and "
+            "end above its beginning.",
+            settings.from, settings.to));
+    RunConfig largest = settings.config;
+    largest.discs = settings.to;
+    if (const auto wrong = problem(largest)) throw WrongCall(*wrong);
+    if (!(settings.tolerance > 0.0))
+        throw WrongCall(
+            fmt::format("--tolerance is {}, but it must be above 0: the standard error "
+                        "of N_c that is wanted.",
+                        settings.tolerance));
+    return Search(settings, control)();
+}
+
+std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {
+    const Crossing& c = search.crossing;
+    const auto lowest = std::min_element(
+        search.points.begin(), search.points.end(),
+        [](const RotationPoint& a, const RotationPoint& b) { return a.mean < b.mean; });
+    const std::string evidence =
+        fmt::format("between N = {} and {} the lowest is ϖ/Ω = {} at N = {:.0f}", settings.from,
+                    settings.to, with_error(lowest->mean, lowest->error), lowest->discs);
+    switch (c.verdict) {
+        case Crossing::Verdict::crosses:
+            return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}){}", with_error(c.discs, c.error),
+                               c.lower, c.upper,
+                               search.within_tolerance
+                                   ? "."
+                                   : fmt::format("; the error is still above the {} that was asked "
+                                                 "for, so more --events would be right.",
+                                                 settings.tolerance));
+        case Crossing::Verdict::always_rotates:
+            return fmt::format(
+                "No crossing: the discs always rotate; {}, {:.0f} errors above zero.", evidence,
+                lowest->mean / lowest->error);
+        case Crossing::Verdict::always_counterrotates:
+            return fmt::format("No crossing: the discs always counterrotate; {}.", evidence);
+        case Crossing::Verdict::undecided:
+            break;
+    }
+    return fmt::format(
+        "Undecided: {}; the errors are too large to tell, and more --events would be "
+        "right.",
+        evidence);
+}
+
+}  // namespace swirl

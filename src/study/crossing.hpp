@@ -1,0 +1,58 @@
+// Finding N_c, the number of discs at which rotation turns into counterrotation, with as few events
+// as it takes: `swirl crossing`.
+//
+// 1. A coarse look: runs at about eight numbers of discs over the range.
+// 2. Between the neighbours where the sign changes, runs in the middle, until they are next to each
+//    other; then the three numbers on either side, which is what the line of measure/crossing.hpp
+//    is drawn through.
+// 3. As long as N_c is less certain than asked for, one more run at each of those numbers, with a
+//    new seed and twice as many events as the last one.
+//
+// Runs at one number of discs are put together with the periods they cover as weights. Which runs
+// are made depends on their results and the seed alone, never on how many cores there are.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "swirl/measure/crossing.hpp"
+#include "swirl/run/run.hpp"
+
+namespace swirl {
+
+struct CrossingSettings {
+    RunConfig
+        config;  // its number of discs does not matter; its events are those of the first runs
+    std::int64_t from = 5, to = 48;
+    double tolerance = 0.3;  // wanted standard error of N_c
+    int rounds = 6;          // of step 3, at most
+};
+
+struct CrossingSearch {
+    Crossing crossing;
+    std::vector<RotationPoint> points;    // by time, in the order of N
+    std::vector<std::int64_t> runs_made;  // at each of them
+    std::uint64_t events = 0, runs = 0;
+    /// Of the runs that the crossing rests on (of all, if there is none): how many had not reached
+    /// a steady state after their warm-up.
+    std::int64_t drifting = 0;
+    bool within_tolerance = false;
+    double seconds = 0.0;
+};
+
+struct CrossingControl {
+    const std::atomic<bool>* stop = nullptr;
+    std::function<void(const std::string& stage, double events_per_second)> progress;
+    unsigned threads = 0;  // 0: all cores
+};
+
+/// Throws Interrupted when stopped, WrongCall if the range is empty or the discs do not fit.
+CrossingSearch search_crossing(const CrossingSettings& settings,
+                               const CrossingControl& control = {});
+
+/// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
+std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
+
+}  // namespace swirl

@@ -1,0 +1,601 @@
+#include "swirl/study/sweep.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "swirl/files/checksum.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/result_writer.hpp"
+#include "swirl/files/whole_file.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/recorded_run.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/study/all_cores.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int result_format = 1;
+constexpr std::size_t most_points = 10'000'000;
+
+std::string number_of(std::size_t point) { return fmt::format("{:06}", point); }
+fs::path result_file(const fs::path& folder, std::size_t point) {
+    return folder / "results" / (number_of(point) + ".json");
+}
+
+/// The numbers of the files NUMBER.ending in a folder; one look at the folder, whatever its size.
+std::vector<bool> present(const fs::path& folder, std::string_view ending, std::size_t points) {
+    std::vector<bool> there(points, false);
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        std::size_t point = 0;
+        const auto [stop, wrong] = std::from_chars(name.data(), name.data() + name.size(), point);
+        if (wrong == std::errc() && point < points &&
+            std::string_view(stop, std::size_t(name.data() + name.size() - stop)) == ending)
+            there[point] = true;
+    }
+    return there;
+}
+
+/// Who works on what: as long as a process does a point, it has the point's byte of one file
+/// locked. One file for all, because a file system may take its time for files that come and go.
+/// Only a courtesy: work done twice does no harm.
+class Claims {
+  public:
+    explicit Claims(const fs::path& folder)
+        : handle_(::open((folder / "claims").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+        if (handle_ < 0)
+            throw FileError(fmt::format("'{}' could not be written: {}.",
+                                        (folder / "claims").string(), system_reason()));
+    }
+    ~Claims() { ::close(handle_); }
+    Claims(const Claims&) = delete;
+    Claims& operator=(const Claims&) = delete;
+
+    /// False if another process works on the point.
+    bool take(std::size_t point) {
+        struct flock lock = on(point, 1, F_WRLCK);
+        return ::fcntl(handle_, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
+    }
+    void give_back(std::size_t point) {
+        struct flock lock = on(point, 1, F_UNLCK);
+        ::fcntl(handle_, F_OFD_SETLK, &lock);
+    }
+
+    /// The points that somebody works on.
+    static std::vector<bool> taken(const fs::path& folder, std::size_t points) {
+        std::vector<bool> taken(points, false);
+        const int handle = ::open((folder / "claims").c_str(), O_RDWR | O_CLOEXEC);
+        for (std::size_t from = 0; handle >= 0 && from < points;) {
+            struct flock lock = on(from, points - from, F_WRLCK);
+            if (::fcntl(handle, F_OFD_GETLK, &lock) != 0 || lock.l_type == F_UNLCK) break;
+            const auto first = static_cast<std::size_t>(lock.l_start);
+            const std::size_t end =
+                lock.l_len > 0 ? std::min(points, first + static_cast<std::size_t>(lock.l_len))
+                               : points;
+            std::fill(taken.begin() + std::ptrdiff_t(std::min(first, points)),
+                      taken.begin() + std::ptrdiff_t(end), true);
+            from = std::max(end, from + 1);
+        }
+        if (handle >= 0) ::close(handle);
+        return taken;
+    }
+
+  private:
+    static struct flock on(std::size_t point, std::size_t count, int type) {
+        struct flock lock {};
+        lock.l_type = static_cast<short>(type);
+        lock.l_whence = SEEK_SET;
+        lock.l_start = static_cast<off_t>(point);
+        lock.l_len = static_cast<off_t>(count);
+        return lock;
+    }
+
+    int handle_;
+};
+
+/// One point's claim, given back in the end.
+class Claim {
+  public:
+    static std::shared_ptr<Claim> on(const std::shared_ptr<Claims>& claims, std::size_t point) {
+        if (!claims->take(point)) return nullptr;
+        return std::make_shared<Claim>(claims, point);
+    }
+    Claim(std::shared_ptr<Claims> claims, std::size_t point)
+        : claims_(std::move(claims)), point_(point) {}
+    ~Claim() { claims_->give_back(point_); }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+
+  private:
+    std::shared_ptr<Claims> claims_;
+    std::size_t point_;
+};
+
+Json plan_json(const SweepPlan& plan) {
+    Json axes = Json::object();
+    for (const SweepAxis& axis : plan.axes) axes[axis.name] = axis.values;
+    Json json{{"format", result_format}, {"axes", axes}, {"replicas", plan.replicas}};
+    if (!plan.measure.empty()) json["measure"] = plan.measure;
+    if (plan.frames > 0) json["frames"] = plan.frames;
+    return json;
+}
+
+/// The call that does one point by itself.
+std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
+    std::string command = "swirl run";
+    for (const auto& [name, value] : plan.parameters(point))
+        if (name != "seed") command += fmt::format(" --{} {}", name, value);
+    if (!plan.measure.empty())
+        command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
+    return command + fmt::format(" --seed {}", seed);
+}
+
+std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
+
+std::vector<std::string> range(std::string_view name, std::string_view text) {
+    const auto refuse = [&](const char* why) {
+        throw WrongCall(fmt::format(
+            "--{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
+            "0:0.25:1.",
+            name, text, why));
+    };
+    std::vector<double> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(':', begin), text.size());
+        const auto part = read_number(text.substr(begin, end - begin));
+        if (!part) refuse("a part of it is not a number");
+        parts.push_back(*part);
+        begin = end + 1;
+    }
+    if (parts.size() > 3) refuse("it has more than three parts");
+    const double from = parts.front(), to = parts.back();
+    const double step = parts.size() == 3 ? parts[1] : 1.0;
+    if (!(step > 0.0) || to < from) refuse("it does not lead upwards");
+    const double count = std::floor((to - from) / step + 1e-9) + 1.0;
+    if (count > 1e6) refuse("it has more than a million values");
+    std::vector<std::string> values;
+    for (double k = 0.0; k < count; k += 1.0) values.push_back(with_digits(from + k * step));
+    return values;
+}
+
+/// Partial files of processes of this machine that are no more.
+void remove_leftovers(const fs::path& folder) {
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    const std::string mark = fmt::format(".{}-", host);
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        const std::size_t at = name.find(mark);
+        if (at == name.npos || !name.ends_with(partial_suffix)) continue;
+        const int pid = std::atoi(name.c_str() + at + mark.size());
+        std::error_code ignored;
+        if (pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH) fs::remove(it->path(), ignored);
+    }
+}
+
+class SweepWork {
+  public:
+    SweepWork(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
+              const SweepControl& control)
+        : folder_(folder),
+          plan_(plan),
+          share_(share),
+          control_(control),
+          claims_(std::make_shared<Claims>(folder)),
+          writer_(folder / "results") {}
+
+    SweepOutcome operator()() {
+        std::vector<std::size_t> mine, others;
+        const std::vector<bool> done = present(folder_ / "results", ".json", plan_.points());
+        for (std::size_t point = 0; point < plan_.points(); ++point)
+            if (!done[point])
+                (point % share_.parts == share_.part - 1 ? mine : others).push_back(point);
+        all_ = double(mine.size() + (share_.rest ? others.size() : 0));
+        work_on(mine);
+        if (share_.rest) work_on(others);
+        writer_.finish();
+        outcome_.stopped = control_.stop && control_.stop->load();
+        return outcome_;
+    }
+
+  private:
+    void work_on(const std::vector<std::size_t>& points) {
+        on_all_cores(
+            points.size(), [&](std::size_t k) { try_point(points[k]); }, share_.threads);
+    }
+
+    void try_point(std::size_t point) {
+        if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
+        const std::shared_ptr<Claim> claim = Claim::on(claims_, point);
+        if (!claim) {
+            const std::lock_guard lock(mutex_);
+            ++outcome_.elsewhere;
+            return;
+        }
+        // Done by somebody else in the meantime?
+        if (::access(result_file(folder_, point).c_str(), F_OK) == 0) return count(0, 0);
+        std::string failure;
+        try {
+            if (!do_point(point, claim)) return;
+        } catch (const FileError& error) {
+            throw;  // the folder is in trouble, not the point
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+        const fs::path note = folder_ / "failures" / (number_of(point) + ".txt");
+        if (failure.empty()) {
+            if (failed_before_[point]) ::unlink(note.c_str());
+            return;
+        }
+        write_whole_file(note, failure + "\n");
+        const std::lock_guard lock(mutex_);
+        if (outcome_.failed++ == 0)
+            outcome_.first_failure = fmt::format("point {}: {}", point, failure);
+    }
+
+    /// False if it was stopped before its end.
+    bool do_point(std::size_t point, const std::shared_ptr<Claim>& claim) {
+        const RunConfig config = plan_.config(point);
+        RunFiles files;
+        files.checkpoint = folder_ / "checkpoints" / (number_of(point) + ".checkpoint");
+        files.resume = true;
+        if (plan_.frames > 0)
+            files.trajectory = folder_ / "trajectories" / (number_of(point) + ".h5");
+        files.frames.per_swirl = std::max(plan_.frames, 1);
+        RunMeasurements measurements(config, plan_.measure);
+        RunControl run_control;
+        run_control.stop = control_.stop;
+        double counted = 0.0;
+        std::uint64_t counted_events = 0;
+        run_control.progress = [&](const RunProgress& p) {
+            count(p.fraction - counted, p.events - counted_events);
+            counted = p.fraction;
+            counted_events = p.events;
+        };
+        measurements.attach_to(run_control);
+        const std::string command = command_of(plan_, point, config.seed);
+        Provenance provenance;  // only recordings need it
+        if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
+        const RunResult result =
+            run_recorded(config, files, run_control, provenance, measurements.gatherers());
+        if (!result.complete) return false;
+        count(1.0 - counted, result.events.total() - counted_events);
+
+        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
+        Json found = result_json(result);
+        for (auto& [name, value] : found.items()) json[name] = std::move(value);
+        json["command"] = command;
+        if (!plan_.measure.empty()) json["measured"] = measurements.results();
+        writer_.write(number_of(point) + ".json", json.dump() + "\n",
+                      [files, claim] { forget_checkpoint(files); });
+        const std::lock_guard lock(mutex_);
+        ++outcome_.done;
+        return true;
+    }
+
+    void count(double points, std::uint64_t events) {
+        const std::lock_guard lock(mutex_);
+        done_ += points;
+        events_ += events;
+        if (control_.progress) control_.progress(done_, all_, events_);
+    }
+
+    const fs::path folder_;
+    const SweepPlan& plan_;
+    const std::string plan_text_ = plan_json(plan_).dump();
+    const SweepShare share_;
+    const SweepControl& control_;
+    const std::shared_ptr<Claims> claims_;
+    const std::vector<bool> failed_before_ = present(folder_ / "failures", ".txt", plan_.points());
+    ResultWriter writer_;
+    std::mutex mutex_;
+    SweepOutcome outcome_;
+    double done_ = 0.0, all_ = 0.0;
+    std::uint64_t events_ = 0;
+};
+
+constexpr const char* estimators[] = {"by_event", "by_time", "rigid_by_event", "rigid_by_time"};
+
+struct PointResult {
+    bool there = false;
+    /// The four estimators of the rotation, then the numbers that were measured.
+    std::vector<std::pair<std::string, Estimate>> quantities;
+    double energy = 0.0, periods = 0.0;
+    std::string state_hash;
+
+    /// The quantity of this name; nearly always it is the one in this place.
+    Estimate quantity(std::size_t place, const std::string& name) const {
+        if (place < quantities.size() && quantities[place].first == name)
+            return quantities[place].second;
+        for (const auto& [other, estimate] : quantities)
+            if (other == name) return estimate;
+        return {.mean = not_known, .error = not_known};
+    }
+};
+
+/// Keeps what a table needs of a result; building the rest would take most of the time.
+bool needed(int depth, Json::parse_event_t event, Json& parsed) {
+    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
+    static constexpr std::string_view parts[] = {"format",  "version",    "rotation", "energy",
+                                                 "periods", "state_hash", "measured"};
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (depth == 3) return key != "effective_samples" && key != "blocks";  // of a rotation
+    return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
+PointResult read_result(const fs::path& file) {
+    const Json json = Json::parse(read_whole_file(file), needed, false);
+    if (json.is_discarded() || !json.is_object())
+        throw FileError(
+            fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
+    if (json.value("format", 0) != result_format)
+        throw FileError(fmt::format(
+            "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
+            "call `swirl sweep` again, or collect with the program that wrote it.",
+            file.string(), json.value("format", 0), json.value("version", std::string("?")),
+            result_format));
+    PointResult result;
+    result.there = true;
+    result.quantities.reserve(std::size(estimators));
+    const auto number = [](const Json& value) {
+        return value.is_number() ? value.get<double>() : not_known;
+    };
+    try {
+        for (const char* name : estimators) {
+            const Json& found = json.at("rotation").at(name);
+            result.quantities.emplace_back(name, Estimate{.mean = number(found.at("mean")),
+                                                          .error = number(found.at("error"))});
+        }
+        if (const auto measured = json.find("measured"); measured != json.end())
+            for (auto& quantity : measured_numbers(*measured))
+                result.quantities.push_back(std::move(quantity));
+        result.energy = number(json.at("energy"));
+        result.periods = number(json.at("periods"));
+        result.state_hash = json.at("state_hash").get<std::string>();
+    } catch (const nlohmann::json::exception&) {
+        throw FileError(
+            fmt::format("'{}' lacks a part of a result; remove it and call `swirl sweep` "
+                        "again.",
+                        file.string()));
+    }
+    return result;
+}
+
+Table::Cell cell_of(const std::string& text) {
+    if (const auto whole = read_whole_number(text)) return *whole;
+    if (const auto number = read_number(text)) return *number;
+    return text;
+}
+
+/// Mean and standard error over replicas; a single one has the error from its blocks.
+Estimate over_replicas(const std::vector<Estimate>& found) {
+    if (found.size() == 1) return found.front();
+    const auto n = static_cast<double>(found.size());
+    double mean = 0.0, squares = 0.0;
+    for (const Estimate& e : found) mean += e.mean / n;
+    for (const Estimate& e : found) squares += (e.mean - mean) * (e.mean - mean);
+    return {.mean = mean, .error = std::sqrt(squares / (n * (n - 1.0)))};
+}
+
+}  // namespace
+
+std::size_t SweepPlan::points() const {
+    auto count = static_cast<std::size_t>(replicas);
+    for (const SweepAxis& axis : axes) count *= axis.values.size();
+    return count;
+}
+
+std::int64_t SweepPlan::replica(std::size_t point) const {
+    return static_cast<std::int64_t>(point % static_cast<std::size_t>(replicas));
+}
+
+ParameterTexts SweepPlan::parameters(std::size_t point) const {
+    ParameterTexts texts;
+    std::size_t rest = point / static_cast<std::size_t>(replicas);
+    for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
+        texts[axis->name] = axis->values[rest % axis->values.size()];
+        rest /= axis->values.size();
+    }
+    return texts;
+}
+
+RunConfig SweepPlan::config(std::size_t point) const {
+    RunConfig config = resolve(parameters(point));
+    const std::string identity =
+        fmt::format("{} replica {}", config_json(config).dump(), replica(point));
+    config.seed = Random(checksum(identity)).bits() >> 11;  // exact in every JSON reader
+    return config;
+}
+
+std::vector<std::string> list_of_values(std::string_view name, std::string_view text) {
+    std::vector<std::string> values;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view part = text.substr(begin, end - begin);
+        if (part.empty())
+            throw WrongCall(
+                fmt::format("--{} is '{}', but a value in the list is empty.", name, text));
+        if (part.find(':') != part.npos && name != "mixture") {
+            const auto more = range(name, part);
+            values.insert(values.end(), more.begin(), more.end());
+        } else {
+            values.emplace_back(part);
+        }
+        begin = end + 1;
+    }
+    return values;
+}
+
+SweepPlan make_plan(const ParameterTexts& texts, std::int64_t replicas) {
+    SweepPlan plan;
+    plan.replicas = replicas;
+    for (const RunParameter& p : run_parameters())
+        if (const auto found = texts.find(p.name); found != texts.end())
+            plan.axes.push_back({p.name, list_of_values(p.name, found->second)});
+    double count = double(replicas);
+    for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
+    if (count > double(most_points))
+        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
+                                    count, most_points));
+    ParameterTexts unknown = texts;
+    for (const SweepAxis& axis : plan.axes) unknown.erase(axis.name);
+    if (!unknown.empty()) resolve(unknown);  // says which is not known
+    // A mistake in one value shows before anything is run; combinations show when their turn comes.
+    ParameterTexts first = plan.parameters(0);
+    resolve(first);
+    for (const SweepAxis& axis : plan.axes)
+        for (const std::string& value : axis.values) {
+            ParameterTexts changed = first;
+            changed[axis.name] = value;
+            resolve(changed);
+        }
+    return plan;
+}
+
+SweepPlan read_plan(const fs::path& folder) {
+    const fs::path file = folder / "plan.json";
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+        throw FileError(fmt::format("'{}' is not the folder of a sweep: it holds no plan.json.",
+                                    folder.string()));
+    const Json json = Json::parse(read_whole_file(file), nullptr, false);
+    SweepPlan plan;
+    try {
+        if (json.at("format") != result_format)
+            throw FileError(fmt::format("'{}' is in format {}, but this program reads format {}.",
+                                        file.string(), json.at("format").dump(), result_format));
+        for (const auto& [name, values] : json.at("axes").items())
+            plan.axes.push_back({name, values.get<std::vector<std::string>>()});
+        plan.replicas = json.at("replicas").get<std::int64_t>();
+        plan.measure = json.value("measure", std::vector<std::string>());
+        plan.frames = json.value("frames", 0);
+        for (const SweepAxis& axis : plan.axes)
+            if (axis.values.empty()) throw FileError("");
+        if (plan.replicas < 1) throw FileError("");
+    } catch (const nlohmann::json::exception&) {
+        throw FileError(fmt::format("'{}' is damaged.", file.string()));
+    }
+    return plan;
+}
+
+void write_plan(const fs::path& folder, const SweepPlan& plan) {
+    std::error_code error;
+    std::vector<const char*> parts{"results", "failures", "checkpoints"};
+    if (plan.frames > 0) parts.push_back("trajectories");
+    for (const char* part : parts)
+        if (fs::create_directories(folder / part, error); error)
+            throw Failure(fmt::format("The folder '{}' cannot be made: {}.",
+                                      (folder / part).string(), error.message()));
+    if (!fs::exists(folder / "plan.json")) {
+        write_whole_file(folder / "plan.json", plan_json(plan).dump(1) + "\n");
+        return;
+    }
+    if (read_plan(folder) != plan)
+        throw Failure(fmt::format(
+            "'{}' holds another sweep (its plan.json says which); choose another folder, or go on "
+            "with that one by giving nothing but --out.",
+            folder.string()));
+}
+
+SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
+    SweepStatus status;
+    status.points = plan.points();
+    const std::vector<bool> done = present(folder / "results", ".json", status.points);
+    const std::vector<bool> failed = present(folder / "failures", ".txt", status.points);
+    const std::vector<bool> claimed = Claims::taken(folder, status.points);
+    for (std::size_t point = 0; point < status.points; ++point) {
+        if (done[point])
+            ++status.done;
+        else if (claimed[point])
+            ++status.running;
+        else if (failed[point])
+            ++status.failed;
+    }
+    return status;
+}
+
+SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
+                       const SweepControl& control) {
+    remove_leftovers(folder / "results");
+    remove_leftovers(folder / "checkpoints");
+    return SweepWork(folder, plan, share, control)();
+}
+
+Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
+    const std::vector<bool> done = present(folder / "results", ".json", plan.points());
+    std::vector<PointResult> results(plan.points());
+    constexpr std::size_t batch = 256;
+    on_all_cores((results.size() + batch - 1) / batch, [&](std::size_t b) {
+        for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
+            if (done[p]) results[p] = read_result(result_file(folder, p));
+    });
+
+    std::vector<std::string> columns, quantities(std::begin(estimators), std::end(estimators));
+    for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
+    columns.insert(columns.end(), {"replicas", "periods", "energy"});
+    if (const auto some = std::find_if(results.begin(), results.end(),
+                                       [](const PointResult& r) { return r.there; });
+        some != results.end())
+        for (std::size_t k = quantities.size(); k < some->quantities.size(); ++k)
+            quantities.push_back(some->quantities[k].first);
+    for (const std::string& name : quantities) {
+        columns.push_back(name);
+        columns.push_back(name + "_error");
+    }
+    columns.push_back("state_hash");
+    Table table(columns);
+
+    const auto replicas = static_cast<std::size_t>(plan.replicas);
+    for (std::size_t first = 0; first < results.size(); first += replicas) {
+        std::vector<const PointResult*> there;
+        for (std::size_t r = 0; r < replicas; ++r)
+            if (results[first + r].there) there.push_back(&results[first + r]);
+        const auto n = static_cast<double>(there.size());
+        if (there.empty()) continue;
+        std::vector<Table::Cell> row;
+        const ParameterTexts texts = plan.parameters(first);
+        for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
+        double periods = 0.0, energy = 0.0;
+        std::string hashes;
+        for (const PointResult* r : there) {
+            periods += r->periods / n;
+            energy += r->energy / n;
+            hashes += r->state_hash;
+        }
+        row.emplace_back(std::int64_t(there.size()));
+        row.emplace_back(periods);
+        row.emplace_back(energy);
+        for (std::size_t k = 0; k < quantities.size(); ++k) {
+            std::vector<Estimate> found;
+            for (const PointResult* r : there) found.push_back(r->quantity(k, quantities[k]));
+            const Estimate together = over_replicas(found);
+            row.emplace_back(together.mean);
+            row.emplace_back(together.error);
+        }
+        row.emplace_back(there.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes)));
+        table.add(std::move(row));
+    }
+    return table;
+}
+
+}  // namespace swirl

@@ -1,0 +1,122 @@
+#include "swirl/math/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "random_cases.hpp"
+
+// Here at the width of the compiler's default target; the wider ones are held to it by the engine's
+// tests, which force each width and compare every bit.
+namespace swirl {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <int W>
+struct Numbers {
+    alignas(64) double value[W];
+    Lanes<W> lanes() const { return Lanes<W>::load(value); }
+};
+
+template <int W>
+Numbers<W> stored(const Lanes<W>& lanes) {
+    Numbers<W> n;
+    lanes.store(n.value);
+    return n;
+}
+
+template <int W>
+Numbers<W> draw_numbers() {
+    Numbers<W> n;
+    for (double& x : n.value) {
+        const int kind = *rc::gen::inRange(0, 12);
+        x = kind == 0 ? infinity : kind == 1 ? 0.0 : draw(-3.0, 3.0);
+    }
+    return n;
+}
+
+bool same_bits(double a, double b) {
+    return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+}
+
+template <int W>
+void expect_each_lane_is_the_scalar() {
+    const Numbers<W> a = draw_numbers<W>(), b = draw_numbers<W>();
+    const Lanes<W> A = a.lanes(), B = b.lanes();
+    const Numbers<W> sum = stored(A + B), difference = stored(A - B), product = stored(A * B),
+                     quotient = stored(A / B), negative = stored(-A), root = stored(square_root(A)),
+                     least = stored(smaller(A, B)), most = stored(larger(A, B)),
+                     chosen = stored(select((A < B) & (A >= Lanes<W>(0.0)), A, B)),
+                     equal = stored(select(A == B, A, Lanes<W>(-1.0)));
+    for (int k = 0; k < W; ++k) {
+        const double x = a.value[k], y = b.value[k];
+        RC_ASSERT(same_bits(sum.value[k], x + y));
+        RC_ASSERT(same_bits(difference.value[k], x - y));
+        RC_ASSERT(same_bits(product.value[k], x * y));
+        RC_ASSERT(same_bits(quotient.value[k], x / y));
+        RC_ASSERT(same_bits(negative.value[k], -x));
+        RC_ASSERT(same_bits(root.value[k], square_root(x)));
+        RC_ASSERT(same_bits(least.value[k], smaller(x, y)));
+        RC_ASSERT(same_bits(most.value[k], larger(x, y)));
+        RC_ASSERT(same_bits(chosen.value[k], x < y && x >= 0.0 ? x : y));
+        RC_ASSERT(same_bits(equal.value[k], x == y ? x : -1.0));
+    }
+}
+
+RC_GTEST_PROP(Lanes, EachLaneIsTheScalarBitForBit, ()) {
+    expect_each_lane_is_the_scalar<2>();
+    expect_each_lane_is_the_scalar<4>();
+    expect_each_lane_is_the_scalar<8>();
+}
+
+RC_GTEST_PROP(Lanes, SmallestAndWhereItIs, ()) {
+    const Numbers<8> a = draw_numbers<8>();
+    double least = infinity;
+    for (const double x : a.value) least = x < least ? x : least;
+    RC_ASSERT(smallest(a.lanes()) == least);
+    unsigned where = 0;
+    for (unsigned k = 0; k < 8; ++k) where |= a.value[k] == least ? 1u << k : 0u;
+    RC_ASSERT(lanes_equal(a.lanes(), least) == where);
+}
+
+RC_GTEST_PROP(Lanes, ReplacingOneLaneKeepsTheOthers, ()) {
+    const Numbers<8> a = draw_numbers<8>();
+    const auto k = *rc::gen::inRange(0u, 8u);
+    const Numbers<8> changed = stored(with_lane(a.lanes(), k, 7.25));
+    for (unsigned l = 0; l < 8; ++l)
+        RC_ASSERT(same_bits(changed.value[l], l == k ? 7.25 : a.value[l]));
+}
+
+template <int W>
+void expect_pairs_become_columns() {
+    alignas(16) double pairs[W][2];
+    const double* rows[W];
+    for (int k = 0; k < W; ++k) {
+        pairs[k][0] = k + 1.0;
+        pairs[k][1] = -k - 0.5;
+        rows[k] = pairs[k];
+    }
+    Lanes<W> first, second;
+    load_pairs<W>(rows, first, second);
+    for (int k = 0; k < W; ++k) {
+        EXPECT_EQ(stored(first).value[k], k + 1.0);
+        EXPECT_EQ(stored(second).value[k], -k - 0.5);
+    }
+}
+
+TEST(Lanes, PairsBecomeColumns) {
+    expect_pairs_become_columns<4>();
+    expect_pairs_become_columns<8>();
+}
+
+TEST(Lanes, TwoLanesKeepTheirOrder) {
+    const Numbers<2> n = stored(two_lanes(1.5, -2.5));
+    EXPECT_EQ(n.value[0], 1.5);
+    EXPECT_EQ(n.value[1], -2.5);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,228 @@
+// The measurements on the engine's own dish: what has to come out whatever the trajectory, and
+// (label slow) the bands in which the paper's claims must lie.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "swirl/measure/angular_profile.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/collision_rates.hpp"
+#include "swirl/measure/energy_budget.hpp"
+#include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/slip.hpp"
+#include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/wall_stress.hpp"
+#include "swirl/simulation/placement.hpp"
+#include "swirl/simulation/simulation.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double R = paper_container_radius;
+constexpr int frames = 511;
+
+InitialState dish(std::size_t discs, const Surface& disc_surface, const Surface& wall_surface) {
+    const auto places = place_discs(std::vector<double>(discs, 1.0), R, 3);
+    InitialState scene{{},
+                       polygon_path(paper_amplitude, paper_period, paper_sides),
+                       R,
+                       disc_surface,
+                       wall_surface};
+    const Leg& leg = scene.path.legs.front();
+    for (const Vec2& p : *places)
+        scene.discs.push_back(
+            {leg.start + p, leg.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
+    return scene;
+}
+
+TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
+    for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.5, 0.97, 0.3}}) {
+        Simulation simulation(dish(30, surface, surface));
+        Snapshot s = simulation.snapshot();
+        const double before = kinetic_energy(s);
+        EnergyBudget budget;
+        for (int k = 0; k < 100000; ++k) {
+            const Event event = simulation.step();
+            simulation.refresh(s, event);
+            budget.look(event, s);
+        }
+        // 10⁵ additions to sums of order 10⁴, each wrong by half an ulp of that: 10⁻¹² · √10⁵.
+        EXPECT_NEAR(budget.accounted(), kinetic_energy(s) - before, 1e-8);
+        EXPECT_GT(budget.total_work(), 100.0);
+        EXPECT_GT(budget.total_loss(), 100.0);
+    }
+}
+
+TEST(MeasuredDish, TractionObeysCoulombAndRatesAddUp) {
+    const double mu = 0.3;
+    Simulation simulation(dish(40, {mu, 1.0, 0.0}, {mu, 1.0, 0.0}));
+    simulation.advance_to(3, 0.0);
+    Snapshot s = simulation.snapshot();
+    WallStress stress(R, 36);
+    CollisionRates rates;
+    const EventCounts before = simulation.events();
+    while (simulation.swirls() < 23) {
+        const Event event = simulation.step();
+        simulation.refresh(s, event);
+        stress.look(event, s);
+        rates.look(event);
+        if (simulation.swirls() == event.swirls) continue;
+        stress.close_block(s.period);
+        rates.close_block(s.period, s.size());
+    }
+    for (std::size_t k = 0; k < stress.slices(); ++k)
+        EXPECT_LE(std::abs(stress.traction(k).mean), mu * stress.pressure(k).mean + 1e-14);
+    EXPECT_GT(stress.mean_pressure().mean, 0.1);
+    // M is at 3π/2: there the discs are pressed against the wall, opposite they are not.
+    EXPECT_GT(stress.pressure(26).mean, 10.0 * stress.pressure(8).mean);
+    const double per_disc_and_time = 40.0 * 20.0 * paper_period;
+    const EventCounts after = simulation.events();
+    EXPECT_NEAR(rates.disc_disc().mean,
+                2.0 * static_cast<double>(after.disc_disc - before.disc_disc) / per_disc_and_time,
+                1e-12);
+    EXPECT_NEAR(rates.disc_wall().mean,
+                static_cast<double>(after.disc_wall - before.disc_wall) / per_disc_and_time, 1e-12);
+}
+
+double nearest_to_the_centre_of_mass(const Snapshot& s) {
+    Vec2 centre{0.0, 0.0};
+    double mass = 0.0, nearest = R * R;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        centre = centre + s.mass[i] * s.position(i);
+        mass += s.mass[i];
+    }
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 r = s.position(i) - (1.0 / mass) * centre;
+        nearest = std::fmin(nearest, dot(r, r));
+    }
+    return std::sqrt(nearest);
+}
+
+// The centre of mass that is followed from event to event is that of the discs.
+TEST(MeasuredDish, ALookAfterEveryEventSeesWhatALookAtAllDiscsSees) {
+    InitialState mixture = dish(30, Surface{0.7}, Surface{0.4});
+    for (std::size_t i = 0; i < mixture.discs.size(); ++i) mixture.discs[i].mass = 0.3 + double(i);
+    InitialState circle = dish(28, Surface{1.0}, Surface{1.0});
+    circle.path = circular_path(paper_amplitude, paper_period);
+    const Surface dissipates{0.5, 0.97, 0.3, 1e-3};
+    const InitialState scenes[] = {dish(48, Surface{1.0}, Surface{1.0}),
+                                   dish(5, Surface{1.0}, Surface{1.0}),
+                                   dish(30, dissipates, dissipates), mixture, circle};
+    for (const InitialState& scene : scenes) {
+        Simulation simulation(scene);
+        Snapshot s = simulation.snapshot();
+        ClusterRotation rotation;
+        double worst = 0.0, worst_rigid = 0.0;
+        for (int k = 0; k < 100000; ++k) {
+            const Event event = simulation.step();
+            simulation.refresh(s, event);
+            const RotationSample seen = rotation.look(s, event), found = cluster_rotation(s);
+            const double near = nearest_to_the_centre_of_mass(s);
+            worst = std::fmax(worst, std::fabs(seen.individual - found.individual) * near * near);
+            worst_rigid = std::fmax(worst_rigid, std::fabs(seen.rigid - found.rigid));
+        }
+        // From one vertex of the path to the next, on a circle a swirl, the velocity of the centre
+        // is the sum of up to a thousand pushes, each rounded, as are the discs' own velocities
+        // and their mean: √1000 · 10⁻¹⁷ and, after a swirl's time of 12, δ = 4·10⁻¹⁵ in
+        // position. At the distance r it turns into a wrong angular velocity of about δ u/r², with
+        // speeds u of order 1.
+        EXPECT_LT(worst, 1e-14);
+        EXPECT_LT(worst_rigid, 1e-14);
+    }
+}
+
+struct Seen {
+    ClusterRotation rotation;
+    PinnedLoose tracks;
+    PinnedByCollisions collisions;
+    Slip slip{8};
+    SpinFrustration frustration{0.1, 8};
+    AngularProfile profile{36};
+};
+
+Seen watch(std::size_t discs, const Surface& surface, int periods) {
+    const InitialState scene = dish(discs, surface, surface);
+    Simulation simulation(scene);
+    simulation.advance_to(40, 0.0);
+    Snapshot s = simulation.snapshot();
+    MFrameView view;
+    Seen seen;
+    int next = 0;
+    while (simulation.swirls() < 40 + periods) {
+        const Event event = simulation.step();
+        for (; next < frames && paper_period * next / frames <= event.clock; ++next) {
+            s.clock = paper_period * next / frames;
+            const Leg& leg = scene.path.leg_at(s.clock);
+            s.container_centre = leg.position_at(s.clock);
+            s.container_velocity = leg.velocity_at(s.clock);
+            view.look(s);
+            seen.rotation.look_in_time(s);
+            seen.tracks.look(view);
+            seen.slip.look(view, seen.tracks.pinned());
+            seen.frustration.look(view, seen.tracks.pinned());
+            seen.profile.look(view);
+        }
+        simulation.refresh(s, event);
+        seen.rotation.look(s, event);
+        seen.collisions.look(event, s);
+        seen.frustration.look(event);
+        if (simulation.swirls() == event.swirls) continue;
+        next = 0;
+        seen.rotation.close_block();
+        seen.tracks.close_block();
+        seen.collisions.close_block();
+        seen.slip.close_block();
+        seen.frustration.close_block();
+        seen.profile.close_block();
+    }
+    return seen;
+}
+
+TEST(MeasuredDish, TheMeanOfTheProfileIsTheRotationLessOmega) {
+    const Seen seen = watch(28, {1.0, 1.0, 0.0}, 10);
+    double sum = 0.0, visits = 0.0;
+    for (std::size_t k = 0; k < seen.profile.slices(); ++k) {
+        if (seen.profile.visits(k) == 0.0) continue;
+        sum += seen.profile.visits(k) * seen.profile.plain(k).mean;
+        visits += seen.profile.visits(k);
+    }
+    EXPECT_EQ(visits, 28.0 * frames * 10.0);
+    EXPECT_NEAR(sum / visits, seen.rotation.estimates().by_time.mean - 1.0, 1e-12);
+}
+
+TEST(MeasuredDish, SlowThePaperOnPinnedDiscsHolds) {
+    const Seen few = watch(24, {1.0, 1.0, 0.0}, 300), many = watch(48, {1.0, 1.0, 0.0}, 300);
+    // "The slip parameter of the particles in the pinned region approaches 1 as N is increased."
+    EXPECT_GT(many.slip.pinned_region().mean, 0.95);
+    EXPECT_LT(many.slip.pinned_region().mean, 1.02);
+    EXPECT_LT(few.slip.pinned_region().mean, many.slip.pinned_region().mean - 0.05);
+    // "The local rotation of individual particles along the wall in the pinned area decreases."
+    EXPECT_LT(many.frustration.pinned_wall_spin().mean,
+              0.7 * few.frustration.pinned_wall_spin().mean);
+    // More of the discs are pinned, and they are earlier in their clockwise cycle (larger θ).
+    EXPECT_GT(many.tracks.share().mean, 2.0 * few.tracks.share().mean);
+    EXPECT_GT(many.tracks.becoming_pinned().angle().mean,
+              few.tracks.becoming_pinned().angle().mean + 0.5);
+    // Each of these by far more than the errors from the blocks of periods, which are there.
+    const auto apart = [](const Estimate& a, const Estimate& b) {
+        return std::abs(a.mean - b.mean) / std::hypot(a.error, b.error);
+    };
+    EXPECT_GT(apart(few.slip.pinned_region(), many.slip.pinned_region()), 10.0);
+    EXPECT_GT(apart(few.frustration.pinned_wall_spin(), many.frustration.pinned_wall_spin()), 10.0);
+    EXPECT_GT(apart(few.tracks.share(), many.tracks.share()), 10.0);
+    EXPECT_GT(apart(few.tracks.becoming_pinned().angle(), many.tracks.becoming_pinned().angle()),
+              10.0);
+    // With N more of the contacts are frustrated.
+    EXPECT_GT(apart(few.frustration.triangles(), many.frustration.triangles()), 10.0);
+    EXPECT_GT(many.frustration.triangles().mean, few.frustration.triangles().mean);
+    // Rotation at low N, counterrotation at high N, in both averages and both estimators.
+    for (const Estimate& e :
+         {few.rotation.estimates().by_event, few.rotation.estimates().rigid_by_time})
+        EXPECT_GT(e.mean, 5.0 * e.error);
+    for (const Estimate& e :
+         {many.rotation.estimates().by_event, many.rotation.estimates().rigid_by_time})
+        EXPECT_LT(e.mean, -5.0 * e.error);
+}
+
+}  // namespace
+}  // namespace swirl

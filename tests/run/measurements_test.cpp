@@ -1,0 +1,200 @@
+#include "swirl/run/measurements.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "files/scratch.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+RunConfig short_run() {
+    RunConfig config;
+    config.discs = 30;
+    config.periods = 30;
+    config.warmup = 5;
+    return config;
+}
+
+std::vector<std::string> everything() { return read_measurement_list("all"); }
+
+double sum(const nlohmann::ordered_json& column) {
+    double total = 0.0;
+    for (const auto& value : column) total += value.get<double>();
+    return total;
+}
+
+TEST(Measurements, NotABitOfTheRunChanges) {
+    const RunResult alone = run(short_run());
+    const MeasuredRun measured = measured_run(short_run(), everything());
+    EXPECT_EQ(measured.run.state_hash, alone.state_hash);
+    EXPECT_EQ(measured.run.rotation.by_event.mean, alone.rotation.by_event.mean);
+    EXPECT_EQ(measured.run.rotation.by_time.mean, alone.rotation.by_time.mean);
+}
+
+TEST(Measurements, DensityTimesAreaIsTheNumberOfDiscs) {
+    const auto density = measured_run(short_run(), {"density"}).measured["density"];
+    const double area = 4.0 * paper_container_radius * paper_container_radius / 10000.0;
+    // Sums of 10^4 counts divided by one number: round-off only.
+    EXPECT_NEAR(sum(density["by_time"]) * area, 30.0, 1e-9);
+    EXPECT_NEAR(sum(density["by_event"]) * area, 30.0, 1e-9);
+}
+
+TEST(Measurements, LooksAreMadeOnlyAfterTheWarmUpAnd511TimesAPeriod) {
+    const auto flow = measured_run(short_run(), {"flow"}).measured["flow"];
+    EXPECT_EQ(sum(flow["visits"]), 30.0 * 511.0 * 25.0);
+}
+
+TEST(Measurements, TheRotationOfTheProfileIsThatOfTheRun) {
+    // ϖ_M = ϖ − Ω; the slices' means weighted with their visits make the mean over the discs. The
+    // run looks 64 times a period, the profile 511 times: they agree within the error.
+    const MeasuredRun done = measured_run(short_run(), {"profile"});
+    const auto& profile = done.measured["profile"];
+    double total = 0.0;
+    for (std::size_t k = 0; k < profile["theta"].size(); ++k)
+        if (profile["visits"][k].get<double>() > 0.0)
+            total += profile["visits"][k].get<double>() * profile["varpi_m"][k].get<double>();
+    EXPECT_NEAR(total / sum(profile["visits"]) + 1.0, done.run.rotation.by_time.mean,
+                3.0 * done.run.rotation.by_time.error);
+}
+
+double mean_of(const nlohmann::ordered_json& number) { return number["mean"].get<double>(); }
+
+TEST(Measurements, RatesAreThoseOfTheEventsAfterTheWarmUp) {
+    const MeasuredRun done = measured_run(short_run(), {"collisions"});
+    const auto& rates = done.measured["collisions"];
+    const EventCounts &all = done.run.events, &warm = done.run.warmup_events;
+    const double per_disc = 30.0 * 25.0 * paper_period;
+    const double with_discs = 2.0 * static_cast<double>(all.disc_disc - warm.disc_disc) / per_disc;
+    const double with_wall = static_cast<double>(all.disc_wall - warm.disc_wall) / per_disc;
+    // The same counts divided by the same time, in another order.
+    EXPECT_NEAR(mean_of(rates["disc_disc_rate"]), with_discs, 1e-12);
+    EXPECT_NEAR(mean_of(rates["disc_wall_rate"]), with_wall, 1e-12);
+    EXPECT_NEAR(mean_of(rates["mean_free_time"]), 1.0 / (with_discs + with_wall), 1e-12);
+    EXPECT_GT(rates["mean_free_time"]["error"].get<double>(), 0.0);
+}
+
+TEST(Measurements, TheEnergyBudgetOfARunClosesToRoundOff) {
+    RunConfig config = short_run();
+    config.restitution = 0.95;
+    const auto energy = measured_run(config, {"energy"}).measured["energy"];
+    EXPECT_GT(mean_of(energy["wall_power"]), 0.0);
+    for (const char* loss : {"disc_friction_power", "wall_friction_power", "inelastic_power"})
+        EXPECT_GT(mean_of(energy[loss]), 0.0) << loss;
+    // Some 10⁴ changes, each with a relative error of 10⁻¹⁶.
+    EXPECT_LT(energy["unaccounted_share"].get<double>(), 1e-11);
+}
+
+TEST(Measurements, TheWallIsPressedWhereTheDiscsAreAndDraggedAtMostByFriction) {
+    RunConfig config = short_run();
+    config.mu_wall = 0.3;
+    const auto wall = measured_run(config, {"wall"}).measured["wall"];
+    const auto& profile = wall["profile"];
+    double pressure = 0.0, traction = 0.0;
+    for (std::size_t k = 0; k < profile["theta"].size(); ++k) {
+        const double p = profile["pressure"][k].get<double>();
+        const double t = profile["traction"][k].get<double>();
+        EXPECT_LE(std::fabs(t), 0.3 * p + 1e-14);
+        pressure += p / 72.0;
+        traction += t / 72.0;
+    }
+    EXPECT_NEAR(pressure, mean_of(wall["pressure"]), 1e-12);
+    EXPECT_NEAR(traction, mean_of(wall["traction"]), 1e-12);
+    EXPECT_GT(pressure, 0.0);
+}
+
+TEST(Measurements, OrderAndPackingLieBetweenNothingAndTheClosestPacking) {
+    const auto measured = measured_run(short_run(), {"order", "packing"}).measured;
+    // The mean over discs of π/(area) is at least π over the mean area, by Jensen's inequality.
+    const double over_the_dish = 30.0 / (paper_container_radius * paper_container_radius);
+    for (const char* whose : {"all", "pinned"}) {
+        EXPECT_GT(mean_of(measured["order"][whose]), 0.0);
+        EXPECT_LT(mean_of(measured["order"][whose]), 1.0);
+        EXPECT_LT(mean_of(measured["packing"][whose]), 1.0);
+    }
+    EXPECT_GT(mean_of(measured["packing"]["all"]), over_the_dish);
+}
+
+TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
+    const auto table = measured_run(short_run(), {"diffusion"}).measured["diffusion"];
+    // 64 of 73 parts of a swirl; of 25 swirls, lags of 1, 2, 4, 8, 16.
+    ASSERT_EQ(table["lag"].size(), 12u);
+    EXPECT_NEAR(table["lag"][0].get<double>(), paper_period / 73.0, 1e-9);
+    EXPECT_NEAR(table["lag"][7].get<double>(), paper_period, 1e-9);
+    EXPECT_NEAR(table["lag"][11].get<double>(), 16.0 * paper_period, 1e-9);
+    // At the shortest lag discs fly almost straight; at none do they leave the dish.
+    const double flight = table["displacement"][0].get<double>();
+    EXPECT_NEAR(table["displacement"][1].get<double>() / flight, 4.0, 0.5);
+    for (const auto& square : table["displacement"])
+        EXPECT_LT(square.get<double>(), 4.0 * 7.6 * 7.6);
+}
+
+TEST(Measurements, EverythingThatLooksAtSnapshotsCanBeAskedFor) {
+    EXPECT_THAT(everything(), ElementsAre("density", "flow", "profile", "pinned", "slip",
+                                          "frustration", "radial", "temperature", "order",
+                                          "packing", "collisions", "wall", "diffusion", "energy"));
+}
+
+TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
+    RunConfig config = short_run();
+    config.discs = 1;
+    const MeasuredRun done = measured_run(config, everything());
+    EXPECT_EQ(mean_of(done.measured["collisions"]["disc_disc_rate"]), 0.0);
+    EXPECT_TRUE(std::isnan(done.measured["order"]["all"]["mean"].get<double>()));
+    // The whole dish is its cell.
+    EXPECT_NEAR(mean_of(done.measured["packing"]["all"]),
+                1.0 / (paper_container_radius * paper_container_radius), 1e-12);
+}
+
+TEST(Measurements, FramesWithoutEventsSayNothingOfCollisions) {
+    RunMeasurements measurements(short_run(), everything());
+    RunControl control;
+    measurements.attach_to(control);
+    for (int swirl = 0; swirl < 3; ++swirl) control.swirl_begins(true);
+    const auto measured = measurements.results();
+    for (const auto& [name, number] : measured_numbers(measured))
+        EXPECT_TRUE(std::isnan(number.mean)) << name;
+}
+
+TEST(Measurements, ListIsReadInOrderAndWithoutDoubles) {
+    EXPECT_THAT(read_measurement_list("flow,density,flow"), ElementsAre("flow", "density"));
+    EXPECT_EQ(everything().size(), measurement_kinds().size());
+}
+
+TEST(Measurements, UnknownNameIsRefusedWithThoseThereAre) {
+    for (const char* list : {"flow,dennsity", "", "flow,", "all,flow"}) {
+        try {
+            read_measurement_list(list);
+            FAIL() << list;
+        } catch (const WrongCall& wrong) {
+            EXPECT_THAT(wrong.what(), HasSubstr("density, flow, profile"));
+        }
+    }
+}
+
+TEST(Measurements, TablesAreWrittenWithTheirColumns) {
+    const Scratch scratch;
+    const fs::path& folder = scratch.folder();
+    const auto files =
+        write_measured_tables(measured_run(short_run(), {"profile", "slip"}).measured, folder);
+    EXPECT_THAT(files, ElementsAre(folder / "profile.csv", folder / "numbers.csv"));
+    std::ifstream profile(files[0]), numbers(files[1]);
+    std::string line;
+    std::getline(profile, line);
+    EXPECT_EQ(line, "theta,visits,varpi_m,varpi_m_error,wall,normalised,normalised_error");
+    std::getline(numbers, line);
+    EXPECT_EQ(line, "quantity,mean,error,effective_samples,blocks");
+    std::getline(numbers, line);
+    EXPECT_THAT(line, HasSubstr("slip.cluster,0."));
+}
+
+}  // namespace
+}  // namespace swirl

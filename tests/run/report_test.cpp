@@ -1,0 +1,64 @@
+#include "swirl/run/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace swirl {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(WithError, HasAsManyDigitsAsTheErrorSupports) {
+    EXPECT_EQ(with_error(-0.03712, 0.00123), "−0.0371 ± 0.0012");
+    EXPECT_EQ(with_error(-0.03712, 0.00523), "−0.037 ± 0.005");
+    EXPECT_EQ(with_error(37.84, 0.21), "37.8 ± 0.2");
+    EXPECT_EQ(with_error(37.84, 21.0), "38 ± 21");
+    EXPECT_EQ(with_error(0.5, 0.0099), "0.500 ± 0.010");
+    EXPECT_EQ(with_error(-2.34e-17, 4.1e-18), "−2.3e-17 ± 4e-18");
+}
+
+TEST(WithError, SaysWhatIsNotKnown) {
+    EXPECT_EQ(with_error(nan, 0.1), "not known");
+    EXPECT_EQ(with_error(-0.25, nan), "−0.25");
+}
+
+TEST(SenseOfRotation, IsAStallWithinTwoErrors) {
+    EXPECT_EQ(sense_of_rotation({0.1, 0.01, 10.0, 10}), "rotate");
+    EXPECT_EQ(sense_of_rotation({-0.1, 0.01, 10.0, 10}), "counterrotate");
+    EXPECT_EQ(sense_of_rotation({0.019, 0.01, 10.0, 10}), "stall");
+    EXPECT_EQ(sense_of_rotation({-0.019, 0.01, 10.0, 10}), "stall");
+}
+
+TEST(WithCommas, GroupsByThousands) {
+    EXPECT_EQ(with_commas(0), "0");
+    EXPECT_EQ(with_commas(999), "999");
+    EXPECT_EQ(with_commas(1000), "1,000");
+    EXPECT_EQ(with_commas(1234567), "1,234,567");
+}
+
+TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
+    RunResult result;
+    result.complete = true;
+    result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
+    EXPECT_TRUE(warnings(result).empty());
+    result.complete = false;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Incomplete")));
+    result.complete = true;
+    result.steady.verdict = SteadyState::Verdict::drifting;
+    result.steady.drift = 5.0;
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("Not steady: the rotation")));
+    std::swap(result.steady, result.steady_spin);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("Not steady: the mean spin")));
+    result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
+    result.config.mu_disc = result.config.mu_wall = 0.0;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,257 @@
+#include "swirl/run/run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+RunConfig small(std::int64_t discs, std::int64_t periods) {
+    RunConfig config;
+    config.discs = discs;
+    config.periods = periods;
+    config.warmup = 0;
+    return config;
+}
+
+TEST(MakeScene, NoTwoDiscsOverlapAndNoneIsOutside) {
+    for (const std::int64_t n : {1, 2, 28, 48, 55}) {
+        RunConfig config;
+        config.discs = n;
+        const InitialState scene = make_initial_state(config);
+        ASSERT_EQ(scene.discs.size(), static_cast<std::size_t>(n));
+        const Vec2 centre = scene.path.legs.front().start;
+        for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+            const Vec2 from_centre = scene.discs[i].position - centre;
+            EXPECT_LE(std::sqrt(dot(from_centre, from_centre)), 7.6);
+            for (std::size_t j = 0; j < i; ++j) {
+                const Vec2 s = scene.discs[i].position - scene.discs[j].position;
+                EXPECT_GE(std::sqrt(dot(s, s)), 2.0);
+            }
+        }
+    }
+}
+
+TEST(MakeScene, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToDisc) {
+    RunConfig config;
+    config.discs = 30;
+    const InitialState scene = make_initial_state(config);
+    const Vec2 container = scene.path.legs.front().velocity;
+    for (const Disc& d : scene.discs) {
+        const Vec2 relative = d.velocity - container;
+        const double speed = std::sqrt(dot(relative, relative));
+        EXPECT_GT(speed, 0.0);
+        EXPECT_LT(speed, 0.1);  // R Ω / 50 = 0.091
+        EXPECT_EQ(d.spin, 0.0);
+    }
+    EXPECT_NE(scene.discs[0].velocity.x, scene.discs[1].velocity.x);
+}
+
+TEST(MakeScene, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
+    RunConfig config;
+    config.discs = 20;
+    config.mixture = Mixture{6, 1.4, 2.0};
+    const InitialState scene = make_initial_state(config);
+    int big = 0;
+    for (const Disc& d : scene.discs) {
+        if (d.radius == 1.0) {
+            EXPECT_EQ(d.mass, 1.0);
+            EXPECT_EQ(d.inertia, 10.0);
+            continue;
+        }
+        ++big;
+        EXPECT_EQ(d.radius, 1.4);
+        EXPECT_EQ(d.mass, 2.0);
+        EXPECT_DOUBLE_EQ(d.inertia, 10.0 * 2.0 * 1.4 * 1.4);
+    }
+    EXPECT_EQ(big, 6);
+}
+
+TEST(MakeScene, MoreDiscsThanFitAreRefusedWithTheNumber) {
+    RunConfig config;
+    config.discs = 60;
+    try {
+        make_initial_state(config);
+        FAIL();
+    } catch (const WrongCall& wrong) {
+        EXPECT_THAT(wrong.what(), testing::HasSubstr("60 discs"));
+    }
+}
+
+TEST(ContainerSpeed, IsOneWithThePapersNumbers) {
+    EXPECT_NEAR(container_speed(RunConfig{}), 1.0, 1e-7);  // 1.892 has four digits
+}
+
+TEST(ContainerSpeed, IsThatOfTheLegs) {
+    for (const PathShape shape : {PathShape::polygon, PathShape::circle}) {
+        RunConfig config;
+        config.path = shape;
+        config.sides = 7;
+        const Leg leg = make_path(config).legs.back();
+        EXPECT_NEAR(std::sqrt(dot(leg.velocity, leg.velocity)), container_speed(config), 1e-14);
+    }
+}
+
+TEST(Run, EndsAtTheEventOrTheSwirlAskedFor) {
+    RunConfig config = small(12, 7);
+    const RunResult by_periods = run(config);
+    EXPECT_EQ(by_periods.periods, 7.0);
+    EXPECT_EQ(by_periods.events.path_vertex, 7u * 30u);
+    EXPECT_TRUE(by_periods.complete);
+    config.periods.reset();
+    config.events = 1234;
+    EXPECT_EQ(run(config).events.total(), 1234u);
+}
+
+TEST(Run, ObservedOrNotHasTheSameBits) {
+    const RunConfig config = small(28, 5);
+    const RunResult unobserved = run(config);
+    RunControl control;
+    int looks = 0, events = 0;
+    control.samplers.push_back({37, [&](const Snapshot&) { ++looks; }});
+    control.after_event = [&](const Snapshot&, const Event&) { ++events; };
+    const RunResult observed = run(config, control);
+    EXPECT_EQ(observed.state_hash, unobserved.state_hash);
+    EXPECT_EQ(observed.rotation.by_event.mean, unobserved.rotation.by_event.mean);
+    EXPECT_EQ(looks, 5 * 37);
+    EXPECT_EQ(static_cast<std::uint64_t>(events), observed.events.total());
+}
+
+TEST(Run, SamplesAreTheStatesAtTheirTimes) {
+    const RunConfig config = small(20, 3);
+    RunControl control;
+    Simulation beside(make_initial_state(config));
+    int k = 0;
+    control.samplers.push_back({16, [&](const Snapshot& s) {
+                                    beside.advance_to(k / 16, config.period * (k % 16) / 16);
+                                    const Snapshot expected = beside.snapshot();
+                                    ASSERT_EQ(s.swirls, expected.swirls);
+                                    ASSERT_EQ(s.clock, expected.clock);
+                                    EXPECT_EQ(s.container_centre.x, expected.container_centre.x);
+                                    EXPECT_EQ(s.container_centre.y, expected.container_centre.y);
+                                    for (std::size_t i = 0; i < s.size(); ++i) {
+                                        EXPECT_EQ(s.position(i).x, expected.position(i).x);
+                                        EXPECT_EQ(s.position(i).y, expected.position(i).y);
+                                    }
+                                    ++k;
+                                }});
+    run(config, control);
+    EXPECT_EQ(k, 48);
+}
+
+TEST(Run, WarmupIsLeftOutOfTheAverages) {
+    RunConfig config = small(15, 10);
+    std::vector<double> sums(10, 0.0), counts(10, 0.0);
+    RunControl control;
+    control.after_event = [&](const Snapshot& s, const Event& e) {
+        const auto swirl = static_cast<std::size_t>(e.swirls);
+        sums[swirl] += cluster_rotation(s).individual / config.omega();
+        counts[swirl] += 1.0;
+    };
+    config.warmup = 4;
+    const RunResult result = run(config, control);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t swirl = 4; swirl < 10; ++swirl) {
+        sum += sums[swirl];
+        count += counts[swirl];
+    }
+    EXPECT_EQ(result.warmup, 4);
+    // The same sums in another order.
+    EXPECT_NEAR(result.rotation.by_event.mean, sum / count, 1e-12);
+    EXPECT_EQ(result.rotation.by_event.blocks, 6u);
+    EXPECT_EQ(result.warmup_events.total() + static_cast<std::uint64_t>(count),
+              result.events.total());
+}
+
+TEST(Run, TheWarmupIsFoundWhereTheSpinsTakeTheirTime) {
+    // Without disc friction only the wall spins the discs up: some 100 swirls. With it the dish
+    // forgets its beginning in a few swirls, and the least there is, 50, will do.
+    RunConfig config;
+    config.discs = 40;
+    config.mu_disc = 0.0;
+    config.periods = 400;
+    config.warmup_found = true;
+    const RunResult slow = run(config);
+    EXPECT_GT(slow.warmup, 100);
+    EXPECT_LT(slow.warmup, 400);
+    EXPECT_EQ(slow.steady_state(), SteadyState::Verdict::steady);
+    EXPECT_NEAR(slow.rotation.by_time.mean, 1.0, 0.01);
+    config.discs = 20;
+    config.mu_disc = 1.0;
+    EXPECT_LE(run(config).warmup, 70);
+}
+
+TEST(Run, AWarmupThatIsNotFoundEndsWithHalfOfTheRun) {
+    RunConfig config = small(10, 60);
+    config.warmup_found = true;
+    config.warmup.reset();
+    config.mu_disc = 0.0;
+    const RunResult result = run(config);
+    EXPECT_EQ(result.warmup, 30);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::too_short);
+}
+
+TEST(Run, SpinsThatStillGrowAreNotASteadyState) {
+    RunConfig config;
+    config.discs = 40;
+    config.mu_disc = 0.0;
+    config.periods = 120;
+    const RunResult result = run(config);
+    EXPECT_EQ(result.steady_spin.verdict, SteadyState::Verdict::drifting);
+    EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
+}
+
+TEST(Run, AWarmupThatTheRunDoesNotOutliveIsAFailure) {
+    RunConfig config;
+    config.events = 2000;
+    config.warmup = 30;
+    ASSERT_FALSE(problem(config));  // 2000 events could be 66 swirls
+    EXPECT_THROW(run(config), Failure);
+}
+
+TEST(Run, StoppedIsIncompleteAndSaysWhatThereIs) {
+    RunConfig config;
+    config.events = 1'000'000'000'000;
+    std::atomic<bool> stop = false;
+    RunControl control;
+    control.stop = &stop;
+    int events = 0;
+    control.after_event = [&](const Snapshot&, const Event&) { stop = ++events >= 5000; };
+    const RunResult result = run(config, control);
+    EXPECT_FALSE(result.complete);
+    EXPECT_GE(result.events.total(), 5000u);
+    EXPECT_LT(result.events.total(), 6000u);
+    EXPECT_TRUE(std::isfinite(result.rotation.by_event.mean));
+}
+
+TEST(Run, TheInvariantOfTheFrictionlessCircleIsConserved) {
+    RunConfig config = small(10, 20);
+    config.mu_disc = config.mu_wall = 0.0;
+    config.path = PathShape::circle;
+    const RunResult result = run(config);
+    EXPECT_NEAR(result.invariant, result.invariant_at_start, 1e-9);
+    EXPECT_GT(std::fabs(result.energy - result.energy_at_start), 1.0);
+}
+
+TEST(Run, OnTheFrictionlessPolygonTheInvariantGrows) {
+    RunConfig config = small(10, 40);
+    config.mu_disc = config.mu_wall = 0.0;
+    const RunResult result = run(config);
+    EXPECT_GT(result.invariant, result.invariant_at_start + 1.0);
+}
+
+TEST(Run, WithoutWallFrictionTheClusterTurnsWithTheSwirl) {
+    // The paper: with μ_w = 0 the cluster rotates at Ω, whatever N.
+    RunConfig config = small(20, 150);
+    config.mu_wall = 0.0;
+    config.warmup = 20;
+    const Estimate rotation = run(config).rotation.by_event;
+    EXPECT_NEAR(rotation.mean, 1.0, 5.0 * rotation.error + 0.01);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,121 @@
+#include "swirl/simulation/placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <vector>
+
+#include "swirl/math/real.hpp"
+
+namespace swirl {
+namespace {
+
+// A touching pair may be closer than touching by the rounding of its positions: 10⁻¹⁶ of R.
+constexpr double rounding = 1e-12;
+
+/// The deepest overlap of any pair or of any disc with the wall; negative if all are apart. Sorted
+/// into columns as wide as the largest disc, so that a million are looked at in a moment.
+double deepest_overlap(const std::vector<Vec2>& centres, const std::vector<double>& radii,
+                       double container_radius) {
+    const double width = 2.0 * *std::max_element(radii.begin(), radii.end());
+    const auto side = static_cast<std::size_t>(2.0 * container_radius / width) + 3;
+    const auto row = [&](double x) {
+        return static_cast<std::size_t>((x + container_radius) / width) + 1;
+    };
+    std::vector<std::vector<std::uint32_t>> cells(side * side);
+    double deepest = -container_radius;
+    for (std::uint32_t i = 0; i < centres.size(); ++i) {
+        const Vec2& p = centres[i];
+        const double beyond = std::hypot(p.x, p.y) + radii[i] - container_radius;
+        if (beyond > rounding) return beyond;
+        deepest = std::max(deepest, beyond);
+        for (std::size_t y = row(p.y) - 1; y <= row(p.y) + 1; ++y)
+            for (std::size_t x = row(p.x) - 1; x <= row(p.x) + 1; ++x)
+                for (const std::uint32_t j : cells[y * side + x])
+                    deepest =
+                        std::max(deepest, radii[i] + radii[j] -
+                                              std::hypot(p.x - centres[j].x, p.y - centres[j].y));
+        cells[row(p.y) * side + row(p.x)].push_back(i);
+    }
+    return deepest;
+}
+
+void expect_placed(const std::vector<double>& radii, double container_radius, std::uint64_t seed) {
+    const auto centres = place_discs(radii, container_radius, seed);
+    ASSERT_TRUE(centres) << radii.size() << " discs, seed " << seed;
+    ASSERT_EQ(centres->size(), radii.size());
+    EXPECT_LT(deepest_overlap(*centres, radii, container_radius), rounding)
+        << radii.size() << " discs, seed " << seed;
+}
+
+TEST(Packing, EveryNumberUpTo55IsPlacedInThePaperDish) {
+    for (std::size_t n = 1; n <= 55; ++n)
+        for (std::uint64_t seed = 0; seed < 20; ++seed)
+            expect_placed(std::vector<double>(n, 1.0), 8.6, seed);
+}
+
+TEST(Packing, LargerDishesHoldAsMuch) {
+    for (const double radius : {17.2, 86.0, 300.0}) {
+        const auto n = static_cast<std::size_t>(48.0 / (8.6 * 8.6) * radius * radius);
+        expect_placed(std::vector<double>(n, 1.0), radius, 7);
+    }
+}
+
+TEST(Packing, MixturesArePlaced) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        std::vector<double> radii;
+        for (int i = 0; i < 40; ++i) radii.push_back(i % 3 == 0 ? 1.0 : i % 3 == 1 ? 0.6 : 1.4);
+        expect_placed(radii, 10.0, seed);
+    }
+    std::vector<double> many;
+    for (int i = 0; i < 5000; ++i) many.push_back(i % 2 == 0 ? 1.0 : 0.5);
+    expect_placed(many, std::sqrt(2500.0 * 1.25 / 0.65), 1);
+}
+
+TEST(Packing, AMillionDiscsAtPacking070InSeconds) {
+    const std::vector<double> radii(1000000, 1.0);
+    const std::clock_t start = std::clock();
+    const auto centres = place_discs(radii, std::sqrt(1e6 / 0.70), 1);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    ASSERT_TRUE(centres);
+    EXPECT_LT(deepest_overlap(*centres, radii, std::sqrt(1e6 / 0.70)), rounding);
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+    EXPECT_LT(seconds, 10.0);  // of processor time; half a second is usual
+#else
+    (void)seconds;
+#endif
+}
+
+TEST(Packing, TheSeedDecides) {
+    const std::vector<double> radii(48, 1.0);
+    const auto a = place_discs(radii, 8.6, 1), b = place_discs(radii, 8.6, 1),
+               c = place_discs(radii, 8.6, 2);
+    ASSERT_TRUE(a && b && c);
+    for (std::size_t i = 0; i < 48; ++i) {
+        EXPECT_EQ((*a)[i].x, (*b)[i].x);
+        EXPECT_EQ((*a)[i].y, (*b)[i].y);
+    }
+    EXPECT_NE((*a)[0].x, (*c)[0].x);
+}
+
+TEST(Packing, WhatCannotFitIsRefused) {
+    // The smallest circle known around 61 unit circles has radius 8.6613 (the curved hexagonal
+    // packing, Lubachevsky and Graham 1997), and no disc fits a dish smaller than itself.
+    EXPECT_FALSE(place_discs(std::vector<double>(61, 1.0), 8.6, 1));
+    EXPECT_FALSE(place_discs({1.0}, 0.9, 1));
+    EXPECT_FALSE(place_discs({1.0, 1.0}, 1.9, 1));
+    EXPECT_FALSE(place_discs(std::vector<double>(1000, 1.0), 8.6, 1));
+}
+
+TEST(Packing, NobodyIsPlacedAnywhere) {
+    const auto none = place_discs({}, 8.6, 1);
+    ASSERT_TRUE(none);
+    EXPECT_TRUE(none->empty());
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,69 @@
+#include "swirl/study/crossing.hpp"
+
+#include <gmock/gmock.h>
+
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+using ::testing::HasSubstr;
+
+CrossingSettings short_search(double mu) {
+    CrossingSettings settings;
+    settings.config.mu_disc = settings.config.mu_wall = mu;
+    settings.config.events = 20'000;
+    settings.from = 24;
+    settings.rounds = 1;
+    settings.tolerance = 5.0;
+    return settings;
+}
+
+TEST(CrossingSearch, FindsWhereTheCounterrotationBegins) {
+    const CrossingSearch search = search_crossing(short_search(1.0));
+    ASSERT_EQ(search.crossing.verdict, Crossing::Verdict::crosses);
+    // Long runs give 37 to 38; these are short.
+    EXPECT_NEAR(search.crossing.discs, 37.5, 4.0);
+    EXPECT_THAT(crossing_report(short_search(1.0), search), HasSubstr("N_c = "));
+}
+
+TEST(CrossingSearch, DoesNotDependOnTheNumberOfCores) {
+    CrossingControl one, three;
+    one.threads = 1;
+    three.threads = 3;
+    const CrossingSearch a = search_crossing(short_search(1.0), one);
+    const CrossingSearch b = search_crossing(short_search(1.0), three);
+    EXPECT_EQ(a.crossing.discs, b.crossing.discs);
+    EXPECT_EQ(a.events, b.events);
+}
+
+TEST(CrossingSearch, WithoutWallFrictionThereIsNoneAndItSaysWhy) {
+    CrossingSettings settings = short_search(1.0);
+    settings.config.mu_wall = 0.0;
+    settings.from = 8;
+    settings.to = 20;  // a thin dish: short runs are enough to be certain
+    const CrossingSearch search = search_crossing(settings);
+    EXPECT_EQ(search.crossing.verdict, Crossing::Verdict::always_rotates);
+    const std::string report = crossing_report(settings, search);
+    EXPECT_THAT(report, HasSubstr("No crossing: the discs always rotate"));
+    EXPECT_THAT(report, HasSubstr("between N = 8 and 20 the lowest is"));
+}
+
+TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
+    CrossingSettings backwards = short_search(1.0);
+    backwards.from = 48;
+    EXPECT_THROW(search_crossing(backwards), WrongCall);
+    CrossingSettings certain = short_search(1.0);
+    certain.tolerance = 0.0;
+    EXPECT_THROW(search_crossing(certain), WrongCall);
+}
+
+TEST(CrossingSearch, StopsWhenAsked) {
+    const std::atomic<bool> stop = true;
+    CrossingControl control;
+    control.stop = &stop;
+    EXPECT_THROW(search_crossing(short_search(1.0), control), Interrupted);
+}
+
+}  // namespace
+}  // namespace swirl
