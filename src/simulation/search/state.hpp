@@ -53,7 +53,8 @@ inline constexpr std::uint32_t predict_again = 0xffffff00u;  // the wall event t
 /// Its neighbourhood; or its cell, and then by which edge: + 0 to 3 is right, left, up, down.
 inline constexpr std::uint32_t leaves_place = 0xffffff01u;
 
-/// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell (linked_cells.hpp).
+/// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell
+/// (linked_cells.hpp).
 struct Neighbourhood {
     float X, Y;     // its centre, in the carried frame
     float freedom;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell

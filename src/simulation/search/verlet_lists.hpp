@@ -1,4 +1,5 @@
-// Whom a disc may meet: those on its list (verlet_skin.hpp). For the pack, and whatever is as dense.
+// Whom a disc may meet: those on its list (verlet_skin.hpp). For the pack, and whatever is as
+// dense.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
 #pragma once
