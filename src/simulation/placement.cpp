@@ -1,6 +1,7 @@
 #include "swirl/simulation/placement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "swirl/math/random.hpp"
@@ -11,6 +12,9 @@ namespace swirl {
 namespace {
 
 constexpr double row_height = 0.86602540378443864676;  // √3/2
+
+/// The narrowest lattice from which places are drawn, in units of the widest that would do.
+constexpr double sparsest = 1.0 / 16.0;
 
 /// Sites of the triangular lattice of the given spacing within `reach` of one of them.
 template <class Visit>
@@ -107,7 +111,7 @@ class Cells {
 
 /// Pushes overlapping discs apart, and all of them into the dish, until none overlaps: each sweep
 /// moves the two discs of an overlapping pair away from each other by half the overlap and a
-/// little more. False if a thousand sweeps do not suffice.
+/// little more. False if thousands of sweeps do not suffice.
 bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
                 double container_radius) {
     const double largest = *std::max_element(radii.begin(), radii.end());
@@ -142,7 +146,125 @@ bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
     return false;
 }
 
+/// Discs that are pressed against each other and against the wall, and slide down the energy of
+/// their overlaps. Ends without overlap, or in a dead end.
+class Relaxation {
+  public:
+    Relaxation(const std::vector<double>& radii, double container_radius, Random& random)
+        : radii_(radii),
+          container_radius_(container_radius),
+          margin_(1e-5 * *std::min_element(radii.begin(), radii.end())),
+          width_(2.0 * *std::max_element(radii.begin(), radii.end()) + margin_),
+          force_(radii.size()),
+          velocity_(radii.size()) {
+        for (const double r : radii) centres_.push_back(random.in_disc(container_radius - r));
+    }
+
+    /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics that is
+    /// turned towards the force while it goes downhill, and stopped when it goes uphill. Takes its
+    /// steps off `budget`.
+    bool succeeds(long& budget) {
+        double step = 0.1, turn = 0.1;
+        int downhill = 0;
+        for (int k = 0; k < longest && budget > 0; ++k) {
+            budget -= static_cast<long>(radii_.size());
+            if (!find_forces()) return true;
+            double power = 0.0, force2 = 0.0, speed2 = 0.0;
+            for (std::size_t i = 0; i < centres_.size(); ++i) {
+                power += dot(force_[i], velocity_[i]);
+                force2 += dot(force_[i], force_[i]);
+                speed2 += dot(velocity_[i], velocity_[i]);
+            }
+            if (force2 < balanced * margin_ * margin_) return false;
+            if (power > 0.0) {
+                const double along = turn * square_root(speed2 / force2);
+                for (std::size_t i = 0; i < centres_.size(); ++i)
+                    velocity_[i] = (1.0 - turn) * velocity_[i] + along * force_[i];
+                if (++downhill > 5) {
+                    step = smaller(1.1 * step, 1.0);
+                    turn *= 0.99;
+                }
+            } else {
+                std::fill(velocity_.begin(), velocity_.end(), Vec2{0.0, 0.0});
+                step *= 0.5;
+                turn = 0.1;
+                downhill = 0;
+            }
+            for (std::size_t i = 0; i < centres_.size(); ++i) {
+                velocity_[i] = velocity_[i] + step * force_[i];
+                centres_[i] = centres_[i] + step * velocity_[i];
+            }
+        }
+        return false;
+    }
+    std::vector<Vec2> centres() const { return centres_; }
+
+  private:
+    static constexpr int longest = 20000;     // steps
+    static constexpr double balanced = 1e-6;  // forces, in margins²: it will not get better
+
+    /// The force on each disc, which is the depth of its overlaps; they are reckoned with a margin,
+    /// so that in the end there are none. False if there are none now.
+    bool find_forces() {
+        bool overlap = false;
+        std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
+        const Cells cells(centres_, container_radius_, width_);
+        for (std::size_t i = 0; i < centres_.size(); ++i) {
+            cells.near(centres_[i], [&](std::size_t j) {
+                if (j <= i) return;
+                const Vec2 s = centres_[j] - centres_[i];
+                const double touch = radii_[i] + radii_[j];
+                const double d2 = dot(s, s), sum = touch + margin_;
+                if (d2 >= sum * sum || d2 == 0.0) return;
+                overlap |= d2 < touch * touch;
+                const double d = square_root(d2);
+                const Vec2 push = ((sum - d) / d) * s;
+                force_[i] = force_[i] - push;
+                force_[j] = force_[j] + push;
+            });
+            const double reach = container_radius_ - radii_[i];
+            const double d2 = dot(centres_[i], centres_[i]);
+            const double near = larger(reach - margin_, 0.0);
+            if (d2 <= near * near) continue;
+            overlap |= d2 > reach * reach;
+            const double d = square_root(d2);
+            force_[i] = force_[i] - (2.0 * (d - near) / d) * centres_[i];
+        }
+        return overlap;
+    }
+
+    const std::vector<double>& radii_;
+    double container_radius_, margin_, width_;
+    std::vector<Vec2> centres_, force_, velocity_;
+};
+
+/// Two discs side by side fill a diameter of the dish.
+double sum_of_two_largest(const std::vector<double>& radii) {
+    double first = 0.0, second = 0.0;
+    for (const double r : radii) {
+        second = larger(second, smaller(r, first));
+        first = larger(first, r);
+    }
+    return first + second;
+}
+
+/// Random places relaxed, again and again, until one of them ends without overlap. The budget is
+/// some seconds' worth.
+std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double container_radius,
+                                       Random& random) {
+    for (long budget = 100'000'000; budget > 0;) {
+        Relaxation relaxation(radii, container_radius, random);
+        if (relaxation.succeeds(budget)) return relaxation.centres();
+    }
+    return std::nullopt;
+}
+
 }  // namespace
+
+double most_discs_in_dish(double radius, double container_radius) {
+    const double rho = (container_radius - radius) / (2.0 * radius);
+    return std::floor(pi * rho * rho / row_height + pi * rho + 1.0);
+}
 
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
                                              double container_radius, std::uint64_t seed) {
@@ -151,23 +273,29 @@ std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double smallest = *std::min_element(radii.begin(), radii.end());
     if (!(container_radius >= largest)) return std::nullopt;
+    if (radii.size() > 1 && container_radius < sum_of_two_largest(radii)) return std::nullopt;
     double area = 0.0;
     for (const double r : radii) area += r * r;
     if (area > container_radius * container_radius) return std::nullopt;
+    if (static_cast<double>(radii.size()) > most_discs_in_dish(smallest, container_radius))
+        return std::nullopt;
 
     const double reach = container_radius - largest;
     const double widest = widest_spacing(radii.size(), reach);
     if (widest > 2.0 * largest) {
-        // Halfway between touching and the widest lattice: empty sites, and room to shake.
-        const double spacing = largest + 0.5 * smaller(widest, 3.0 * largest);
+        // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
+        // dish that is all but empty a wider one, with some hundred sites for each disc.
+        const double spacing =
+            larger(largest + 0.5 * smaller(widest, 3.0 * largest), sparsest * widest);
         auto centres = choose_sites(radii.size(), spacing, reach, random);
         shake(centres, 0.49 * (spacing - 2.0 * largest), reach, random);
         return centres;
     }
-    if (smallest == largest) return std::nullopt;
-    auto centres = choose_sites(radii.size(), widest, reach, random);
-    if (!push_apart(centres, radii, container_radius)) return std::nullopt;
-    return centres;
+    if (smallest < largest) {
+        auto centres = choose_sites(radii.size(), widest, reach, random);
+        if (push_apart(centres, radii, container_radius)) return centres;
+    }
+    return relax(radii, container_radius, random);
 }
 
 }  // namespace swirl

@@ -9,15 +9,21 @@
 
 namespace swirl {
 
+/// No more discs of this radius than that fit into the dish. Their centres are at least 2r apart in
+/// a circle of radius R − r, and a convex set of area A and perimeter P holds at most
+/// 2A/√3 + P/2 + 1 points that are no closer than 1 (Oler 1961, doi:10.1007/BF02546388).
+double most_discs_in_dish(double radius, double container_radius);
+
 /// One centre for each radius, relative to the centre of the dish, no two discs closer than
 /// touching and none through the wall. Nothing if they do not fit, or if no arrangement was found
-/// (mixtures close to their densest packing).
+/// in some seconds (close to the densest packing there is).
 ///
 /// Sites of a triangular lattice about the centre, turned by a random angle, N of them taken at
 /// random, each shaken within its free space: at R = 8.6 this holds up to 55 unit discs, since 55
 /// sites lie within √13 lattice spacings and (R − r)/√13 = 2.108 > 2. A mixture that does not fit
 /// on the lattice of its largest disc starts on a narrower one and is pushed apart until no two
-/// overlap.
+/// overlap. What is denser still starts from random places and slides down the energy of its
+/// overlaps until there are none; so the paper's dish takes up to 59 discs.
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
                                              double container_radius, std::uint64_t seed);
 

@@ -52,20 +52,55 @@ void expect_placed(const std::vector<double>& radii, double container_radius, st
         << radii.size() << " discs, seed " << seed;
 }
 
-TEST(Packing, EveryNumberUpTo55IsPlacedInThePaperDish) {
+TEST(Placement, EveryNumberUpTo55IsPlacedInThePaperDish) {
     for (std::size_t n = 1; n <= 55; ++n)
         for (std::uint64_t seed = 0; seed < 20; ++seed)
             expect_placed(std::vector<double>(n, 1.0), 8.6, seed);
 }
 
-TEST(Packing, LargerDishesHoldAsMuch) {
+TEST(Placement, ThePaperDishTakesWhatTheLatticeDoesNot) {
+    for (std::size_t n = 56; n <= 58; ++n)
+        for (std::uint64_t seed = 0; seed < 3; ++seed)
+            expect_placed(std::vector<double>(n, 1.0), 8.6, seed);
+    expect_placed(std::vector<double>(7, 1.0), 3.0001, 1);  // the flower needs R = 3
+}
+
+TEST(Placement, SlowThePaperDishTakes59AndNot61) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed)
+        expect_placed(std::vector<double>(59, 1.0), 8.6, seed);
+    // The smallest circle known around 61 unit circles has radius 8.6613 (the curved hexagonal
+    // packing, Lubachevsky and Graham 1997).
+    EXPECT_FALSE(place_discs(std::vector<double>(61, 1.0), 8.6, 1));
+}
+
+TEST(Placement, OneDiscIsPlacedWhereverItFits) {
+    for (const double radius : {1.0, 2.0, 6.0, 8.0, 8.599, 8.6}) expect_placed({radius}, 8.6, 1);
+}
+
+TEST(Placement, AnEmptyDishCostsNoMore) {
+    expect_placed(std::vector<double>(48, 1.0), 1e3, 1);
+    const auto centres = place_discs(std::vector<double>(48, 1e-6), 1e6, 1);
+    ASSERT_TRUE(centres);
+    EXPECT_EQ(centres->size(), 48u);
+}
+
+TEST(Placement, OlersBoundIsNoLessThanWhatIsKnownToFit) {
+    // Seven in R = 3 r, nineteen in (1 + √2 + √6) r, 61 in 8.6613 r (Graham, Lubachevsky et al.
+    // 1998, doi:10.1016/S0012-365X(97)00050-2).
+    EXPECT_GE(most_discs_in_dish(1.0, 3.0), 7.0);
+    EXPECT_GE(most_discs_in_dish(1.0, 4.8637), 19.0);
+    EXPECT_GE(most_discs_in_dish(1.0, 8.6613), 61.0);
+    EXPECT_EQ(most_discs_in_dish(1.0, 1.0), 1.0);
+}
+
+TEST(Placement, LargerDishesHoldAsMuch) {
     for (const double radius : {17.2, 86.0, 300.0}) {
         const auto n = static_cast<std::size_t>(48.0 / (8.6 * 8.6) * radius * radius);
         expect_placed(std::vector<double>(n, 1.0), radius, 7);
     }
 }
 
-TEST(Packing, MixturesArePlaced) {
+TEST(Placement, MixturesArePlaced) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         std::vector<double> radii;
         for (int i = 0; i < 40; ++i) radii.push_back(i % 3 == 0 ? 1.0 : i % 3 == 1 ? 0.6 : 1.4);
@@ -76,7 +111,7 @@ TEST(Packing, MixturesArePlaced) {
     expect_placed(many, std::sqrt(2500.0 * 1.25 / 0.65), 1);
 }
 
-TEST(Packing, AMillionDiscsAtPacking070InSeconds) {
+TEST(Placement, AMillionDiscsAtPacking070InSeconds) {
     const std::vector<double> radii(1000000, 1.0);
     const std::clock_t start = std::clock();
     const auto centres = place_discs(radii, std::sqrt(1e6 / 0.70), 1);
@@ -90,7 +125,7 @@ TEST(Packing, AMillionDiscsAtPacking070InSeconds) {
 #endif
 }
 
-TEST(Packing, TheSeedDecides) {
+TEST(Placement, TheSeedDecides) {
     const std::vector<double> radii(48, 1.0);
     const auto a = place_discs(radii, 8.6, 1), b = place_discs(radii, 8.6, 1),
                c = place_discs(radii, 8.6, 2);
@@ -102,16 +137,15 @@ TEST(Packing, TheSeedDecides) {
     EXPECT_NE((*a)[0].x, (*c)[0].x);
 }
 
-TEST(Packing, WhatCannotFitIsRefused) {
-    // The smallest circle known around 61 unit circles has radius 8.6613 (the curved hexagonal
-    // packing, Lubachevsky and Graham 1997), and no disc fits a dish smaller than itself.
-    EXPECT_FALSE(place_discs(std::vector<double>(61, 1.0), 8.6, 1));
+TEST(Placement, WhatCannotFitIsRefused) {
+    // Oler's bound for the paper's dish is 65, and no disc fits a dish smaller than itself.
+    EXPECT_FALSE(place_discs(std::vector<double>(66, 1.0), 8.6, 1));
     EXPECT_FALSE(place_discs({1.0}, 0.9, 1));
     EXPECT_FALSE(place_discs({1.0, 1.0}, 1.9, 1));
     EXPECT_FALSE(place_discs(std::vector<double>(1000, 1.0), 8.6, 1));
 }
 
-TEST(Packing, NobodyIsPlacedAnywhere) {
+TEST(Placement, NobodyIsPlacedAnywhere) {
     const auto none = place_discs({}, 8.6, 1);
     ASSERT_TRUE(none);
     EXPECT_TRUE(none->empty());
