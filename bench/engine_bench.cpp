@@ -112,7 +112,7 @@ void step_refresh_and_look_at_the_rotation(benchmark::State& state) {
     ClusterRotation rotation;
     for (auto _ : state) {
         const Event event = simulation.step();
-        rotation.look(snapshot);
+        rotation.sample(snapshot);
         simulation.refresh(snapshot, event);
         rotation.follow(snapshot, event);
     }

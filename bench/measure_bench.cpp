@@ -1,6 +1,6 @@
-// What looking costs: N = 48 in the paper's dish, one swirl per iteration. Every line is a whole
-// run, simulation included; the first is the simulation alone. Looks by time: 511 per swirl, the
-// paper's camera. The last lines are single looks.
+// What sampling costs: N = 48 in the paper's dish, one swirl per iteration. Every line is a whole
+// run, simulation included; the first is the simulation alone. Samples by time: 511 per swirl, the
+// paper's camera. The last lines are single samples.
 #include <benchmark/benchmark.h>
 
 #include <functional>
@@ -42,39 +42,39 @@ Simulation dish(std::size_t discs) {
     return simulation;
 }
 
-struct Looks {
-    std::function<void(const Snapshot&)> by_time;  // null: nobody looks
+struct Samples {
+    std::function<void(const Snapshot&)> by_time;  // null: nobody samples
     std::function<void(const Snapshot&, const Event&)> by_event;
     std::function<void()> close_block = [] {};
 };
 
-/// Swirl after swirl, with looks.
-void swirls(benchmark::State& state, const Looks& looks, std::size_t discs = 48) {
+/// Swirl after swirl, with samples.
+void swirls(benchmark::State& state, const Samples& samples, std::size_t discs = 48) {
     Simulation simulation = dish(discs);
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     Snapshot snapshot = simulation.snapshot();
     const auto before = simulation.events().total();
     for (auto _ : state) {
-        if (!looks.by_time && !looks.by_event) {
+        if (!samples.by_time && !samples.by_event) {
             simulation.advance_to(simulation.swirls() + 1, 0.0);
             continue;
         }
         int next = 0;
         for (bool over = false; !over;) {
             const Event event = simulation.step();
-            for (; looks.by_time && next < camera && paper_period * next / camera <= event.clock;
+            for (; samples.by_time && next < camera && paper_period * next / camera <= event.clock;
                  ++next) {
                 snapshot.clock = paper_period * next / camera;
                 const Leg& leg = path.leg_at(snapshot.clock);
                 snapshot.container_centre = leg.position_at(snapshot.clock);
                 snapshot.container_velocity = leg.velocity_at(snapshot.clock);
-                looks.by_time(snapshot);
+                samples.by_time(snapshot);
             }
             over = simulation.swirls() > event.swirls;
             simulation.refresh(snapshot, event);
-            if (looks.by_event) looks.by_event(snapshot, event);
+            if (samples.by_event) samples.by_event(snapshot, event);
         }
-        looks.close_block();
+        samples.close_block();
     }
     state.counters["events"] = benchmark::Counter(
         static_cast<double>(simulation.events().total() - before), benchmark::Counter::kIsRate);
@@ -91,14 +91,14 @@ BENCHMARK(one_by_one);
 void rotation_by_event(benchmark::State& state) {
     ClusterRotation rotation;
     swirls(state, {{},
-                   [&](const Snapshot& s, const Event& event) { rotation.look(s, event); },
+                   [&](const Snapshot& s, const Event& event) { rotation.sample(s, event); },
                    [&] { rotation.close_block(); }});
 }
 BENCHMARK(rotation_by_event);
 
 void rotation_by_time(benchmark::State& state) {
     ClusterRotation rotation;
-    swirls(state, {[&](const Snapshot& s) { rotation.look_in_time(s); },
+    swirls(state, {[&](const Snapshot& s) { rotation.sample_by_time(s); },
                    {},
                    [&] { rotation.close_block(); }});
 }
@@ -106,7 +106,7 @@ BENCHMARK(rotation_by_time);
 
 void view_alone(benchmark::State& state) {
     MFrameView view;
-    swirls(state, {[&](const Snapshot& s) { view.look(s); }, {}, [] {}});
+    swirls(state, {[&](const Snapshot& s) { view.update(s); }, {}, [] {}});
 }
 BENCHMARK(view_alone);
 
@@ -114,8 +114,8 @@ template <class Map>
 void view_and(benchmark::State& state, Map map) {
     MFrameView view;
     swirls(state, {[&](const Snapshot& s) {
-                       view.look(s);
-                       map.look(view);
+                       view.update(s);
+                       map.sample(view);
                    },
                    {},
                    [&] { map.close_block(); }});
@@ -144,10 +144,10 @@ void collisions(benchmark::State& state) {
     PinnedByCollisions pinned;
     swirls(state, {{},
                    [&](const Snapshot& s, const Event& event) {
-                       rates.look(event);
-                       stress.look(event, s);
-                       budget.look(event, s);
-                       pinned.look(event, s);
+                       rates.sample(event);
+                       stress.sample(event, s);
+                       budget.sample(event, s);
+                       pinned.sample(event, s);
                    },
                    [&] {
                        rates.close_block(paper_period, 48);
@@ -158,7 +158,7 @@ void collisions(benchmark::State& state) {
 }
 BENCHMARK(collisions);
 
-/// Everything at once. What follows the camera looks 511 times per swirl; the structure of the
+/// Everything at once. What follows the camera samples 511 times per swirl; the structure of the
 /// cluster, which changes slowly and costs more, at every 300th of these, which in
 /// time meets every phase of the swirl.
 struct Everything {
@@ -176,26 +176,26 @@ struct Everything {
     HexaticOrder order;
     LocalPacking packing;
     Diffusion diffusion{8};
-    int looks = 0;
+    int samples = 0;
 
     void follow_the_camera(const Snapshot& s) {
-        view.look(s);
-        rotation.look_in_time(s);
-        density.look(view);
-        flow.look(view);
-        profile.look(view);
-        radial.look(view);
-        temperature.look(view);
-        pinned.look(view);
-        band.look(view, pinned.pinned());
-        frustration.look(view, pinned.pinned());
+        view.update(s);
+        rotation.sample_by_time(s);
+        density.sample(view);
+        flow.sample(view);
+        profile.sample(view);
+        radial.sample(view);
+        temperature.sample(view);
+        pinned.sample(view);
+        band.sample(view, pinned.pinned());
+        frustration.sample(view, pinned.pinned());
     }
-    void look_at_the_structure(const Snapshot& s) {
-        if (++looks % 300 != 0) return;
+    void sample_the_structure(const Snapshot& s) {
+        if (++samples % 300 != 0) return;
         cells.find(view);
-        order.look(view, cells, pinned.pinned());
-        packing.look(view, cells, pinned.pinned());
-        diffusion.look(s);
+        order.sample(view, cells, pinned.pinned());
+        packing.sample(view, cells, pinned.pinned());
+        diffusion.sample(s);
     }
     void close_block() {
         rotation.close_block();
@@ -224,27 +224,27 @@ void everything(benchmark::State& state) {
     Everything all;
     swirls(state, {[&](const Snapshot& s) {
                        all.follow_the_camera(s);
-                       all.look_at_the_structure(s);
+                       all.sample_the_structure(s);
                    },
                    {},
                    [&] { all.close_block(); }});
 }
 BENCHMARK(everything);
 
-void look_after_every_event(benchmark::State& state) {
+void sample_after_every_event(benchmark::State& state) {
     Snapshot s = held_earlier(random_discs(static_cast<std::size_t>(state.range(0)), 1));
     ClusterRotation rotation;
     const Event event{0, s.clock, EventKind::disc_disc, 0, 1, {}, {}, 0.0};
     for (auto _ : state) {
         s.clock += 1e-9;
-        rotation.look(s, event);
+        rotation.sample(s, event);
     }
     rotation.close_block();
     benchmark::DoNotOptimize(rotation.estimates().by_event.mean);
 }
-BENCHMARK(look_after_every_event)->Arg(5)->Arg(28)->Arg(47)->Arg(48)->Arg(1000);
+BENCHMARK(sample_after_every_event)->Arg(5)->Arg(28)->Arg(47)->Arg(48)->Arg(1000);
 
-void look_of_each_width(benchmark::State& state) {
+void sample_of_each_width(benchmark::State& state) {
     const auto width = static_cast<Width>(state.range(0));
     if (!has_width(width)) state.SkipWithError("this processor has no such registers");
     Snapshot s = held_earlier(random_discs(48, 1));
@@ -255,7 +255,7 @@ void look_of_each_width(benchmark::State& state) {
     }
     benchmark::DoNotOptimize(sum);
 }
-BENCHMARK(look_of_each_width)->DenseRange(1, 3)->ArgName("width");
+BENCHMARK(sample_of_each_width)->DenseRange(1, 3)->ArgName("width");
 
 void voronoi_of_48(benchmark::State& state) {
     const MFrameView view(random_discs(48, 1));

@@ -102,7 +102,7 @@ void measure_file(const MeasureCall& call) {
         }
         begun = true;
         swirl = s.swirls;
-        rotation.look_in_time(s);
+        rotation.sample_by_time(s);
         for (const auto& sampler : control.samplers) sampler.look(s);
         ++used;
         line.show(double(k + 1) / double(series.frames), fmt::format("frame {}", k + 1));
@@ -136,10 +136,10 @@ void measure_file(const MeasureCall& call) {
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return kind(name).needs_pinned;
     });
-    if (pinned && (per_swirl < 0.8 * looks_per_swirl || per_swirl > 1.25 * looks_per_swirl))
+    if (pinned && (per_swirl < 0.8 * samples_per_period || per_swirl > 1.25 * samples_per_period))
         text += fmt::format(
             "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",
-            per_swirl, looks_per_swirl);
+            per_swirl, samples_per_period);
     if (!call.tables.empty()) {
         make_folder(call.tables);
         write_measured_tables(json["measured"], call.tables);

@@ -152,11 +152,11 @@ std::string remark_on(const std::vector<Footage>& footage, const Appearance& app
             remarks += "The recording tells no orientation of the discs, so they have no hands.\n";
         const double frames = dish.frames_per_swirl;
         if (appearance.coloring == Coloring::pinned && frames > 0.0 &&
-            (frames < 0.8 * looks_per_swirl || frames > 1.25 * looks_per_swirl))
+            (frames < 0.8 * samples_per_period || frames > 1.25 * samples_per_period))
             remarks += fmt::format(
                 "There are {:.0f} frames per swirl; the criteria for pinned discs are made for "
                 "{}.\n",
-                frames, looks_per_swirl);
+                frames, samples_per_period);
     }
     return remarks;
 }

@@ -235,8 +235,8 @@ const std::vector<std::uint8_t>& PinnedWatch::at(double swirls) {
     for (; next_ <= wanted; ++next_) {
         const double moment = static_cast<double>(next_) / frames_per_swirl;
         if (to_ && moment > *to_) break;
-        view_.look(reel_(moment));
-        pinned_.look(view_);
+        view_.update(reel_(moment));
+        pinned_.sample(view_);
     }
     return pinned_.pinned();
 }

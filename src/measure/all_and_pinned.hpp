@@ -1,5 +1,5 @@
-// The average over discs and looks of something that each disc has: over all of them, and over the
-// pinned ones (pinned_loose.hpp). Every disc that has a value counts the same.
+// The average over discs and samples of something that each disc has: over all of them, and over
+// the pinned ones (pinned_loose.hpp). Every disc that has a value counts the same.
 //
 // Units: those of the value. Error from blocks of periods. Limits: a disc whose value is not known
 // (NaN) is left out; without any the mean is NaN.

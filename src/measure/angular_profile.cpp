@@ -31,7 +31,7 @@ SWIRL_WIDE void rates_of(std::size_t n, double R, double omega, double slices, V
 
 }  // namespace
 
-void AngularProfile::look(const MFrameView& view) {
+void AngularProfile::sample(const MFrameView& view) {
     const std::size_t n = view.size();
     for (auto* column : {&own_, &wall_, &slice_}) column->resize(n);
     rates_of(n, view.container_radius, view.frame.omega, static_cast<double>(slices()),

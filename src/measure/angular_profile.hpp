@@ -12,7 +12,7 @@
 // because the centre of mass is not at C, so even the wall passes it at a rate that depends on θ.
 //
 // Units: Ω. Slices are equal, the first begins at θ = 0 (m_frame.hpp: +x; M is at 3π/2).
-// Normalisation: every disc found in a slice counts the same at every look. Error from blocks of
+// Normalisation: every disc found in a slice counts the same at every sample. Error from blocks of
 // periods. Limits: a slice never visited: NaN. A disc on the centre of mass is left out.
 #pragma once
 
@@ -28,7 +28,7 @@ class AngularProfile {
   public:
     explicit AngularProfile(std::size_t slices = 72) : cells_(slices) {}
 
-    void look(const MFrameView& view);
+    void sample(const MFrameView& view);
     void close_block() { cells_.close_block(); }
 
     std::size_t slices() const { return cells_.size(); }
@@ -52,7 +52,7 @@ class AngularProfile {
 
   private:
     CellMeans<2> cells_;
-    std::vector<double> own_, wall_, slice_;  // of one look
+    std::vector<double> own_, wall_, slice_;  // of one sample
 };
 
 }  // namespace swirl

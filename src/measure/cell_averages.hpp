@@ -2,7 +2,8 @@
 //
 //   CellMeans   what an average visitor of the cell carries: m = Σ s_b / Σ w_b, with the sum s_b
 //               and the number of visits w_b of block b, both of that cell
-//   CellRates   how much there is of it per look: m = Σ s_b / Σ w_b, with w_b the looks of block b,
+//   CellRates   how much there is of it per sample: m = Σ s_b / Σ w_b, with w_b the samples of
+//   block b,
 //               common to all cells
 //
 // Both are ratios of sums over n blocks. What scatters is s_b − m w_b, so
@@ -12,7 +13,7 @@
 // which needs five sums per cell, however long the run. Unlike statistics.hpp the blocks are taken
 // for independent: a cell forgets within a period, and 10⁴ cells cannot each keep their history.
 //
-// Limits: a cell never visited has no mean (NaN); CellRates: 0, once there was a look. Fewer than
+// Limits: a cell never visited has no mean (NaN); CellRates: 0, once there was a sample. Fewer than
 // two blocks: the error is NaN. What has not been closed does not count.
 #pragma once
 
@@ -129,7 +130,7 @@ class CellRates {
     std::size_t blocks() const { return blocks_; }
 
     void add(std::size_t cell, double amount = 1.0) { open_[cell] += amount; }
-    /// Counts a look; or adds the time that has passed, when the amounts are per time.
+    /// Counts a sample; or adds the time that has passed, when the amounts are per time.
     void add_weight(double weight = 1.0) { weight_ += weight; }
 
     void close_block() {

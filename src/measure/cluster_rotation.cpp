@@ -96,7 +96,7 @@ void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event
         push(centre_, event);
 }
 
-RotationSample ClusterRotation::look(const Snapshot& snapshot) {
+RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
     if (centre_.discs != static_cast<std::ptrdiff_t>(snapshot.size()))
         centre_ = centre_of(snapshot, *kernel_);
     const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
@@ -104,7 +104,7 @@ RotationSample ClusterRotation::look(const Snapshot& snapshot) {
     return sample;
 }
 
-RotationSample ClusterRotation::look_in_time(const Snapshot& snapshot) {
+RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
     const RotationSample sample = sample_of(snapshot, centre_of(snapshot, *kernel_), *kernel_);
     time_.add(sample, snapshot.period);
     return sample;

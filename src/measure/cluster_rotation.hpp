@@ -19,7 +19,7 @@
 // about it and is left out of the individual mean; if no disc is left (one disc, all discs on one
 // point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
 //
-// A look after every event must cost less than the event. The centre of mass is therefore not
+// A sample after every event must cost less than the event. The centre of mass is therefore not
 // summed up each time: discs that collide push each other, so only the wall changes its velocity,
 // by −J/M, and between two such pushes it moves uniformly. What rounding makes of that is forgotten
 // at every path vertex, where it is summed up anew. Eight discs are treated side by side, always
@@ -62,13 +62,13 @@ class ClusterRotation {
     /// One sample of the average by event: call once for every event that was followed. Whoever is
     /// in a hurry does so just before the snapshot is brought up to date for the next event: a wide
     /// load right behind narrow stores to the same place waits for them.
-    RotationSample look(const Snapshot& snapshot);
-    RotationSample look(const Snapshot& snapshot, const Event& event) {
+    RotationSample sample(const Snapshot& snapshot);
+    RotationSample sample(const Snapshot& snapshot, const Event& event) {
         follow(snapshot, event);
-        return look(snapshot);
+        return sample(snapshot);
     }
     /// One sample of the average by time: call at equal time steps.
-    RotationSample look_in_time(const Snapshot& snapshot);
+    RotationSample sample_by_time(const Snapshot& snapshot);
 
     /// Call at the end of every period. What was seen since the last call becomes a block; what
     /// has not been closed does not count.

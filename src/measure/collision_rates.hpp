@@ -19,7 +19,7 @@ namespace swirl {
 
 class CollisionRates {
   public:
-    void look(const Event& event) {
+    void sample(const Event& event) {
         if (event.kind == EventKind::disc_disc) disc_ += 2.0;
         if (event.kind == EventKind::disc_wall) wall_ += 1.0;
     }

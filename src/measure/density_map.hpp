@@ -2,13 +2,13 @@
 //
 //   density of a cell = ⟨number of disc centres in it⟩ / area of the cell
 //
-// in discs per unit area (unit of length: the disc radius), averaged over looks. Summed over all
-// cells, times the area of a cell, it is the number of discs. By event, as in the paper: look after
-// every event, or after every k-th, which changes the error but not the mean. By time: look at
-// equal time steps. Error from blocks of periods (cell_averages.hpp).
+// in discs per unit area (unit of length: the disc radius), averaged over samples. Summed over all
+// cells, times the area of a cell, it is the number of discs. By event, as in the paper: sample
+// after every event, or after every k-th, which changes the error but not the mean. By time: sample
+// at equal time steps. Error from blocks of periods (cell_averages.hpp).
 //
 // Source: paper, SI "Simulation parameters" (100 × 100 cells over the container's bounding square).
-// Limits: no looks: NaN everywhere. A centre outside the square is counted in outside() alone.
+// Limits: no samples: NaN everywhere. A centre outside the square is counted in outside() alone.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class DensityMap {
     explicit DensityMap(double container_radius, std::size_t side = 100)
         : grid_{side, container_radius}, counts_(grid_.cells() + 1) {}
 
-    void look(const MFrameView& view) {
+    void sample(const MFrameView& view) {
         counts_.add_weight();
         cell_.resize(view.size());
         grid_.locate(view.size(), view.x.data(), view.y.data(), cell_.data());
@@ -38,7 +38,7 @@ class DensityMap {
         return scaled(counts_.estimate(cell), 1.0 / grid_.cell_area());
     }
     double count(std::size_t cell) const { return counts_.sum(cell); }
-    double looks() const { return counts_.weight(); }
+    double samples() const { return counts_.weight(); }
     double outside() const { return counts_.sum(grid_.cells()); }
 
     void merge(const DensityMap& other) { counts_.merge(other.counts_); }
@@ -50,7 +50,7 @@ class DensityMap {
   private:
     SquareGrid grid_;
     CellRates counts_;                // the last one is outside
-    std::vector<std::int32_t> cell_;  // of every disc, at one look
+    std::vector<std::int32_t> cell_;  // of every disc, at one sample
 };
 
 }  // namespace swirl

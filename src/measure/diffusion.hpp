@@ -3,7 +3,7 @@
 //   displacement          ⟨|Δ(r − C)|²⟩      relative to the container, in the lab's directions
 //   angular displacement  ⟨Δα⟩ and ⟨Δα²⟩ − ⟨Δα⟩²   of the discs' orientation α
 //
-// for lags of 1, 2, 4, … looks, over all discs and all beginnings. In free diffusion they grow as 4
+// for lags of 1, 2, 4, … samples, over all discs and beginnings. In free diffusion they grow as 4
 // D t and 2 D_rot t; in a dish the first saturates near the square of its size, and within a period
 // it shows the sloshing. Take lags of whole periods to see the diffusion through it.
 //
@@ -11,7 +11,7 @@
 // every beginning counts the same. Error from blocks of periods: a displacement belongs to the
 // block in which it ends. Those of a lag of L periods overlap for L blocks, so L blocks count as
 // one independent sample: the error is √L times that of the blocks. Limits: orientation unknown
-// (NaN): no angular displacement (NaN). Looks that do not follow in equal steps of time (to 1 %),
+// (NaN): no angular displacement (NaN). Samples that do not follow in equal steps of time (to 1 %),
 // or another number of discs, begin anew, and are counted.
 #pragma once
 
@@ -27,32 +27,32 @@ namespace swirl {
 
 class Diffusion {
   public:
-    /// Lags up to 2^(lags − 1) looks.
+    /// Lags up to 2^(lags − 1) samples.
     explicit Diffusion(std::size_t lags = 10)
         : window_((std::size_t{1} << (lags - 1)) + 1), moves_(lags), turns_(lags) {}
 
-    void look(const Snapshot& s) {
+    void sample(const Snapshot& s) {
         const double step = s.time() - last_time_;
-        const bool first = looks_ == 0;
-        const bool even = step > 0.0 && (looks_ < 2 || std::abs(step - step_) <= 0.01 * step_);
+        const bool first = samples_ == 0;
+        const bool even = step > 0.0 && (samples_ < 2 || std::abs(step - step_) <= 0.01 * step_);
         if (s.size() != discs_ || (!first && !even)) {
             if (!first) breaks_ += 1.0;
-            looks_ = 0;
+            samples_ = 0;
             discs_ = s.size();
             past_.assign(window_ * discs_, {});
         }
-        if (looks_ == 1) step_ = step;
+        if (samples_ == 1) step_ = step;
         last_time_ = s.time();
         period_ = s.period;
         if (discs_ == 0) return;
 
-        State* const now = at(looks_);
+        State* const now = at(samples_);
         for (std::size_t i = 0; i < discs_; ++i)
             now[i] = {s.position(i) - s.container_centre, s.orientation(i)};
         for (std::size_t k = 0; k < lags(); ++k) {
             const std::int64_t lag = std::int64_t{1} << k;
-            if (lag > looks_) break;
-            const State* const then = at(looks_ - lag);
+            if (lag > samples_) break;
+            const State* const then = at(samples_ - lag);
             double square = 0.0, turned = 0.0, turned_square = 0.0;
             for (std::size_t i = 0; i < discs_; ++i) {
                 const Vec2 d = now[i].position - then[i].position;
@@ -65,7 +65,7 @@ class Diffusion {
             moves_.add(k, {square}, visits);
             turns_.add(k, {turned, turned_square}, visits);
         }
-        ++looks_;
+        ++samples_;
     }
     void close_block() {
         moves_.close_block();
@@ -98,7 +98,7 @@ class Diffusion {
     void fields(Visitor&& visit) {
         visit(past_);
         visit(discs_);
-        visit(looks_);
+        visit(samples_);
         visit(last_time_);
         visit(step_);
         visit(period_);
@@ -113,8 +113,8 @@ class Diffusion {
     };
 
   private:
-    State* at(std::int64_t look) {
-        return past_.data() + static_cast<std::size_t>(look) % window_ * discs_;
+    State* at(std::int64_t index) {
+        return past_.data() + static_cast<std::size_t>(index) % window_ * discs_;
     }
 
     /// As many blocks as the lag is long count as one.
@@ -125,10 +125,10 @@ class Diffusion {
         return e;
     }
 
-    std::size_t window_;  // looks that are kept
+    std::size_t window_;  // samples that are kept
     std::vector<State> past_;
     std::size_t discs_ = 0;
-    std::int64_t looks_ = 0;
+    std::int64_t samples_ = 0;
     double last_time_ = 0.0, step_ = 0.0, period_ = 0.0, breaks_ = 0.0;
     CellMeans<1> moves_;
     CellMeans<2> turns_;

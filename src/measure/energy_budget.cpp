@@ -46,7 +46,7 @@ double kinetic_energy(const Snapshot& s) {
     return sum;
 }
 
-void EnergyBudget::look(const Event& event, const Snapshot& after) {
+void EnergyBudget::sample(const Event& event, const Snapshot& after) {
     if (event.kind == EventKind::path_vertex) return;
     const EnergyChange change = energy_change(event, after);
     add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);

@@ -43,7 +43,7 @@ double kinetic_energy(const Snapshot& snapshot);
 class EnergyBudget {
   public:
     /// Every event, with the state after it.
-    void look(const Event& event, const Snapshot& after);
+    void sample(const Event& event, const Snapshot& after);
     /// `duration`: the time the events since the last call took.
     void close_block(double duration);
 

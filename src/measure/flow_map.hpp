@@ -7,7 +7,7 @@
 // has 0.
 //
 // Units: the snapshot's velocity, in which the container's speed is 1. Normalisation: every disc
-// found in the cell counts the same, at every look. Error from blocks of periods
+// found in the cell counts the same, at every sample. Error from blocks of periods
 // (cell_averages.hpp). Source: paper, SI "Simulation parameters" (20 × 20 cells over the
 // container's bounding square). Limits: a cell never visited has no flow (NaN). A centre outside
 // the square belongs to no cell.
@@ -27,7 +27,7 @@ class FlowMap {
     explicit FlowMap(double container_radius, std::size_t side = 20)
         : grid_{side, container_radius}, cells_(grid_.cells() + 1) {}
 
-    void look(const MFrameView& view) {
+    void sample(const MFrameView& view) {
         cell_.resize(view.size());
         grid_.locate(view.size(), view.x.data(), view.y.data(), cell_.data());
         for (std::size_t i = 0; i < view.size(); ++i)
@@ -50,7 +50,7 @@ class FlowMap {
   private:
     SquareGrid grid_;
     CellMeans<2> cells_;              // the last one is outside
-    std::vector<std::int32_t> cell_;  // of every disc, at one look
+    std::vector<std::int32_t> cell_;  // of every disc, at one sample
 };
 
 }  // namespace swirl

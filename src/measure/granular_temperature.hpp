@@ -11,7 +11,7 @@
 // doi:10.1146/annurev.fluid.35.101101.161114. Error from blocks of periods: that of ½⟨m u²⟩ (of
 // ⟨I ω²⟩), the mean flow being known better than what moves about it.
 //
-// Only every 8th look is looked at, unless told otherwise.
+// Only every 8th sample is used, unless told otherwise.
 //
 // Limits: a cell never visited has no temperature (NaN), one visited once has 0. Whatever structure
 // the flow has inside a cell counts as temperature. Missing spins (NaN) make that of the spin NaN.
@@ -30,8 +30,8 @@ class GranularTemperature {
     explicit GranularTemperature(double container_radius, std::size_t side = 20, int every = 8)
         : grid_{side, container_radius}, every_(every), cells_(grid_.cells()), spins_(1) {}
 
-    void look(const MFrameView& view) {
-        if (looks_++ % every_ != 0) return;
+    void sample(const MFrameView& view) {
+        if (samples_++ % every_ != 0) return;
         for (std::size_t i = 0; i < view.size(); ++i) {
             const double m = view.mass[i], I = view.inertia[i], spin = view.spin[i];
             spins_.add(0, {I, I * spin, I * spin * spin});
@@ -77,7 +77,7 @@ class GranularTemperature {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(looks_);
+        visit(samples_);
         cells_.fields(visit);
         spins_.fields(visit);
         energies_.fields(visit);
@@ -86,7 +86,7 @@ class GranularTemperature {
   private:
     SquareGrid grid_;
     int every_;
-    std::int64_t looks_ = 0;
+    std::int64_t samples_ = 0;
     CellMeans<4> cells_;
     CellMeans<3> spins_;
     BlockMean energies_;

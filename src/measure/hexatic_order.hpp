@@ -8,8 +8,8 @@
 // doi:10.1063/1.4774084). It is 1 for a perfect hexagon and 0 for a square. A disc at the wall has
 // neighbours on one side only; they count as they are.
 //
-// Average: over discs and looks, and over the pinned ones among them. Error from blocks of periods.
-// Units: none. Limits: a disc without neighbours has none and is left out.
+// Average: over discs and samples, and over the pinned ones among them. Error from blocks of
+// periods. Units: none. Limits: a disc without neighbours has none and is left out.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::s
 
 class HexaticOrder : public AllAndPinned {
   public:
-    void look(const MFrameView& view, const Voronoi& cells,
-              std::span<const std::uint8_t> pinned = {}) {
+    void sample(const MFrameView& view, const Voronoi& cells,
+                std::span<const std::uint8_t> pinned = {}) {
         for (std::size_t i = 0; i < view.size(); ++i) add(hexatic_order(view, cells, i), i, pinned);
     }
 };

@@ -2,7 +2,7 @@
 //
 //   φ_i = π R_i² / (area of the disc's cell)         cells: voronoi.hpp, cut off at the wall
 //
-// The densest packing of equal discs has π/√12 = 0.9069. Average: over discs and looks, and over
+// The densest packing of equal discs has π/√12 = 0.9069. Average: over discs and samples, and over
 // the pinned ones among them; a disc counts the same however large its cell, so dense regions,
 // where the discs are, weigh more than in the mean over the area (N π r²/πR²).
 //
@@ -21,8 +21,8 @@ namespace swirl {
 
 class LocalPacking : public AllAndPinned {
   public:
-    void look(const MFrameView& view, const Voronoi& cells,
-              std::span<const std::uint8_t> pinned = {}) {
+    void sample(const MFrameView& view, const Voronoi& cells,
+                std::span<const std::uint8_t> pinned = {}) {
         for (std::size_t i = 0; i < view.size(); ++i) {
             const double area = cells.area(i);
             add(area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known, i, pinned);

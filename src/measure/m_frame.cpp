@@ -79,7 +79,7 @@ SWIRL_WIDE void turn_rates(std::size_t n, Vec2 centre, Vec2 velocity, double clo
 
 }  // namespace
 
-void MFrameView::look(const Snapshot& s) {
+void MFrameView::update(const Snapshot& s) {
     const std::size_t n = s.size();
     frame = m_frame(s);
     time = s.time();

@@ -63,8 +63,8 @@ Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame);
 class MFrameView {
   public:
     MFrameView() = default;
-    MFrameView(const Snapshot& snapshot) { look(snapshot); }  // NOLINT: a view of it
-    void look(const Snapshot& snapshot);
+    MFrameView(const Snapshot& snapshot) { update(snapshot); }  // NOLINT: a view of it
+    void update(const Snapshot& snapshot);
 
     std::size_t size() const { return x.size(); }
 

@@ -95,7 +95,7 @@ void PinnedLoose::sum_window() {
     }
 }
 
-void PinnedLoose::look(const MFrameView& view) {
+void PinnedLoose::sample(const MFrameView& view) {
     const std::size_t n = view.size();
     const double step = view.time - last_time_;
     if (n != pinned_.size()) {
@@ -162,7 +162,7 @@ void PinnedLoose::merge(const PinnedLoose& other) {
     breaks_ += other.breaks_;
 }
 
-void PinnedByCollisions::look(const Event& event, const Snapshot& after) {
+void PinnedByCollisions::sample(const Event& event, const Snapshot& after) {
     if (event.kind == EventKind::path_vertex) return;
     if (last_.size() != after.size()) {
         last_.assign(after.size(), {});

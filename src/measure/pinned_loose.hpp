@@ -53,7 +53,7 @@ class PinnedLoose {
     explicit PinnedLoose(const PinningCriteria& criteria = {});
 
     /// One frame; frames at equal time steps.
-    void look(const MFrameView& view);
+    void sample(const MFrameView& view);
     void close_block();
 
     /// For each disc whether it is pinned, seven frames ago; all 0 before there are enough frames.
@@ -111,7 +111,7 @@ class PinnedLoose {
 class PinnedByCollisions {
   public:
     /// After every event, with the state after it.
-    void look(const Event& event, const Snapshot& after);
+    void sample(const Event& event, const Snapshot& after);
     /// At the end of every swirl: now the longest flights are known.
     void close_block();
     const CircularMean& becoming_pinned() const { return becoming_pinned_; }

@@ -16,7 +16,7 @@ SWIRL_WIDE void rings_of(std::size_t n, double rings, double radius, const doubl
 
 }  // namespace
 
-void RadialDensity::look(const MFrameView& view) {
+void RadialDensity::sample(const MFrameView& view) {
     counts_.add_weight();
     ring_.resize(view.size());
     rings_of(view.size(), static_cast<double>(rings()), container_radius_, view.x.data(),

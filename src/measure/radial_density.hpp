@@ -5,8 +5,8 @@
 // in discs per unit area, about C. Rings are equally wide, from 0 to R. Σ ρ × area is the number of
 // discs. Times the area of a disc it is the packing fraction that many discs would have everywhere.
 //
-// Units: 1/length². Normalisation: per look. Error from blocks of periods. Limits: no looks: NaN. A
-// centre outside the container (a camera's error) is counted in no ring.
+// Units: 1/length². Normalisation: per sample. Error from blocks of periods. Limits: no samples:
+// NaN. A centre outside the container (a camera's error) is counted in no ring.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class RadialDensity {
     explicit RadialDensity(double container_radius, std::size_t rings = 43)
         : container_radius_(container_radius), counts_(rings + 1) {}
 
-    void look(const MFrameView& view);
+    void sample(const MFrameView& view);
     void close_block() { counts_.close_block(); }
 
     std::size_t rings() const { return counts_.size() - 1; }
@@ -47,7 +47,7 @@ class RadialDensity {
   private:
     double container_radius_;
     CellRates counts_;                // the last one is outside
-    std::vector<std::int32_t> ring_;  // of every disc, at one look
+    std::vector<std::int32_t> ring_;  // of every disc, at one sample
 };
 
 }  // namespace swirl

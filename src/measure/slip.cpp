@@ -23,8 +23,8 @@ double cluster_perimeter(const MFrameView& view) {
     return perimeter_of(view, centres);
 }
 
-void Slip::look(const MFrameView& view, std::span<const std::uint8_t> pinned) {
-    if (looks_++ % every_ != 0) return;
+void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) {
+    if (samples_++ % every_ != 0) return;
     const double P = perimeter_of(view, centres_);
     if (!(P == P)) return;
     const double P_container = 2.0 * pi * view.container_radius;

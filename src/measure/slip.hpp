@@ -10,17 +10,17 @@
 //                the mean over the pinned discs (pinned_loose.hpp), about the centre of mass and
 //                with the perimeter of the whole cluster, which is what rolls
 //
-// The average is that of the product, over looks; −ϖ_M stands for |ϖ_M|, so that noise about zero
+// The average is that of the product, over samples; −ϖ_M stands for |ϖ_M|, so that noise about zero
 // does not add up (ϖ_M is negative wherever the wall drives).
 //
 //   pancake line: a single body with the cluster's perimeter, s = 1,
 //   ϖ/Ω = 1 − P_container/P_cluster
 //
-// Only every 64th look is looked at, unless told otherwise: the hull costs more than most
+// Only every 64th sample is used, unless told otherwise: the hull costs more than most
 // measurements, and the cluster changes little between two frames of a camera.
 //
 // Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
-// not averaged: the mean stays NaN if there was nothing else); nobody pinned: that look does not
+// not averaged: the mean stays NaN if there was nothing else); nobody pinned: that sample does not
 // count.
 #pragma once
 
@@ -44,7 +44,7 @@ class Slip {
     explicit Slip(int every = 64) : every_(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
-    void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
+    void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
     void close_block() {
         for (BlockMean* mean : {&cluster_, &pinned_, &perimeter_, &pancake_}) mean->close_block();
     }
@@ -64,13 +64,13 @@ class Slip {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(looks_);
+        visit(samples_);
         for (BlockMean* mean : {&cluster_, &pinned_, &perimeter_, &pancake_}) mean->fields(visit);
     }
 
   private:
     int every_;
-    std::int64_t looks_ = 0;
+    std::int64_t samples_ = 0;
     BlockMean cluster_, pinned_, perimeter_, pancake_;
     std::vector<Vec2> centres_;
 };

@@ -5,8 +5,8 @@
 
 namespace swirl {
 
-void SpinFrustration::look(const MFrameView& view, std::span<const std::uint8_t> pinned) {
-    if (looks_++ % every_ != 0) return;
+void SpinFrustration::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) {
+    if (samples_++ % every_ != 0) return;
     const std::size_t n = view.size();
     if (n == 0) return;
     double mean_radius = 0.0;

@@ -13,12 +13,12 @@
 //   sticking          share of the collisions in which friction stopped the slip, for disc–disc
 //                     and for disc–wall separately (needs the collisions themselves)
 //
-// Only every 64th look at the discs is looked at, unless told otherwise: a search for neighbours
+// Only every 64th sample of the discs is used, unless told otherwise: a search for neighbours
 // costs more than most measurements. Every collision counts.
 //
 // At the wall: gap below 0.1 r. Touching: gap below 0.1 of the mean radius. Units: none. The ratios
-// are of sums over looks; errors from blocks of periods. Limits: missing spins (NaN) make wall spin
-// and correlation NaN; nobody touching: NaN.
+// are of sums over samples; errors from blocks of periods. Limits: missing spins (NaN) make wall
+// spin and correlation NaN; nobody touching: NaN.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +37,9 @@ class SpinFrustration {
     explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
-    void look(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
+    void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
     /// A collision, for the share that sticks.
-    void look(const Event& event) {
+    void sample(const Event& event) {
         if (event.kind == EventKind::path_vertex) return;
         BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
         share.add(event.impulse.sticks ? 1.0 : 0.0);
@@ -68,7 +68,7 @@ class SpinFrustration {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(looks_);
+        visit(samples_);
         for (BlockMean* mean : means()) mean->fields(visit);
     }
 
@@ -80,7 +80,7 @@ class SpinFrustration {
 
     double gap_;
     int every_;
-    std::int64_t looks_ = 0;
+    std::int64_t samples_ = 0;
     BlockMean wall_spin_, pinned_wall_spin_, correlation_, triangles_, coordination_;
     BlockMean disc_sticking_, wall_sticking_;
     TouchingPairs touching_;

@@ -11,8 +11,8 @@
 //           |  i | j   |          clipped by the border with one neighbour after the other; what
 //            \___|____/           counts is inside the circle, exactly (no polygon for the wall)
 //
-// It costs some 20 µs for 48 discs, much more than a look; the structure changes slowly, and a few
-// times per swirl is enough.
+// It costs some 20 µs for 48 discs, much more than a sample; the structure changes slowly, and a
+// few times per swirl is enough.
 //
 // Σ areas = πR², if every disc lies in the container. Neighbours are those with a common border
 // inside. Units: those of the view. Limits: discs on one point have no border with each other and

@@ -26,7 +26,7 @@ class WallStress {
         : container_radius_(container_radius), normal_(slices), along_(slices) {}
 
     /// Every event, with the state after it.
-    void look(const Event& event, const Snapshot& after) {
+    void sample(const Event& event, const Snapshot& after) {
         if (event.kind != EventKind::disc_wall) return;
         const double u = turns_of(m_frame(after).turn(event.normal));
         const std::size_t slice = std::min(

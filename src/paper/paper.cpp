@@ -109,7 +109,7 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
         config.periods ? expected_events_per_swirl(config) * static_cast<double>(*config.periods)
                        : static_cast<double>(config.events);
     const double swirls = events / expected_events_per_swirl(config);
-    const double looks = measurements.empty() ? 0.0 : looks_per_swirl * swirls;
+    const double looks = measurements.empty() ? 0.0 : samples_per_period * swirls;
     const double cost = events + looks * cost_of_a_look;
     return {key, cost, [config, measurements](const RunControl& control) {
                 const MeasuredRun done = measured_run(config, measurements, control);

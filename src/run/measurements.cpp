@@ -33,14 +33,14 @@ namespace fs = std::filesystem;
 constexpr double degrees = 180.0 / pi;
 
 /// Looks by event at every 32nd event: that changes the error, hardly, and not the mean.
-constexpr int events_per_look = 32;
+constexpr int events_per_sample = 32;
 
 /// Cells are found at every hundredth look: they cost as much as twenty others, and the structure
 /// changes slowly. 100 and 511 have no common divisor, so every phase of the swirl is met.
-constexpr int looks_per_structure = 100;
+constexpr int samples_per_structure = 100;
 
 /// Displacements within a swirl are taken at every seventh look, 73 times per swirl.
-constexpr int looks_per_position = 7;
+constexpr int samples_per_position = 7;
 
 /// Columns that grow together.
 class Columns {
@@ -64,7 +64,7 @@ template <class Observer, Json (*to_json)(const Observer&)>
 class OfTheView : public Kept<OfTheView<Observer, to_json>> {
   public:
     explicit OfTheView(Observer observer = Observer()) : observer_(std::move(observer)) {}
-    void look(const Look& look) override { observer_.look(look.view); }
+    void sample(const Look& look) override { observer_.sample(look.view); }
     void close_block() override { observer_.close_block(); }
     Json result() const override { return to_json(observer_); }
     template <class Visitor>
@@ -83,11 +83,11 @@ class Density : public Kept<Density> {
   public:
     explicit Density(double container_radius)
         : by_time_(container_radius), by_event_(container_radius) {}
-    void look(const Look& look) override { by_time_.look(look.view); }
+    void sample(const Look& look) override { by_time_.sample(look.view); }
     void after_event(const Snapshot& lab, const Event&) override {
-        if (++events_ % events_per_look != 0) return;
-        view_.look(lab);
-        by_event_.look(view_);
+        if (++events_ % events_per_sample != 0) return;
+        view_.update(lab);
+        by_event_.sample(view_);
     }
     void close_block() override {
         by_time_.close_block();
@@ -162,7 +162,7 @@ class Pinned : public Kept<Pinned> {
   public:
     void share(const PinnedLoose& pinned_loose) override { by_tracks_ = &pinned_loose; }
     void after_event(const Snapshot& lab, const Event& event) override {
-        by_collisions_.look(event, lab);
+        by_collisions_.sample(event, lab);
     }
     void close_block() override { by_collisions_.close_block(); }
     Json result() const override {
@@ -185,8 +185,8 @@ class Pinned : public Kept<Pinned> {
 
 class OfSlip : public Kept<OfSlip> {
   public:
-    void look(const Look& look) override {
-        if (look.earlier) slip_.look(*look.earlier, look.pinned_loose.pinned());
+    void sample(const Look& look) override {
+        if (look.earlier) slip_.sample(*look.earlier, look.pinned_loose.pinned());
     }
     void close_block() override { slip_.close_block(); }
     Json result() const override {
@@ -206,10 +206,10 @@ class OfSlip : public Kept<OfSlip> {
 
 class OfFrustration : public Kept<OfFrustration> {
   public:
-    void look(const Look& look) override {
-        if (look.earlier) spins_.look(*look.earlier, look.pinned_loose.pinned());
+    void sample(const Look& look) override {
+        if (look.earlier) spins_.sample(*look.earlier, look.pinned_loose.pinned());
     }
-    void after_event(const Snapshot&, const Event& event) override { spins_.look(event); }
+    void after_event(const Snapshot&, const Event& event) override { spins_.sample(event); }
     void close_block() override { spins_.close_block(); }
     Json result() const override {
         return {{"wall_spin", estimate_json(spins_.wall_spin())},
@@ -235,8 +235,8 @@ class OfFrustration : public Kept<OfFrustration> {
 template <class Observer>
 class OfTheCells : public Kept<OfTheCells<Observer>> {
   public:
-    void look(const Look& look) override {
-        if (look.cells) observer_.look(*look.structure, *look.cells, look.pinned);
+    void sample(const Look& look) override {
+        if (look.cells) observer_.sample(*look.structure, *look.cells, look.pinned);
     }
     void close_block() override { observer_.close_block(); }
     Json result() const override {
@@ -259,7 +259,7 @@ class OfCollisions : public Kept<OfCollisions> {
   public:
     explicit OfCollisions(const RunConfig& config) : period_(config.period) {}
     void after_event(const Snapshot& lab, const Event& event) override {
-        rates_.look(event);
+        rates_.sample(event);
         discs_ = lab.size();
     }
     void close_block() override {
@@ -287,7 +287,7 @@ class OfTheWall : public Kept<OfTheWall> {
     explicit OfTheWall(const RunConfig& config)
         : period_(config.period), stress_(config.container_radius) {}
     void after_event(const Snapshot& lab, const Event& event) override {
-        stress_.look(event, lab);
+        stress_.sample(event, lab);
         seen_ = true;
     }
     void close_block() override {
@@ -322,7 +322,7 @@ class OfTheEnergy : public Kept<OfTheEnergy> {
   public:
     explicit OfTheEnergy(const RunConfig& config) : period_(config.period) {}
     void after_event(const Snapshot& lab, const Event& event) override {
-        budget_.look(event, lab);
+        budget_.sample(event, lab);
         if (compared_) return;
         compared_ = true;
         const double difference = kinetic_energy(lab) - budget_.accounted();
@@ -362,9 +362,9 @@ class OfTheEnergy : public Kept<OfTheEnergy> {
 /// Lags below a swirl, and lags of whole swirls.
 class OfDiffusion : public Kept<OfDiffusion> {
   public:
-    void look(const Look& look) override {
-        if (looks_++ % looks_per_position == 0) within_.look(look.lab);
-        if (at_beginning_) across_.look(look.lab);
+    void sample(const Look& look) override {
+        if (samples_++ % samples_per_position == 0) within_.sample(look.lab);
+        if (at_beginning_) across_.sample(look.lab);
         at_beginning_ = false;
     }
     void close_block() override {
@@ -387,14 +387,14 @@ class OfDiffusion : public Kept<OfDiffusion> {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(looks_);
+        visit(samples_);
         visit(at_beginning_);
         visit(within_);
         visit(across_);
     }
 
   private:
-    std::int64_t looks_ = 0;
+    std::int64_t samples_ = 0;
     bool at_beginning_ = true;
     Diffusion within_{7};  // up to 64 of 73 parts of a swirl
     Diffusion across_{8};  // up to 128 swirls
@@ -405,7 +405,7 @@ class PinnedWatch {
   public:
     /// Where the next frame goes; then look() at it.
     MFrameView& next() { return recent_[frames_ % recent_.size()]; }
-    void look() { pinned_loose_.look(recent_[frames_++ % recent_.size()]); }
+    void sample() { pinned_loose_.sample(recent_[frames_++ % recent_.size()]); }
     void close_block() { pinned_loose_.close_block(); }
     const PinnedLoose& pinned_loose() const { return pinned_loose_; }
     /// The frame that pinned() speaks of.
@@ -553,14 +553,14 @@ struct RunMeasurements::State {
     PinnedWatch watch;
     Voronoi cells;
 
-    void look(const Snapshot& lab) {
+    void sample(const Snapshot& lab) {
         if (!counts) return;
         MFrameView& now = watches_pinned ? watch.next() : view;
-        now.look(lab);
-        if (watches_pinned) watch.look();
+        now.update(lab);
+        if (watches_pinned) watch.sample();
         Look look{lab, now, watch.pinned_loose(), watch.earlier(), nullptr, nullptr, {}};
-        if (needs_cells && ++looks % looks_per_structure == 0) look_at_the_structure(look);
-        for (const auto& m : measurements) m->look(look);
+        if (needs_cells && ++looks % samples_per_structure == 0) look_at_the_structure(look);
+        for (const auto& m : measurements) m->sample(look);
     }
     void look_at_the_structure(Look& look) {
         look.structure = watches_pinned ? look.earlier : &look.view;
@@ -604,7 +604,7 @@ void RunMeasurements::attach_to(RunControl& control) {
     State* const state = state_.get();
     if (state->measurements.empty()) return;
     control.samplers.push_back(
-        {looks_per_swirl, [state](const Snapshot& lab) { state->look(lab); }});
+        {samples_per_period, [state](const Snapshot& lab) { state->sample(lab); }});
     const auto after_event = std::move(control.after_event);
     control.after_event = [state, after_event](const Snapshot& lab, const Event& event) {
         state->after_event(lab, event);

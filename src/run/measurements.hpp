@@ -27,7 +27,7 @@ namespace swirl {
 
 /// Looks per swirl: the paper's camera took 960 frames per second of a table turning at
 /// 11.81 rad/s.
-inline constexpr int looks_per_swirl = 511;
+inline constexpr int samples_per_period = 511;
 
 /// What a measurement gets to see at a look. Which discs are pinned is known seven frames late
 /// (measure/pinned_loose.hpp), so there is a view of that moment beside the one of now.
@@ -50,8 +50,8 @@ class Measurement {
     virtual ~Measurement() = default;
     /// Called once, before anything else: the observer that all measurements share.
     virtual void share(const PinnedLoose& /*pinned_loose*/) {}
-    /// Called at equal time steps, `looks_per_swirl` per swirl.
-    virtual void look(const Look& /*look*/) {}
+    /// Called at equal time steps, `samples_per_period` per swirl.
+    virtual void sample(const Look& /*look*/) {}
     /// Called after every event.
     virtual void after_event(const Snapshot& /*lab*/, const Event& /*event*/) {}
     /// Called at the end of every swirl.

@@ -244,7 +244,7 @@ class Run {
         const Event event = simulation_.step();
         look();
         rotation_times_.pass(snapshot_, path_, event.clock, [&](const Snapshot& s) {
-            average().look_in_time(s);
+            average().sample_by_time(s);
             spin().add(mean_spin(s));
         });
         for (std::size_t k = 0; k < caller_times_.size(); ++k)
@@ -262,7 +262,7 @@ class Run {
     /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
     /// when nobody has to wait for it to be written (cluster_rotation.hpp).
     void look() {
-        if (!looked_) average().look(snapshot_);
+        if (!looked_) average().sample(snapshot_);
         looked_ = true;
     }
 

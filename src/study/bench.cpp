@@ -232,7 +232,7 @@ double by_event_cost(const BenchSettings& settings) {
         const double middle = now();
         for (int k = 0; k < 1000 * batches; ++k) {
             const Event event = watched.step();
-            rotation.look(snapshot);
+            rotation.sample(snapshot);
             watched.refresh(snapshot, event);
             rotation.follow(snapshot, event);
         }

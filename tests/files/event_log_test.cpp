@@ -94,8 +94,8 @@ TEST(StateArchive, GivesBackWhatItGot) {
     Simulation simulation(paper_dish(9, 3));
     for (int k = 0; k < 3'000; ++k) {
         const Event event = simulation.step();
-        rotation.look(simulation.snapshot(), event);
-        rotation.look_in_time(simulation.snapshot());
+        rotation.sample(simulation.snapshot(), event);
+        rotation.sample_by_time(simulation.snapshot());
         if (event.kind == EventKind::path_vertex) rotation.close_block();
     }
     std::map<std::string, std::vector<bool>> flags{{"a", {true, false}}, {"", {}}};
@@ -121,7 +121,7 @@ TEST(StateArchive, GivesBackWhatItGot) {
         const Event event = simulation.step();
         ASSERT_TRUE(k > 0 || event.kind != EventKind::path_vertex);
         const Snapshot s = simulation.snapshot();
-        ASSERT_EQ(rotation.look(s, event).individual, rotation2.look(s, event).individual) << k;
+        ASSERT_EQ(rotation.sample(s, event).individual, rotation2.sample(s, event).individual) << k;
     }
 
     for (std::size_t cut = 0; cut < writer.bytes().size(); cut += 13) {

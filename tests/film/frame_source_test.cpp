@@ -138,8 +138,8 @@ TEST(PinnedWatch, SaysWhatTheMeasurementSaysSevenFramesLater) {
     PinnedLoose pinned;
     MFrameView view;
     for (int k = 511; k <= 511 * 3; ++k) {
-        view.look(reel(k / 511.0));
-        pinned.look(view);
+        view.update(reel(k / 511.0));
+        pinned.sample(view);
         const int shown = k - PinnedLoose::half_width;
         if (shown < 2 * 511 || shown % 100 != 0) continue;
         EXPECT_EQ(watch.at(shown / 511.0), pinned.pinned()) << shown;

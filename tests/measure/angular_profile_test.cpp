@@ -17,7 +17,7 @@ TEST(AngularProfile, DiscsThatMoveWithTheWallHaveMinusOneEverywhere) {
             s.vx[i] = s.container_velocity.x;
             s.vy[i] = s.container_velocity.y;
         }
-        profile.look(s);
+        profile.sample(s);
         profile.close_block();
     }
     for (std::size_t k = 0; k < profile.slices(); ++k) {
@@ -45,7 +45,7 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
     const MFrameView view(s);
     ASSERT_NEAR(view.centre_of_mass.x, 0.0, 1e-14);
     ASSERT_NEAR(view.centre_of_mass.y, -1.5 * 2.0, 1e-9);
-    profile.look(view);
+    profile.sample(view);
     profile.close_block();
     EXPECT_NEAR(profile.plain(0).mean, 0.0, 1e-12);
     // θ = 0: p = (R, 0), d = (R, h), d·p = R², so −R²/(R² + h²).
@@ -57,10 +57,10 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
 
 TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
     AngularProfile profile(8);
-    profile.look(empty_dish());
+    profile.sample(empty_dish());
     Snapshot s = empty_dish();
     add_disc(s, {3.0, 1.0}, {0.0, 0.0});
-    profile.look(s);
+    profile.sample(s);
     profile.close_block();
     for (std::size_t k = 0; k < 8; ++k) EXPECT_TRUE(std::isnan(profile.normalised(k).mean));
 }
@@ -69,9 +69,9 @@ TEST(AngularProfile, MergedRunsAreOneLongRun) {
     AngularProfile whole, first, second;
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

@@ -16,7 +16,7 @@ TEST(CellAverages, AgreeWithTheBlocksOfStatistics) {
     Noise noise(2);
     for (int block = 0; block < 50; ++block) {
         double sum = 0.0, visits = 0.0;
-        for (int look = 0; look < 10; ++look) {
+        for (int sample = 0; sample < 10; ++sample) {
             rates.add_weight();
             if (noise() < 0.3) continue;
             const double value = 1.0 + noise();
@@ -61,7 +61,7 @@ TEST(CellAverages, MergedAreOneLongRun) {
     for (int block = 0; block < 20; ++block) {
         CellMeans<1>& part = block < 7 ? first : second;
         CellRates& rate = block < 7 ? one : two;
-        for (int look = 0; look < 30; ++look) {
+        for (int sample = 0; sample < 30; ++sample) {
             const std::size_t cell = static_cast<std::size_t>(2.0 + 2.0 * noise()) % 4;
             const double value = 0.25 * static_cast<int>(8.0 * noise());  // sums without rounding
             whole.add(cell, {value});

@@ -112,7 +112,7 @@ TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
             EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-14) << others;
             EXPECT_NEAR(cluster_rotation(s).rigid, 0.25, 1e-14) << others;
             ClusterRotation rotation;
-            EXPECT_EQ(rotation.look(s, collision).individual, cluster_rotation(s).individual);
+            EXPECT_EQ(rotation.sample(s, collision).individual, cluster_rotation(s).individual);
         }
     }
 }
@@ -121,8 +121,8 @@ TEST(ClusterRotation, ALookInTimeAndTheFirstLookAfterAnEventSeeTheSame) {
     for (std::size_t n = 0; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));
         ClusterRotation rotation;
-        const RotationSample in_time = rotation.look_in_time(s),
-                             first = rotation.look(s, collision);
+        const RotationSample in_time = rotation.sample_by_time(s),
+                             first = rotation.sample(s, collision);
         if (n < 2) {
             EXPECT_TRUE(std::isnan(in_time.individual) && std::isnan(first.individual)) << n;
             continue;
@@ -148,12 +148,12 @@ TEST(ClusterRotation, TheCentreOfMassIsFollowedFromPushToPush) {
         Noise noise(n);
         for (std::size_t i = 0; i < n; ++i) s.mass[i] = 2.0 + noise();
         ClusterRotation rotation;
-        rotation.look(s, anything);
+        rotation.sample(s, anything);
         for (int k = 0; k < 100; ++k) {
             s.clock += 0.003 * (1.0 + noise());
             const auto i = static_cast<std::size_t>(0.5 * (1.0 + noise()) * double(n));
             const Event event = push(s, i, unit_circle(noise()), noise(), noise());
-            const RotationSample seen = rotation.look(s, event), found = cluster_rotation(s);
+            const RotationSample seen = rotation.sample(s, event), found = cluster_rotation(s);
             // A hundred pushes, each rounded to 10⁻¹⁵; a disc near the centre magnifies it.
             EXPECT_NEAR(seen.individual, found.individual, 1e-10) << n;
             EXPECT_NEAR(seen.rigid, found.rigid, 1e-12) << n;
@@ -169,9 +169,9 @@ TEST(ClusterRotation, EveryWidthFollowsWithTheSameBits) {
         for (int k = 0; k < 50; ++k) {
             s.clock += 0.01;
             const Event event = push(s, k % n, unit_circle(noise()), noise(), noise());
-            const RotationSample base = baseline.look(s, event);
+            const RotationSample base = baseline.sample(s, event);
             for (ClusterRotation* wide : {&best, &avx2}) {
-                const RotationSample sample = wide->look(s, event);
+                const RotationSample sample = wide->sample(s, event);
                 EXPECT_EQ(base.individual, sample.individual) << n;
                 EXPECT_EQ(base.rigid, sample.rigid) << n;
             }
@@ -183,7 +183,7 @@ TEST(ClusterRotation, WhereDiscsComeOrGoTheCentreOfMassIsFoundAnew) {
     ClusterRotation rotation;
     for (const std::size_t n : {48u, 12u, 3u, 30u}) {
         const Snapshot s = random_discs(n, n);
-        EXPECT_EQ(rotation.look(s, collision).individual, cluster_rotation(s).individual) << n;
+        EXPECT_EQ(rotation.sample(s, collision).individual, cluster_rotation(s).individual) << n;
     }
 }
 
@@ -197,9 +197,9 @@ TEST(ClusterRotation, AStateThatIsNotANumberShows) {
 TEST(ClusterRotation, MeansAreInUnitsOfOmegaAndEventsAndTimeAreKeptApart) {
     ClusterRotation rotation;
     for (int block = 0; block < 4; ++block) {
-        rotation.look(rigid_cluster(9, omega, 1), anything);
-        rotation.look(rigid_cluster(9, 3.0 * omega, 2), anything);
-        rotation.look_in_time(rigid_cluster(9, -0.5 * omega, 3));
+        rotation.sample(rigid_cluster(9, omega, 1), anything);
+        rotation.sample(rigid_cluster(9, 3.0 * omega, 2), anything);
+        rotation.sample_by_time(rigid_cluster(9, -0.5 * omega, 3));
         rotation.close_block();
     }
     const RotationEstimates e = rotation.estimates();
@@ -221,9 +221,9 @@ TEST(ClusterRotation, WithoutALookThereIsNoMean) {
 
 TEST(ClusterRotation, WhatIsNotClosedDoesNotCount) {
     ClusterRotation rotation;
-    rotation.look(rigid_cluster(9, omega, 1), anything);
+    rotation.sample(rigid_cluster(9, omega, 1), anything);
     rotation.close_block();
-    rotation.look(rigid_cluster(9, 5.0 * omega, 1), anything);
+    rotation.sample(rigid_cluster(9, 5.0 * omega, 1), anything);
     EXPECT_NEAR(rotation.estimates().by_event.mean, 1.0, 1e-12);
 }
 
@@ -232,10 +232,10 @@ TEST(ClusterRotation, MergedRunsAreOneLongRun) {
     for (int block = 0; block < 10; ++block) {
         for (int event = 0; event < 20 + block; ++event) {
             const Snapshot s = random_discs(12, 50 * block + event);
-            whole.look(s, anything);
-            whole.look_in_time(s);
-            (block < 4 ? first : second).look(s, anything);
-            (block < 4 ? first : second).look_in_time(s);
+            whole.sample(s, anything);
+            whole.sample_by_time(s);
+            (block < 4 ? first : second).sample(s, anything);
+            (block < 4 ? first : second).sample_by_time(s);
         }
         whole.close_block();
         (block < 4 ? first : second).close_block();

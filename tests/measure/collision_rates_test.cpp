@@ -12,9 +12,9 @@ Event event_of(EventKind kind) { return {0, 0.0, kind, 0, 1, {1.0, 0.0}, {1.0, 0
 TEST(CollisionRates, CountPerDiscAndTime) {
     CollisionRates rates;
     for (int block = 0; block < 3; ++block) {
-        for (int k = 0; k < 30; ++k) rates.look(event_of(EventKind::disc_disc));
-        for (int k = 0; k < 20; ++k) rates.look(event_of(EventKind::disc_wall));
-        for (int k = 0; k < 30; ++k) rates.look(event_of(EventKind::path_vertex));
+        for (int k = 0; k < 30; ++k) rates.sample(event_of(EventKind::disc_disc));
+        for (int k = 0; k < 20; ++k) rates.sample(event_of(EventKind::disc_wall));
+        for (int k = 0; k < 30; ++k) rates.sample(event_of(EventKind::path_vertex));
         rates.close_block(4.0, 5);
     }
     EXPECT_DOUBLE_EQ(rates.disc_disc().mean, 60.0 / 20.0);
@@ -26,7 +26,7 @@ TEST(CollisionRates, CountPerDiscAndTime) {
 TEST(CollisionRates, WithoutTimeDiscsOrCollisions) {
     CollisionRates rates;
     EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
-    rates.look(event_of(EventKind::disc_disc));
+    rates.sample(event_of(EventKind::disc_disc));
     rates.close_block(4.0, 0);
     EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
     CollisionRates quiet;
@@ -39,8 +39,8 @@ TEST(CollisionRates, MergedRunsAreOneLongRun) {
     CollisionRates whole, first, second;
     for (int block = 0; block < 10; ++block) {
         for (int k = 0; k < 5 + block % 3; ++k) {
-            whole.look(event_of(EventKind::disc_disc));
-            (block < 4 ? first : second).look(event_of(EventKind::disc_disc));
+            whole.sample(event_of(EventKind::disc_disc));
+            (block < 4 ? first : second).sample(event_of(EventKind::disc_disc));
         }
         whole.close_block(2.0, 3);
         (block < 4 ? first : second).close_block(2.0, 3);

@@ -22,7 +22,7 @@ TEST(DensityMap, UniformPointsGiveAFlatMap) {
                 add_disc(
                     s, f.lab_position({(column + 0.5) * R / 25.0 - R, (row + 0.5) * R / 25.0 - R}),
                     {0.0, 0.0});
-        map.look(s);
+        map.sample(s);
         map.close_block();
     }
     const double expected = 2500.0 / (4.0 * R * R);
@@ -34,7 +34,7 @@ TEST(DensityMap, UniformPointsGiveAFlatMap) {
 
 TEST(DensityMap, ADiscIsInItsCellAndTheSumIsTheNumberOfDiscs) {
     DensityMap map(R);
-    for (int k = 0; k < 10; ++k) map.look(random_discs(17, k, 0.1 * k));
+    for (int k = 0; k < 10; ++k) map.sample(random_discs(17, k, 0.1 * k));
     map.close_block();
     double sum = 0.0;
     for (std::size_t c = 0; c < map.grid().cells(); ++c)
@@ -45,7 +45,7 @@ TEST(DensityMap, ADiscIsInItsCellAndTheSumIsTheNumberOfDiscs) {
     DensityMap one(R, 20);
     Snapshot s = empty_dish(0.7);
     add_disc(s, m_frame(s).lab_position({3.0, -5.0}), {0.0, 0.0});
-    one.look(s);
+    one.sample(s);
     one.close_block();
     const std::size_t cell = one.grid().cell_at(3.0, -5.0);
     EXPECT_EQ(one.count(cell), 1.0);
@@ -72,7 +72,7 @@ TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
     EXPECT_TRUE(std::isnan(map.density(0).mean));
     Snapshot s = empty_dish();
     add_disc(s, {100.0, 0.0}, {0.0, 0.0});
-    map.look(s);
+    map.sample(s);
     map.close_block();
     EXPECT_EQ(map.outside(), 1.0);
     EXPECT_EQ(map.density(0).mean, 0.0);
@@ -82,9 +82,9 @@ TEST(DensityMap, MergedRunsAreOneLongRun) {
     DensityMap whole(R, 20), first(R, 20), second(R, 20);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

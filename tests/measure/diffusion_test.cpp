@@ -11,9 +11,9 @@ namespace {
 
 constexpr int per_period = 8;
 
-Snapshot dish_at(int look) {
-    Snapshot s = empty_dish(static_cast<double>(look % per_period) / per_period);
-    s.swirls = look / per_period;
+Snapshot dish_at(int sample) {
+    Snapshot s = empty_dish(static_cast<double>(sample % per_period) / per_period);
+    s.swirls = sample / per_period;
     return s;
 }
 
@@ -24,7 +24,7 @@ TEST(Diffusion, OfUniformMotionGrowsWithTheSquareOfTheLag) {
         Snapshot s = dish_at(k);
         add_disc(s, s.container_centre + Vec2{0.03 * step * k, 0.04 * step * k}, {0.0, 0.0});
         s.angle[0] = 0.5 * step * k;
-        diffusion.look(s);
+        diffusion.sample(s);
         if (k % per_period == per_period - 1) diffusion.close_block();
     }
     for (std::size_t k = 0; k < diffusion.lags(); ++k) {
@@ -50,7 +50,7 @@ TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
             add_disc(s, s.container_centre + p[i], {0.0, 0.0});
             s.angle[i] = angle[i];
         }
-        diffusion.look(s);
+        diffusion.sample(s);
         if (k % per_period == per_period - 1) diffusion.close_block();
     }
     for (std::size_t k = 0; k < 4; ++k) {
@@ -64,7 +64,7 @@ TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
 
 TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
     // The scatter over many walks against the error that each states, for a lag of four periods
-    // (one look each): √L is an upper bound for what overlapping does (√(2L/3) for a free walk).
+    // (one sample each): √L is an upper bound for what overlapping does (√(2L/3) for a free walk).
     double stated = 0.0, sum = 0.0, squares = 0.0;
     constexpr int walks = 200;
     for (int walk = 0; walk < walks; ++walk) {
@@ -76,7 +76,7 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
             s.swirls = k;
             p = p + Vec2{noise(), noise()};
             add_disc(s, s.container_centre + p, {0.0, 0.0});
-            diffusion.look(s);
+            diffusion.sample(s);
             diffusion.close_block();
         }
         const Estimate e = diffusion.square_displacement(2);
@@ -96,7 +96,7 @@ TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
         Snapshot s = dish_at(k);
         add_disc(s, s.container_centre + Vec2{2.0, 1.0}, s.container_velocity);
         s.angle[0] = s.spin[0] = not_known;
-        diffusion.look(s);
+        diffusion.sample(s);
     }
     diffusion.close_block();
     EXPECT_NEAR(diffusion.square_displacement(2).mean, 0.0, 1e-28);
@@ -105,16 +105,16 @@ TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
 
 TEST(Diffusion, UnsortedOrUnevenTimesBeginAnew) {
     Diffusion diffusion(3);
-    const auto look = [&](int k) {
+    const auto sample_at = [&](int k) {
         Snapshot s = dish_at(k);
         add_disc(s, s.container_centre, {0.0, 0.0});
-        diffusion.look(s);
+        diffusion.sample(s);
     };
-    for (const int k : {0, 1, 2, 1}) look(k);
+    for (const int k : {0, 1, 2, 1}) sample_at(k);
     EXPECT_EQ(diffusion.breaks(), 1.0);
-    for (const int k : {2, 4}) look(k);
+    for (const int k : {2, 4}) sample_at(k);
     EXPECT_EQ(diffusion.breaks(), 2.0);
-    diffusion.look(empty_dish());
+    diffusion.sample(empty_dish());
     EXPECT_TRUE(std::isnan(Diffusion(3).square_displacement(0).mean));
 }
 

@@ -89,7 +89,7 @@ TEST(EnergyBudget, PowersAreEnergyPerTimeAndTotalsGoOn) {
     double work = 0.0, change = 0.0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const Case c = collide_at_random(seed, true, Surface{1.0, 0.9, 0.0});
-        budget.look(c.event, c.after);
+        budget.sample(c.event, c.after);
         work += energy_change(c.event, c.after).work;
         change += c.change;
         budget.close_block(2.0);
@@ -108,8 +108,8 @@ TEST(EnergyBudget, PowersAreEnergyPerTimeAndTotalsGoOn) {
 
 TEST(EnergyBudget, APathVertexCostsNothing) {
     EnergyBudget budget;
-    budget.look({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {1.0, 1.0, false}, 0.0},
-                random_discs(2, 1));
+    budget.sample({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {1.0, 1.0, false}, 0.0},
+                  random_discs(2, 1));
     EXPECT_EQ(budget.accounted(), 0.0);
 }
 

@@ -19,7 +19,7 @@ TEST(FlowMap, DiscsCarriedByTheContainerHaveNoFlow) {
             s.vx[i] = s.container_velocity.x;
             s.vy[i] = s.container_velocity.y;
         }
-        map.look(s);
+        map.sample(s);
     }
     map.close_block();
     for (std::size_t c = 0; c < map.grid().cells(); ++c) {
@@ -40,7 +40,7 @@ TEST(FlowMap, RigidRotationAboutCGivesOmegaTimesThePosition) {
             add_disc(s, f.lab_position(p),
                      s.container_velocity + f.turn_back(rate * perpendicular(p)));
         }
-        map.look(s);
+        map.sample(s);
         map.close_block();
     }
     for (std::size_t c = 0; c < map.grid().cells(); ++c) {
@@ -56,9 +56,9 @@ TEST(FlowMap, AnUnvisitedCellHasNoFlowAndMergedRunsAreOneLongRun) {
     FlowMap whole(R), first(R), second(R);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

@@ -28,8 +28,8 @@ Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2
 TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
     GranularTemperature temperature(R, 5, 1);
     for (int k = 0; k < 10; ++k) {
-        temperature.look(jiggling(temperature.grid(), k / 10.0, 1.0));
-        temperature.look(jiggling(temperature.grid(), k / 10.0, -1.0));
+        temperature.sample(jiggling(temperature.grid(), k / 10.0, 1.0));
+        temperature.sample(jiggling(temperature.grid(), k / 10.0, -1.0));
         temperature.close_block();
     }
     // ½ m (0.3² + 0.4²) with m = 2; spins 3 and −1 with I = 20: 20 · 2².
@@ -45,7 +45,7 @@ TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
     const SquareGrid grid = temperature.grid();
     for (int k = 0; k < 4; ++k) {
         Snapshot s = jiggling(grid, 0.25 * k, 0.0);
-        temperature.look(s);
+        temperature.sample(s);
         temperature.close_block();
     }
     EXPECT_NEAR(temperature.granular().mean, 0.0, 1e-13);
@@ -55,7 +55,7 @@ TEST(GranularTemperature, MissingSpinsAreStated) {
     GranularTemperature temperature(R, 5, 1);
     Snapshot s = random_discs(5, 1);
     s.spin[2] = not_known;
-    temperature.look(s);
+    temperature.sample(s);
     temperature.close_block();
     EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));
     EXPECT_FALSE(std::isnan(temperature.granular().mean));

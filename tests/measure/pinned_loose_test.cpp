@@ -45,7 +45,7 @@ Vec2 cycle(int k) {
 TEST(PinnedLoose, ADiscThatMovesWithTheWallIsPinned) {
     PinnedLoose pinning;
     for (int k = 0; k < 60; ++k) {
-        pinning.look(frame_of(k, 2, [](std::size_t i, int t) {
+        pinning.sample(frame_of(k, 2, [](std::size_t i, int t) {
             return (5.0 + static_cast<double>(i)) * unit_circle(1.0 - static_cast<double>(t) / 511);
         }));
         // 15 frames to fit, and parallel for 8 of them.
@@ -60,7 +60,7 @@ TEST(PinnedLoose, ADiscThatMovesWithTheWallIsPinned) {
 TEST(PinnedLoose, ADiscThatMovesAgainstTheWallOrAcrossIsLoose) {
     PinnedLoose pinning;
     for (int k = 0; k < 60; ++k)
-        pinning.look(frame_of(k, 2, [](std::size_t i, int t) {
+        pinning.sample(frame_of(k, 2, [](std::size_t i, int t) {
             return i == 0 ? 5.0 * unit_circle(static_cast<double>(t) / 511)
                           : Vec2{0.1 * t - 3.0, 0.2};
         }));
@@ -71,7 +71,7 @@ TEST(PinnedLoose, ADiscThatMovesAgainstTheWallOrAcrossIsLoose) {
 TEST(PinnedLoose, TheCycleGivesItsAngles) {
     PinnedLoose pinning;
     for (int k = 0; k < 20 * frames; ++k) {
-        pinning.look(frame_of(k, 1, [](std::size_t, int t) { return cycle(t); }));
+        pinning.sample(frame_of(k, 1, [](std::size_t, int t) { return cycle(t); }));
         if (k % frames == frames - 1) pinning.close_block();
     }
     // It has to fall for a while before its direction is 10° off.
@@ -91,8 +91,8 @@ TEST(PinnedLoose, TheRunningFitIsTheFitAddedUpAfresh) {
     PinnedLoose all, late;
     for (int k = 0; k < 5000; ++k) {
         const Snapshot s = frame_of(k, 8, path);
-        all.look(s);
-        if (k >= 4100) late.look(s);
+        all.sample(s);
+        if (k >= 4100) late.sample(s);
         if (k > 4200) {
             EXPECT_EQ(all.pinned(), late.pinned()) << k;
         }
@@ -111,7 +111,7 @@ TEST(PinnedLoose, AMomentaryWobbleIsNotBecomingFree) {
     PinnedLoose pinning;
     bool ever_loose = false;
     for (int k = 0; k < 300; ++k) {
-        pinning.look(frame_of(k, 1, wobble));
+        pinning.sample(frame_of(k, 1, wobble));
         if (k > 30) ever_loose = ever_loose || pinning.pinned().at(0) == 0;
     }
     pinning.close_block();
@@ -124,17 +124,17 @@ TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
     const auto circle = [](std::size_t, int t) {
         return 6.0 * unit_circle(1.0 - static_cast<double>(t) / 511);
     };
-    for (int k = 0; k < 40; ++k) pinning.look(frame_of(k, 1, circle));
+    for (int k = 0; k < 40; ++k) pinning.sample(frame_of(k, 1, circle));
     EXPECT_EQ(pinning.pinned().at(0), 1);
-    pinning.look(frame_of(20, 1, circle));  // back in time
+    pinning.sample(frame_of(20, 1, circle));  // back in time
     EXPECT_EQ(pinning.breaks(), 1.0);
     EXPECT_EQ(pinning.pinned().at(0), 0);
-    pinning.look(frame_of(21, 1, circle));
-    pinning.look(frame_of(25, 1, circle));  // frames missing
+    pinning.sample(frame_of(21, 1, circle));
+    pinning.sample(frame_of(25, 1, circle));  // frames missing
     EXPECT_EQ(pinning.breaks(), 2.0);
-    pinning.look(frame_of(26, 3, circle));  // other discs
+    pinning.sample(frame_of(26, 3, circle));  // other discs
     EXPECT_EQ(pinning.pinned().size(), 3u);
-    pinning.look(empty_dish());
+    pinning.sample(empty_dish());
     EXPECT_TRUE(pinning.pinned().empty());
 }
 
@@ -142,9 +142,9 @@ TEST(PinnedLoose, MergedRunsHaveTheAnglesOfBoth) {
     PinnedLoose whole, first, second;
     for (int k = 0; k < 10 * frames; ++k) {
         const Snapshot s = frame_of(k, 1, [](std::size_t, int t) { return cycle(t); });
-        first.look(s);
-        second.look(s);
-        whole.look(s);
+        first.sample(s);
+        second.sample(s);
+        whole.sample(s);
         if (k % frames == frames - 1) {
             first.close_block();
             second.close_block();
@@ -170,13 +170,13 @@ TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
         return s;
     };
     const auto hit = [&](double u, double theta) {
-        pinning.look(collision_at(EventKind::disc_wall, 0, 0), at(u, theta));
+        pinning.sample(collision_at(EventKind::disc_wall, 0, 0), at(u, theta));
     };
     hit(0.10, 0.30);  // the first has no flight before it
     hit(0.12, 0.28);
     hit(0.16, 0.25);
     hit(0.30, 0.70);  // 0.14 T in the air, from 0.25 to 0.70 turns: the longest
-    pinning.look(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
+    pinning.sample(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
     hit(0.34, 0.65);
     pinning.close_block();
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
@@ -192,13 +192,13 @@ TEST(PinnedByCollisions, BothPartnersCollideAndFlightsCrossTheEndOfTheSwirl) {
     const MFrame f = m_frame(s);
     add_disc(s, f.lab_position({1.0, 0.0}), {0.0, 0.0});
     add_disc(s, f.lab_position({3.0, 0.0}), {0.0, 0.0});
-    pinning.look(collision_at(EventKind::disc_disc, 0, 1), s);
+    pinning.sample(collision_at(EventKind::disc_disc, 0, 1), s);
     Snapshot t = empty_dish(0.05);
     t.swirls = 1;
     const MFrame g = m_frame(t);
     add_disc(t, g.lab_position({0.0, 1.0}), {0.0, 0.0});
     add_disc(t, g.lab_position({0.0, 3.0}), {0.0, 0.0});
-    pinning.look(collision_at(EventKind::disc_disc, 0, 1), t);
+    pinning.sample(collision_at(EventKind::disc_disc, 0, 1), t);
     pinning.close_block();
     EXPECT_EQ(pinning.becoming_pinned().count(), 2.0);
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.5 * pi, 1e-14);

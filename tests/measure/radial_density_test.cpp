@@ -19,7 +19,7 @@ TEST(RadialDensity, UniformPointsAreFlat) {
             add_disc(s, s.container_centre + (ring + 0.5) * unit_circle(k / (4.0 * (2 * ring + 1))),
                      {0.0, 0.0});
     for (int k = 0; k < 3; ++k) {
-        density.look(s);
+        density.sample(s);
         density.close_block();
     }
     double sum = 0.0;
@@ -34,7 +34,7 @@ TEST(RadialDensity, UniformPointsAreFlat) {
 TEST(RadialDensity, NothingSeenIsNotANumberAndNobodyThereIsZero) {
     RadialDensity density(8.6);
     EXPECT_TRUE(std::isnan(density.density(0).mean));
-    density.look(empty_dish());
+    density.sample(empty_dish());
     density.close_block();
     EXPECT_EQ(density.density(0).mean, 0.0);
 }
@@ -43,9 +43,9 @@ TEST(RadialDensity, MergedRunsAreOneLongRun) {
     RadialDensity whole(8.6), first(8.6), second(8.6);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

@@ -28,7 +28,7 @@ TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
     Slip slip(1);
     const std::vector<std::uint8_t> everybody(23, 1);
     for (int k = 0; k < 10; ++k) {
-        slip.look(rim(k / 10.0, 1.0), everybody);
+        slip.sample(rim(k / 10.0, 1.0), everybody);
         slip.close_block();
     }
     // The band round 23 discs is a polygon with rounded corners, a little shorter than the wall.
@@ -44,9 +44,9 @@ TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
 TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
     for (const double grip : {0.0, 0.5}) {
         Slip half(1), whole(1);
-        half.look(rim(0.1, grip));
+        half.sample(rim(0.1, grip));
         half.close_block();
-        whole.look(rim(0.1, 1.0));
+        whole.sample(rim(0.1, 1.0));
         whole.close_block();
         EXPECT_NEAR(half.cluster().mean, grip * whole.cluster().mean, 1e-13);
         EXPECT_TRUE(std::isnan(half.pinned_region().mean));
@@ -62,11 +62,11 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     std::vector<std::uint8_t> pinned(23, 0);
     pinned[4] = 1;
     Slip slip(1);
-    slip.look(s, pinned);
+    slip.sample(s, pinned);
     slip.close_block();
     EXPECT_NEAR(slip.pinned_region().mean, slip.cluster().mean, 1e-13);
     Slip none(1);
-    none.look(still, pinned);
+    none.sample(still, pinned);
     none.close_block();
     EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
     (void)f;
@@ -80,16 +80,16 @@ TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
 
 TEST(Slip, NobodyAndOneDiscAndNonsense) {
     Slip slip(1);
-    slip.look(empty_dish());
+    slip.sample(empty_dish());
     slip.close_block();
     EXPECT_TRUE(std::isnan(slip.cluster().mean));
     EXPECT_TRUE(std::isnan(cluster_perimeter(empty_dish())));
     Snapshot s = empty_dish();
     add_disc(s, {1.0, 1.0}, {0.0, 0.0});
     EXPECT_NEAR(cluster_perimeter(s), 2.0 * pi, 1e-15);
-    slip.look(s);
+    slip.sample(s);
     s.x[0] = not_known;
-    slip.look(s);
+    slip.sample(s);
     slip.close_block();
     EXPECT_TRUE(std::isnan(slip.cluster().mean));
     EXPECT_NEAR(slip.cluster_perimeter().mean, 2.0 * pi, 1e-15);
@@ -97,7 +97,7 @@ TEST(Slip, NobodyAndOneDiscAndNonsense) {
 
 TEST(Slip, LooksAtEvery64thLookOnly) {
     Slip slip;
-    for (int k = 0; k < 128; ++k) slip.look(rim(0.1, k % 64 == 0 ? 1.0 : 0.3));
+    for (int k = 0; k < 128; ++k) slip.sample(rim(0.1, k % 64 == 0 ? 1.0 : 0.3));
     slip.close_block();
     EXPECT_NEAR(slip.cluster().mean, 1.0, 0.003);
 }
@@ -106,9 +106,9 @@ TEST(Slip, MergedRunsAreOneLongRun) {
     Slip whole(1), first(1), second(1);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

@@ -45,7 +45,7 @@ inline void add_disc(Snapshot& s, const Vec2& position, const Vec2& velocity, do
     s.set(i, {position, velocity, 0.0, spin, s.clock, radius, mass, 10.0 * mass});
 }
 
-/// The same system with states held at other times, each disc its own: nothing a look may notice.
+/// The same system with states held at other times, each disc its own: nothing a sample may notice.
 inline Snapshot held_earlier(const Snapshot& s, std::uint64_t seed = 1) {
     Snapshot t = s;
     Noise noise(seed);

@@ -35,7 +35,7 @@ Snapshot hexagon(double spin) {
 
 TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
     SpinFrustration frustration(0.1, 1);
-    frustration.look(gears());
+    frustration.sample(gears());
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
     EXPECT_EQ(frustration.triangles().mean, 0.0);
@@ -44,7 +44,7 @@ TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
 
 TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
     SpinFrustration frustration(0.1, 1);
-    frustration.look(hexagon(0.3));
+    frustration.sample(hexagon(0.3));
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, 1.0, 1e-15);
     EXPECT_EQ(frustration.triangles().mean, 1.0);
@@ -57,7 +57,7 @@ TEST(SpinFrustration, IndependentSpinsHaveNone) {
     for (int k = 0; k < 400; ++k) {
         Snapshot s = hexagon(0.0);
         for (double& spin : s.spin) spin = noise();
-        frustration.look(s);
+        frustration.sample(s);
         frustration.close_block();
     }
     EXPECT_NEAR(frustration.correlation().mean, 0.0, 4.0 * frustration.correlation().error);
@@ -71,7 +71,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
     add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * omega);
     const std::vector<std::uint8_t> pinned{0, 1, 1};
     SpinFrustration frustration(0.1, 1);
-    frustration.look(s, pinned);
+    frustration.sample(s, pinned);
     frustration.close_block();
     EXPECT_NEAR(frustration.wall_spin().mean, 1.0, 1e-15);
     EXPECT_EQ(frustration.pinned_wall_spin().mean, 0.0);
@@ -81,7 +81,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
 TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     SpinFrustration frustration(0.1, 1);
     const auto collide = [&](EventKind kind, bool sticks) {
-        frustration.look(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0});
+        frustration.sample(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0});
     };
     collide(EventKind::disc_disc, true);
     collide(EventKind::disc_disc, true);
@@ -96,13 +96,13 @@ TEST(SpinFrustration, CountsTheCollisionsThatStick) {
 
 TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
     SpinFrustration frustration(0.1, 1);
-    frustration.look(empty_dish());
+    frustration.sample(empty_dish());
     frustration.close_block();
     EXPECT_TRUE(std::isnan(frustration.wall_spin().mean));
     EXPECT_TRUE(std::isnan(frustration.triangles().mean));
     Snapshot s = hexagon(0.3);
     s.spin[2] = not_known;
-    frustration.look(s);
+    frustration.sample(s);
     frustration.close_block();
     EXPECT_TRUE(std::isnan(frustration.correlation().mean));
     EXPECT_EQ(frustration.triangles().mean, 1.0);
@@ -110,7 +110,7 @@ TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
 
 TEST(SpinFrustration, LooksAtEvery64thLookOnly) {
     SpinFrustration frustration;
-    for (int k = 0; k < 128; ++k) frustration.look(k % 64 == 0 ? gears() : hexagon(0.3));
+    for (int k = 0; k < 128; ++k) frustration.sample(k % 64 == 0 ? gears() : hexagon(0.3));
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
 }
@@ -119,9 +119,9 @@ TEST(SpinFrustration, MergedRunsAreOneLongRun) {
     SpinFrustration whole(0.1, 1), first(0.1, 1), second(0.1, 1);
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = random_discs(60, k, k / 12.0);
-        whole.look(s);
+        whole.sample(s);
         whole.close_block();
-        (k < 5 ? first : second).look(s);
+        (k < 5 ? first : second).sample(s);
         (k < 5 ? first : second).close_block();
     }
     first.merge(second);

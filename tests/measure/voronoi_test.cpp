@@ -163,7 +163,7 @@ TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
     LocalPacking packing;
     std::vector<std::uint8_t> only_centre(s.size(), 0);
     only_centre[centre_of(view)] = 1;
-    packing.look(view, cells, only_centre);
+    packing.sample(view, cells, only_centre);
     packing.close_block();
     EXPECT_NEAR(packing.pinned().mean, pi / std::sqrt(12.0), 1e-14);
     EXPECT_LT(packing.all().mean, pi / std::sqrt(12.0));
@@ -178,13 +178,13 @@ TEST(LocalStructure, OfNothingIsNotANumberAndMergedRunsAreOneLongRun) {
         const MFrameView view(random_discs(20, k + 1, k / 10.0));
         Voronoi cells;
         cells.find(view);
-        order.look(view, cells);
+        order.sample(view, cells);
         order.close_block();
-        packing.look(view, cells);
+        packing.sample(view, cells);
         packing.close_block();
-        (k < 4 ? first : second).look(view, cells);
+        (k < 4 ? first : second).sample(view, cells);
         (k < 4 ? first : second).close_block();
-        (k < 4 ? one : two).look(view, cells);
+        (k < 4 ? one : two).sample(view, cells);
         (k < 4 ? one : two).close_block();
     }
     first.merge(second);

@@ -17,7 +17,7 @@ void hit(WallStress& stress, double u, double u_M, const Impulse& J) {
     const MFrame f = m_frame(s);
     const Vec2 n = f.turn_back(unit_circle(u_M));
     add_disc(s, s.container_centre + (R - 1.0) * n, {0.0, 0.0});
-    stress.look({0, s.clock, EventKind::disc_wall, 0, 0, n, J, 0.0}, s);
+    stress.sample({0, s.clock, EventKind::disc_wall, 0, 0, n, J, 0.0}, s);
 }
 
 TEST(WallStress, IsImpulsePerLengthAndTimeWhereItHappens) {
@@ -39,8 +39,8 @@ TEST(WallStress, OnlyHitsOfTheWallCountAndNoTimeIsNotANumber) {
     WallStress stress(R, 8);
     EXPECT_TRUE(std::isnan(stress.pressure(0).mean));
     Snapshot s = random_discs(2, 1);
-    stress.look({0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
-    stress.look({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
+    stress.sample({0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
+    stress.sample({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
     stress.close_block(1.0);
     EXPECT_EQ(stress.mean_pressure().mean, 0.0);
     EXPECT_EQ(stress.mean_traction().mean, 0.0);

@@ -44,7 +44,7 @@ TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
         for (int k = 0; k < 100000; ++k) {
             const Event event = simulation.step();
             simulation.refresh(s, event);
-            budget.look(event, s);
+            budget.sample(event, s);
         }
         // 10⁵ additions to sums of order 10⁴, each wrong by half an ulp of that: 10⁻¹² · √10⁵.
         EXPECT_NEAR(budget.accounted(), kinetic_energy(s) - before, 1e-8);
@@ -64,8 +64,8 @@ TEST(MeasuredDish, TractionObeysCoulombAndRatesAddUp) {
     while (simulation.swirls() < 23) {
         const Event event = simulation.step();
         simulation.refresh(s, event);
-        stress.look(event, s);
-        rates.look(event);
+        stress.sample(event, s);
+        rates.sample(event);
         if (simulation.swirls() == event.swirls) continue;
         stress.close_block(s.period);
         rates.close_block(s.period, s.size());
@@ -116,7 +116,7 @@ TEST(MeasuredDish, ALookAfterEveryEventSeesWhatALookAtAllDiscsSees) {
         for (int k = 0; k < 100000; ++k) {
             const Event event = simulation.step();
             simulation.refresh(s, event);
-            const RotationSample seen = rotation.look(s, event), found = cluster_rotation(s);
+            const RotationSample seen = rotation.sample(s, event), found = cluster_rotation(s);
             const double near = nearest_to_the_centre_of_mass(s);
             worst = std::fmax(worst, std::fabs(seen.individual - found.individual) * near * near);
             worst_rigid = std::fmax(worst_rigid, std::fabs(seen.rigid - found.rigid));
@@ -155,17 +155,17 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
             const Leg& leg = scene.path.leg_at(s.clock);
             s.container_centre = leg.position_at(s.clock);
             s.container_velocity = leg.velocity_at(s.clock);
-            view.look(s);
-            seen.rotation.look_in_time(s);
-            seen.tracks.look(view);
-            seen.slip.look(view, seen.tracks.pinned());
-            seen.frustration.look(view, seen.tracks.pinned());
-            seen.profile.look(view);
+            view.update(s);
+            seen.rotation.sample_by_time(s);
+            seen.tracks.sample(view);
+            seen.slip.sample(view, seen.tracks.pinned());
+            seen.frustration.sample(view, seen.tracks.pinned());
+            seen.profile.sample(view);
         }
         simulation.refresh(s, event);
-        seen.rotation.look(s, event);
-        seen.collisions.look(event, s);
-        seen.frustration.look(event);
+        seen.rotation.sample(s, event);
+        seen.collisions.sample(event, s);
+        seen.frustration.sample(event);
         if (simulation.swirls() == event.swirls) continue;
         next = 0;
         seen.rotation.close_block();
