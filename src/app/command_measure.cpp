@@ -39,34 +39,31 @@ SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
     return series_of(std::move(tracks), scale);
 }
 
-const MeasurementKind& kind(const std::string& name) {
-    return *std::find_if(measurement_kinds().begin(), measurement_kinds().end(),
-                         [&](const MeasurementKind& k) { return name == k.name; });
-}
-
 /// Frames do not tell one collision from the next.
 void drop_what_needs_events(std::vector<std::string>& names, const std::string& list) {
     for (const std::string& name : names)
-        if (kind(name).needs_events && list != "all")
+        if (find_measurement(name)->needs_events && list != "all")
             throw WrongCall(fmt::format(
                 "--measure has '{}' in its list, which needs every collision, and frames do not "
                 "hold them; `swirl run --measure {}` can tell.",
                 name, name));
-    std::erase_if(names, [](const std::string& name) { return kind(name).needs_events; });
+    std::erase_if(names,
+                  [](const std::string& name) { return find_measurement(name)->needs_events; });
 }
 
 void drop_what_needs_tracks(std::vector<std::string>& names, const MeasureCall& call) {
     for (const std::string& name : names)
-        if (kind(name).needs_tracks && call.list != "all")
+        if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
                 "The discs of '{}' are not the same in every frame, so '{}' cannot be told of "
                 "them; density, flow, profile, radial, temperature, order and packing can.",
                 call.file, name));
-    std::erase_if(names, [](const std::string& name) { return kind(name).needs_tracks; });
+    std::erase_if(names,
+                  [](const std::string& name) { return find_measurement(name)->needs_tracks; });
 }
 
 void measure_file(const MeasureCall& call) {
-    if (call.list == "help") return print_all(measurement_list_text());
+    if (call.list == "help") return print_all(measurement_help_text());
     std::vector<std::string> names;
     if (!call.list.empty()) names = read_measurement_list(call.list);
     drop_what_needs_events(names, call.list);
@@ -80,30 +77,22 @@ void measure_file(const MeasureCall& call) {
     const Snapshot first = series.frame(0);
     if (!series.same_discs) drop_what_needs_tracks(names, call);
 
-    RunConfig config;
-    config.container_radius = first.container_radius;
-    config.period = first.period;
-    config.discs = std::int64_t(first.size());
-    RunMeasurements measurements(config, names, series.same_discs);
-    RunControl control;
-    measurements.attach_to(control);
+    Observation observation(first.container_radius, first.period, names, series.same_discs);
     ClusterRotation rotation;
     ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
     std::int64_t swirl = first.swirls;
     std::uint64_t used = 0;
-    bool begun = false;
     for (std::uint64_t k = 0; k < series.frames; ++k) {
         if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
         const Snapshot s = series.frame(k);
         if (s.time() < skip * s.period) continue;
-        if (!begun || s.swirls != swirl) {
-            if (begun) rotation.close_block();
-            if (control.swirl_begins) control.swirl_begins(true);
+        if (used > 0 && s.swirls != swirl) {
+            rotation.close_block();
+            observation.close_block();
         }
-        begun = true;
         swirl = s.swirls;
         rotation.sample_by_time(s);
-        for (const auto& sampler : control.samplers) sampler.look(s);
+        observation.sample(s);
         ++used;
         line.show(double(k + 1) / double(series.frames), fmt::format("frame {}", k + 1));
     }
@@ -111,8 +100,9 @@ void measure_file(const MeasureCall& call) {
     if (used == 0)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
     rotation.close_block();
-    if (control.swirl_begins) control.swirl_begins(true);
+    observation.close_block();
 
+    const MeasurementReports measured = observation.report();
     const RotationEstimates found = rotation.estimates();
     const double swirls = series.frame(series.frames - 1).time() / first.period - skip;
     Json json{{"file", call.file},
@@ -122,19 +112,18 @@ void measure_file(const MeasureCall& call) {
               {"rotation",
                {{"by_time", estimate_json(found.by_time)},
                 {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
-              {"measured", measurements.results()},
+              {"measured", measured_json(measured)},
               {"remark", remark},
               {"version", version()}};
     std::string text = fmt::format(
         "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", first.size(),
         sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
-    for (const auto& [name, e] : measured_numbers(json["measured"]))
-        text += fmt::format("  {:<40}{}\n", name, with_error(e.mean, e.error));
+    text += measured_text(measured);
     if (!remark.empty()) text += remark + "\n";
     const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
-        return kind(name).needs_pinned;
+        return find_measurement(name)->needs_pinned;
     });
     if (pinned && (per_swirl < 0.8 * samples_per_period || per_swirl > 1.25 * samples_per_period))
         text += fmt::format(
@@ -142,7 +131,7 @@ void measure_file(const MeasureCall& call) {
             per_swirl, samples_per_period);
     if (!call.tables.empty()) {
         make_folder(call.tables);
-        write_measured_tables(json["measured"], call.tables);
+        write_measured_tables(measured, call.tables);
     }
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");

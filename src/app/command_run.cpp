@@ -27,8 +27,7 @@ struct RunCall {
 };
 
 RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
-                            const Provenance& provenance, RunMeasurements& measurements,
-                            bool quiet) {
+                            const Provenance& provenance, Observation& observation, bool quiet) {
     ProgressLine line(fmt::format("{} discs", config.discs), quiet);
     const auto begin = std::chrono::steady_clock::now();
     RunControl control;
@@ -38,8 +37,8 @@ RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
         const double rate = static_cast<double>(progress.events) / elapsed.count();
         line.show(progress.fraction, short_number(rate) + " events/s");
     };
-    measurements.attach_to(control);
-    return run_recorded(config, files, control, provenance, measurements.gatherers());
+    if (!observation.empty()) control.observation = &observation;
+    return run_recorded(config, files, control, provenance);
 }
 
 std::vector<std::string> measurements_of(const RunCall& call) {
@@ -47,16 +46,6 @@ std::vector<std::string> measurements_of(const RunCall& call) {
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
-}
-
-/// One line for every number and every table.
-std::string measured_text(const nlohmann::ordered_json& measured) {
-    std::string text;
-    for (const auto& [name, number] : measured_numbers(measured))
-        text += fmt::format("  {:<38}{}\n", name, with_error(number.mean, number.error));
-    for (const auto& [name, columns] : measured_tables(measured))
-        text += fmt::format("  {:<38}table of {} rows\n", name, columns.begin()->size());
-    return text;
 }
 
 /// With nothing but a checkpoint to go on, it says what run it is, and what its call asked for.
@@ -78,14 +67,15 @@ void take_call_from_checkpoint(const RunCall& call,
 }
 
 void run_and_report(RunCall& call) {
-    if (call.measure == "help") return print_all(measurement_list_text());
+    if (call.measure == "help") return print_all(measurement_help_text());
+    if (call.measure == "markdown") return print_all(measurement_markdown());
     const std::map<std::string, std::string*> others{
         {"json", &call.json}, {"measure", &call.measure}, {"tables", &call.tables}};
     const std::string config_text = take_config_file(*call.recording, *call.parameters, others);
     take_call_from_checkpoint(call, others);
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
-    RunMeasurements measurements(config, measurements_of(call));
+    Observation observation = observation_of(config, measurements_of(call));
     RunFiles files = run_files(*call.recording, config, call.json);
     files.call = call.recording->texts;
     for (const auto& [name, text] : others)
@@ -99,13 +89,13 @@ void run_and_report(RunCall& call) {
                    files.checkpoint.string());
 
     const Provenance provenance = provenance_of(config, command_line(), config_text);
-    const RunResult result = run_with_progress(config, files, provenance, measurements, call.quiet);
+    const RunResult result = run_with_progress(config, files, provenance, observation, call.quiet);
 
     nlohmann::ordered_json json = result_json(result);
     json["command"] = command_line();
     json["config_text"] = config_text;
-    const nlohmann::ordered_json measured = measurements.results();
-    if (!measured.empty()) json["measured"] = measured;
+    const MeasurementReports measured = observation.report();
+    if (!measured.empty()) json["measured"] = measured_json(measured);
     std::string text =
         call.quiet ? headline(result) + "\n" : report(result) + measured_text(measured);
     if (!call.tables.empty())

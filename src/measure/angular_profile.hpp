@@ -21,6 +21,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 
 namespace swirl {
 
@@ -44,6 +45,24 @@ class AngularProfile {
         return scaled(cells_.estimate(slice, 0), 1.0 / wall_mean);
     }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "angular velocity about the centre of mass, in slices of θ",
+                          {{"theta", "°"},
+                           {"visits", "1"},
+                           {"varpi_m", "Ω"},
+                           {"varpi_m_error", "Ω"},
+                           {"wall", "Ω"},
+                           {"normalised", "1"},
+                           {"normalised_error", "1"}}};
+        for (std::size_t s = 0; s < slices(); ++s) {
+            const Estimate own = plain(s), ratio = normalised(s);
+            table.add({theta(s) * degrees_per_radian, visits(s), own.mean, own.error, wall(s).mean,
+                       ratio.mean, ratio.error});
+        }
+        visit(std::move(table));
+    }
     void merge(const AngularProfile& other) { cells_.merge(other.cells_); }
     template <class Visitor>
     void fields(Visitor&& visit) {

@@ -31,6 +31,7 @@
 
 #include "swirl/math/cpu_width.hpp"
 #include "swirl/measure/cluster_rotation_kernel.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -49,6 +50,16 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::b
 /// In units of Ω.
 struct RotationEstimates {
     Estimate by_event, by_time, rigid_by_event, rigid_by_time;
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"by_event", "Ω", "rotation ϖ, averaged over events", by_event});
+        visit(ReportRow{"by_time", "Ω", "rotation ϖ, averaged over time", by_time});
+        visit(ReportRow{"rigid_by_event", "Ω", "of the fitted rigid body, over events",
+                        rigid_by_event});
+        visit(
+            ReportRow{"rigid_by_time", "Ω", "of the fitted rigid body, over time", rigid_by_time});
+    }
 };
 
 class ClusterRotation {

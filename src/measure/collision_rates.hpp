@@ -12,6 +12,7 @@
 #pragma once
 
 #include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/physics/event.hpp"
 
@@ -40,6 +41,15 @@ class CollisionRates {
         return e;
     }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"disc_disc_rate", "v/r", "collisions of a disc with discs per time",
+                        disc_disc()});
+        visit(ReportRow{"disc_wall_rate", "v/r", "collisions of a disc with the wall per time",
+                        disc_wall()});
+        visit(ReportRow{"mean_free_time", "r/v", "from one collision of a disc to its next",
+                        mean_free_time()});
+    }
     void merge(const CollisionRates& other) {
         disc_rate_.merge(other.disc_rate_);
         wall_rate_.merge(other.wall_rate_);

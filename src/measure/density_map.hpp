@@ -16,6 +16,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
@@ -51,6 +52,50 @@ class DensityMap {
     SquareGrid grid_;
     CellRates counts_;                // the last one is outside
     std::vector<std::int32_t> cell_;  // of every disc, at one sample
+};
+
+/// Both averages.
+class DensityMaps {
+  public:
+    explicit DensityMaps(double container_radius)
+        : by_time_(container_radius), by_event_(container_radius) {}
+
+    void sample(const MFrameView& view) { by_time_.sample(view); }
+    void sample_by_event(const MFrameView& view) { by_event_.sample(view); }
+    void close_block() {
+        by_time_.close_block();
+        by_event_.close_block();
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "discs per area, in cells of the container's bounding square",
+                          {{"x", "r"},
+                           {"y", "r"},
+                           {"by_time", "1/r²"},
+                           {"by_time_error", "1/r²"},
+                           {"by_event", "1/r²"},
+                           {"by_event_error", "1/r²"}}};
+        for (std::size_t c = 0; c < by_time_.grid().cells(); ++c) {
+            const Vec2 p = by_time_.grid().centre_of(c);
+            const Estimate time = by_time_.density(c), event = by_event_.density(c);
+            table.add({p.x, p.y, time.mean, time.error, event.mean, event.error});
+        }
+        visit(std::move(table));
+    }
+    void merge(const DensityMaps& other) {
+        by_time_.merge(other.by_time_);
+        by_event_.merge(other.by_event_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        by_time_.fields(visit);
+        by_event_.fields(visit);
+    }
+
+  private:
+    DensityMap by_time_, by_event_;
 };
 
 }  // namespace swirl

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/physics/snapshot.hpp"
 
@@ -132,6 +133,55 @@ class Diffusion {
     double last_time_ = 0.0, step_ = 0.0, period_ = 0.0, breaks_ = 0.0;
     CellMeans<1> moves_;
     CellMeans<2> turns_;
+};
+
+/// For lags below a period, and for lags of whole periods.
+class DiffusionLags {
+  public:
+    /// At equal steps of time within the period.
+    void sample_within_period(const Snapshot& s) { within_.sample(s); }
+    /// Once per period, always at the same phase.
+    void sample_across_periods(const Snapshot& s) { across_.sample(s); }
+    void close_block() {
+        within_.close_block();
+        across_.close_block();
+    }
+
+    /// A lag that was not reached is left out.
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "squared displacement and turn of a disc against the time between",
+                          {{"lag", "r/v"},
+                           {"displacement", "r²"},
+                           {"displacement_error", "r²"},
+                           {"turn", "rad"},
+                           {"turn_error", "rad"},
+                           {"turn_variance", "rad²"},
+                           {"turn_variance_error", "rad²"}}};
+        for (const Diffusion* d : {&within_, &across_})
+            for (std::size_t k = 0; k < d->lags(); ++k) {
+                const Estimate moved = d->square_displacement(k), turn = d->mean_turn(k),
+                               variance = d->turn_variance(k);
+                if (moved.blocks == 0 || std::isnan(moved.mean)) continue;
+                table.add({d->lag(k), moved.mean, moved.error, turn.mean, turn.error, variance.mean,
+                           variance.error});
+            }
+        visit(std::move(table));
+    }
+    void merge(const DiffusionLags& other) {
+        within_.merge(other.within_);
+        across_.merge(other.across_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        within_.fields(visit);
+        across_.fields(visit);
+    }
+
+  private:
+    Diffusion within_{7};  // up to 64 of the 73 steps of a period
+    Diffusion across_{8};  // up to 128 periods
 };
 
 }  // namespace swirl

@@ -1,5 +1,7 @@
 #include "swirl/measure/energy_budget.hpp"
 
+#include <cmath>
+
 namespace swirl {
 namespace {
 
@@ -47,10 +49,24 @@ double kinetic_energy(const Snapshot& s) {
 }
 
 void EnergyBudget::sample(const Event& event, const Snapshot& after) {
-    if (event.kind == EventKind::path_vertex) return;
-    const EnergyChange change = energy_change(event, after);
-    add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);
-    add(total_, change);
+    if (event.kind != EventKind::path_vertex) {
+        const EnergyChange change = energy_change(event, after);
+        add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);
+        add(total_, change);
+    }
+    if (!compared_) compare(kinetic_energy(after));
+}
+
+void EnergyBudget::compare(double energy) {
+    const double unaccounted = energy - accounted();
+    if (!begun_) at_start_ = unaccounted;
+    begun_ = compared_ = true;
+    worst_ = std::fmax(worst_, std::fabs(unaccounted - at_start_));
+}
+
+double EnergyBudget::unaccounted_share() const {
+    if (!begun_) return not_known;
+    return worst_ / std::fmax(std::fabs(total_work()), std::fabs(total_loss()));
 }
 
 void EnergyBudget::close_block(double duration) {
@@ -59,10 +75,13 @@ void EnergyBudget::close_block(double duration) {
     wall_friction_.add(wall_.friction_loss, duration);
     inelastic_.add(disc_.inelastic_loss + wall_.inelastic_loss, duration);
     disc_ = wall_ = {};
+    compared_ = false;
 }
 
 void EnergyBudget::merge(const EnergyBudget& other) {
     add(total_, other.total_);
+    begun_ = begun_ || other.begun_;
+    worst_ = std::fmax(worst_, other.worst_);
     work_.merge(other.work_);
     disc_friction_.merge(other.disc_friction_);
     wall_friction_.merge(other.wall_friction_);

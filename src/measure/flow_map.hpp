@@ -18,6 +18,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
@@ -41,6 +42,24 @@ class FlowMap {
     Estimate flow_x(std::size_t cell) const { return cells_.estimate(cell, 0); }
     Estimate flow_y(std::size_t cell) const { return cells_.estimate(cell, 1); }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "velocity relative to the container, in cells of its bounding square",
+                          {{"x", "r"},
+                           {"y", "r"},
+                           {"visits", "1"},
+                           {"u_x", "v"},
+                           {"u_x_error", "v"},
+                           {"u_y", "v"},
+                           {"u_y_error", "v"}}};
+        for (std::size_t c = 0; c < grid_.cells(); ++c) {
+            const Vec2 p = grid_.centre_of(c);
+            const Estimate x = flow_x(c), y = flow_y(c);
+            table.add({p.x, p.y, visits(c), x.mean, x.error, y.mean, y.error});
+        }
+        visit(std::move(table));
+    }
     void merge(const FlowMap& other) { cells_.merge(other.cells_); }
     template <class Visitor>
     void fields(Visitor&& visit) {

@@ -21,6 +21,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
@@ -70,6 +71,11 @@ class GranularTemperature {
         return e;
     }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"granular", "m v²", "granular temperature T of the motion", granular()});
+        visit(ReportRow{"of_the_spin", "m v²", "temperature of the spins", of_the_spin()});
+    }
     void merge(const GranularTemperature& other) {
         cells_.merge(other.cells_);
         spins_.merge(other.spins_);

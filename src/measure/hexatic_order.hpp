@@ -17,6 +17,7 @@
 
 #include "swirl/measure/all_and_pinned.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/voronoi.hpp"
 
 namespace swirl {
@@ -42,6 +43,12 @@ class HexaticOrder : public AllAndPinned {
     void sample(const MFrameView& view, const Voronoi& cells,
                 std::span<const std::uint8_t> pinned = {}) {
         for (std::size_t i = 0; i < view.size(); ++i) add(hexatic_order(view, cells, i), i, pinned);
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"all", "1", "hexatic order ψ6 of all discs", all()});
+        visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
     }
 };
 

@@ -15,6 +15,7 @@
 
 #include "swirl/measure/all_and_pinned.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/voronoi.hpp"
 
 namespace swirl {
@@ -27,6 +28,12 @@ class LocalPacking : public AllAndPinned {
             const double area = cells.area(i);
             add(area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known, i, pinned);
         }
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"all", "1", "local packing fraction φ of all discs", all()});
+        visit(ReportRow{"pinned", "1", "local packing fraction φ of the pinned discs", pinned()});
     }
 };
 

@@ -33,8 +33,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/circular_mean.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/physics/event.hpp"
 
@@ -117,6 +119,19 @@ class PinnedByCollisions {
     const CircularMean& becoming_pinned() const { return becoming_pinned_; }
     const CircularMean& becoming_free() const { return becoming_free_; }
 
+    /// What the collisions say, beside what the tracks of the same discs say.
+    template <class Visitor>
+    void report(Visitor&& visit, const PinnedLoose& by_tracks) const {
+        visit(row_of("becoming_pinned", "θ where discs become pinned, by tracks",
+                     by_tracks.becoming_pinned()));
+        visit(row_of("becoming_free", "θ where discs become free, by tracks",
+                     by_tracks.becoming_free()));
+        visit(row_of("becoming_pinned_by_collisions", "θ where discs become pinned, by collisions",
+                     becoming_pinned()));
+        visit(row_of("becoming_free_by_collisions", "θ where discs become free, by collisions",
+                     becoming_free()));
+        visit(ReportRow{"share", "1", "share of the discs that is pinned", by_tracks.share()});
+    }
     void merge(const PinnedByCollisions& other) {
         becoming_pinned_.merge(other.becoming_pinned_);
         becoming_free_.merge(other.becoming_free_);
@@ -139,6 +154,13 @@ class PinnedByCollisions {
     };
 
   private:
+    static ReportRow row_of(const char* name, const char* description, const CircularMean& mean) {
+        return {name,
+                "°",
+                description,
+                scaled(mean.angle(), degrees_per_radian),
+                {{"concentration", "1", mean.concentration()}, {"count", "1", mean.count()}}};
+    }
     void collide(std::size_t disc, double time, const Vec2& position);
 
     std::vector<Collision> last_;  // of every disc

@@ -14,6 +14,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 
 namespace swirl {
 
@@ -38,6 +39,20 @@ class RadialDensity {
         return scaled(counts_.estimate(ring), 1.0 / area(ring));
     }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "discs per area, in rings about the container's centre",
+                          {{"inner_radius", "r"},
+                           {"outer_radius", "r"},
+                           {"density", "1/r²"},
+                           {"density_error", "1/r²"}}};
+        for (std::size_t ring = 0; ring < rings(); ++ring) {
+            const Estimate e = density(ring);
+            table.add({inner_radius(ring), outer_radius(ring), e.mean, e.error});
+        }
+        visit(std::move(table));
+    }
     void merge(const RadialDensity& other) { counts_.merge(other.counts_); }
     template <class Visitor>
     void fields(Visitor&& visit) {

@@ -30,6 +30,7 @@
 
 #include "swirl/measure/convex_hull.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 
 namespace swirl {
@@ -56,6 +57,15 @@ class Slip {
     /// ϖ/Ω of the pancake with the cluster's momentary perimeter, averaged.
     Estimate pancake() const { return pancake_.estimate(); }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"cluster", "1", "slip parameter s of all discs", cluster()});
+        visit(ReportRow{"pinned_region", "1", "slip parameter s of the pinned discs",
+                        pinned_region()});
+        visit(ReportRow{"cluster_perimeter", "r", "perimeter of the cluster", cluster_perimeter()});
+        visit(ReportRow{"pancake", "Ω",
+                        "rotation of a pancake of that perimeter that does not slip", pancake()});
+    }
     void merge(const Slip& other) {
         cluster_.merge(other.cluster_);
         pinned_.merge(other.pinned_);

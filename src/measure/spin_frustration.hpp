@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/measure/touching.hpp"
 #include "swirl/physics/event.hpp"
@@ -57,6 +58,20 @@ class SpinFrustration {
     /// Touching neighbours of a disc, on average.
     Estimate coordination() const { return coordination_.estimate(); }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"wall_spin", "Ω", "|spin| of the discs at the wall", wall_spin()});
+        visit(ReportRow{"pinned_wall_spin", "Ω", "|spin| of the pinned discs at the wall",
+                        pinned_wall_spin()});
+        visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
+        visit(ReportRow{"triangles", "1", "share of the touching pairs with a common neighbour",
+                        triangles()});
+        visit(ReportRow{"coordination", "1", "touching neighbours of a disc", coordination()});
+        visit(ReportRow{"disc_sticking", "1",
+                        "share of the disc–disc collisions that stop the slip", disc_sticking()});
+        visit(ReportRow{"wall_sticking", "1",
+                        "share of the disc–wall collisions that stop the slip", wall_sticking()});
+    }
     void merge(const SpinFrustration& other) {
         wall_spin_.merge(other.wall_spin_);
         pinned_wall_spin_.merge(other.pinned_wall_spin_);

@@ -15,6 +15,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/physics/event.hpp"
 
@@ -62,6 +63,24 @@ class WallStress {
     Estimate mean_pressure() const { return scaled(all_normal_.estimate(), per_circumference()); }
     Estimate mean_traction() const { return scaled(all_along_.estimate(), per_circumference()); }
 
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"pressure", "m v²/r²", "on the wall, averaged along it", mean_pressure()});
+        visit(ReportRow{"traction", "m v²/r²", "along the wall, averaged, counter-clockwise",
+                        mean_traction()});
+        ReportTable table{"profile",
+                          "pressure and traction in slices of θ",
+                          {{"theta", "°"},
+                           {"pressure", "m v²/r²"},
+                           {"pressure_error", "m v²/r²"},
+                           {"traction", "m v²/r²"},
+                           {"traction_error", "m v²/r²"}}};
+        for (std::size_t s = 0; s < slices(); ++s) {
+            const Estimate p = pressure(s), t = traction(s);
+            table.add({theta(s) * degrees_per_radian, p.mean, p.error, t.mean, t.error});
+        }
+        visit(std::move(table));
+    }
     void merge(const WallStress& other) {
         normal_.merge(other.normal_);
         along_.merge(other.along_);

@@ -21,6 +21,12 @@ Json counts_json(const EventCounts& counts) {
             {"lasting_contacts", counts.lasting}};
 }
 
+Json rotation_json(const RotationEstimates& rotation) {
+    Json json;
+    rotation.report([&](const ReportRow& row) { json[row.name] = estimate_json(row.estimate); });
+    return json;
+}
+
 const char* word(SteadyState::Verdict verdict) {
     switch (verdict) {
         case SteadyState::Verdict::steady:
@@ -98,11 +104,7 @@ Json result_json(const RunResult& r) {
             {"events", counts_json(r.events)},
             {"periods", r.periods},
             {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
-            {"rotation",
-             {{"by_event", estimate_json(r.rotation.by_event)},
-              {"by_time", estimate_json(r.rotation.by_time)},
-              {"rigid_by_event", estimate_json(r.rotation.rigid_by_event)},
-              {"rigid_by_time", estimate_json(r.rotation.rigid_by_time)}}},
+            {"rotation", rotation_json(r.rotation)},
             {"steady_state",
              {{"verdict", word(r.steady_state())},
               {"drift", r.steady.drift},

@@ -9,6 +9,7 @@
 #include "swirl/files/checkpoint.hpp"
 #include "swirl/files/event_log.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/state_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/version.hpp"
@@ -27,14 +28,14 @@ Json frames_json(const RunFiles& files) {
 }
 
 /// What must agree for a run to be resumed.
-Json identity(const RunConfig& config, const RunFiles& files,
-              const std::vector<Gatherer>& gatherers) {
-    Json gathered = Json::array();
-    for (const Gatherer& gatherer : gatherers) gathered.push_back(gatherer.name);
+Json identity(const RunConfig& config, const RunFiles& files, const Observation* observation) {
+    Json measured = Json::array();
+    if (observation && !observation->empty())
+        measured.push_back(fmt::format("{}", fmt::join(observation->names(), ",")));
     return {{"parameters", config_json(config)},
             {"frames", frames_json(files)},
             {"event_log", !files.event_log.empty()},
-            {"measured", gathered}};
+            {"measured", measured}};
 }
 
 std::string difference(const Json& there, const Json& here) {
@@ -54,8 +55,8 @@ std::string difference(const Json& there, const Json& here) {
 class Recorder {
   public:
     Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
-             const std::vector<Gatherer>& gatherers)
-        : config_(config), files_(files), gatherers_(gatherers), last_kept_(Clock::now()) {
+             const Observation* observation)
+        : config_(config), files_(files), observation_(observation), last_kept_(Clock::now()) {
         if (files.resume && std::filesystem::exists(files.checkpoint))
             resume();
         else
@@ -89,22 +90,21 @@ class Recorder {
 
     void resume() {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
-        const Json about = Json::parse(kept.about), here = identity(config_, files_, gatherers_);
+        const Json about = Json::parse(kept.about), here = identity(config_, files_, observation_);
         if (about.at("identity") != here)
             throw WrongCall(fmt::format(
                 "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
                 "or choose another checkpoint with --checkpoint.",
                 files_.checkpoint.string(), difference(about.at("identity"), here)));
         StateReader state(kept.state);
-        std::uint64_t frames = 0, events = 0;
+        std::uint64_t frames = 0, logged = 0;
         resumed_.emplace();
-        state(frames, events, *resumed_);
-        for (const Gatherer& gatherer : gatherers_) gatherer.resume(state);
+        state(frames, logged, events_, *resumed_);
         state.expect_end();
         if (!files_.trajectory.empty())
             trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames);
         if (!files_.event_log.empty())
-            event_log_ = EventLogWriter::resume(files_.event_log, events);
+            event_log_ = EventLogWriter::resume(files_.event_log, logged);
     }
 
     void add_to(RunControl& control) {
@@ -124,7 +124,6 @@ class Recorder {
                     trajectory_->write(s, events_);
                 if (asked) asked(s, event);
             };
-        if (control.resume) events_ = events_in(*control.resume);
         if (files_.checkpoint.empty()) return;
         control.wants_state = [this](bool stopped) {
             if (given_up_) return false;
@@ -144,26 +143,17 @@ class Recorder {
         };
     }
 
-    static std::uint64_t events_in(const std::string& state) {
-        // The moment comes first: swirls, clock, leg, events (run.cpp).
-        StateReader reader(state);
-        Progress p;
-        reader(p.swirls, p.clock, p.leg, p.events);
-        return p.events.total();
-    }
-
     /// What the checkpoint counts on must be on the disk before it.
     void keep(const std::string& run_state) {
         if (trajectory_) trajectory_->flush(true);
         if (event_log_) event_log_->flush(true);
         StateWriter state;
         std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
-        std::uint64_t events = event_log_ ? event_log_->events() : 0;
-        state(frames, events);
+        std::uint64_t logged = event_log_ ? event_log_->events() : 0;
+        state(frames, logged, events_);
         state(run_state);
-        for (const Gatherer& gatherer : gatherers_) gatherer.keep(state);
         const Json about{{"version", version()},
-                         {"identity", identity(config_, files_, gatherers_)},
+                         {"identity", identity(config_, files_, observation_)},
                          {"call", files_.call}};
         write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
         last_kept_ = Clock::now();
@@ -171,11 +161,11 @@ class Recorder {
 
     const RunConfig& config_;
     const RunFiles& files_;
-    const std::vector<Gatherer>& gatherers_;
+    const Observation* observation_;
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;
-    std::uint64_t events_ = 0;
+    std::uint64_t events_ = 0;  // since the beginning of the run
     bool given_up_ = false;
     Clock::time_point last_kept_;
 };
@@ -183,8 +173,8 @@ class Recorder {
 }  // namespace
 
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
-                       const Provenance& provenance, const std::vector<Gatherer>& gatherers) {
-    return Recorder(config, files, provenance, gatherers)(control);
+                       const Provenance& provenance) {
+    return Recorder(config, files, provenance, control.observation)(control);
 }
 
 void forget_checkpoint(const RunFiles& files) {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "swirl/files/state_archive.hpp"
 #include "swirl/files/trajectory.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/run.hpp"
@@ -39,14 +38,6 @@ struct RunFiles {
     ParameterTexts call;
 };
 
-/// Something that gathers while the run goes on, and must be kept with it. `name` says what; a run
-/// resumes only from a checkpoint of one that gathered the same.
-struct Gatherer {
-    std::string name;
-    std::function<void(StateWriter&)> keep;
-    std::function<void(StateReader&)> resume;
-};
-
 /// What a checkpoint says about the run it belongs to.
 struct KeptCall {
     std::string configuration;  // the text of config_json()
@@ -58,7 +49,7 @@ KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 /// names when the run is complete; the checkpoint stays until forget_checkpoint(), so that nothing
 /// is lost before the result is on the disk too.
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
-                       const Provenance& provenance, const std::vector<Gatherer>& gatherers = {});
+                       const Provenance& provenance);
 
 void forget_checkpoint(const RunFiles& files);
 

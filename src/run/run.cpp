@@ -9,6 +9,7 @@
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/state_archive.hpp"
+#include "swirl/measure/sample_times.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -20,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 /// corners of the path are met at different phases.
 constexpr int rotation_samples = 64;
 
-/// Events between two looks at the clock and at the stop flag.
+/// Events between two glances at the clock and at the stop flag.
 constexpr int patience = 256;
 constexpr std::chrono::milliseconds progress_interval(100);
 
@@ -45,53 +46,6 @@ double mean_spin(const Snapshot& s) {
     for (const double spin : s.spin) sum += spin;
     return sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
 }
-
-/// The equally spaced moments of a swirl, one after the other. Until the next event the state of
-/// the last snapshot holds, so a look at a moment in between needs nothing but its clock.
-class SampleTimes {
-  public:
-    SampleTimes(int per_period, double period, double interval = 0.0)
-        : per_period_(per_period), period_(period), interval_(interval) {}
-
-    /// Calls look(snapshot) at every moment up to `clock` within the swirl of the snapshot. The
-    /// end of a swirl is the beginning of the next, and counts there.
-    template <class Look>
-    void pass(Snapshot& s, const ContainerPath& path, double clock, Look&& look) {
-        if (!due_) due_ = next_in(s.swirls);
-        for (; *due_ <= clock; ++next_, due_ = next_in(s.swirls)) {
-            const double moment = *due_;
-            s.clock = moment;
-            const Leg& leg = path.leg_at(moment);
-            s.container_centre = leg.position_at(moment);
-            s.container_velocity = leg.velocity_at(moment);
-            look(s);
-        }
-    }
-    void begin_swirl() {
-        if (interval_ == 0.0) next_ = 0;
-        due_.reset();
-    }
-
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        visit(next_);
-    }
-
-  private:
-    /// The next moment on the clock of this swirl; never, if it is not in it.
-    double next_in(std::int64_t swirls) const {
-        const auto k = static_cast<double>(next_);
-        if (interval_ == 0.0) return next_ < per_period_ ? period_ * k / per_period_ : never;
-        const double swirl = std::floor(k * interval_ / period_);
-        const auto now = static_cast<double>(swirls);
-        return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
-    }
-
-    int per_period_;
-    double period_, interval_;
-    std::int64_t next_ = 0;
-    std::optional<double> due_;  // its moment in this swirl, once it has been asked for
-};
 
 /// A trajectory between two events.
 struct Moment {
@@ -133,6 +87,7 @@ class Run {
           simulation_(begin(config, kept_)),
           snapshot_(simulation_.snapshot()),
           rotation_times_(rotation_samples, config.period),
+          observation_times_(samples_per_period, config.period),
           warm_(config.warmup == 0) {
         const Budget start = budget_of(snapshot_);
         result_.config = config;
@@ -181,6 +136,7 @@ class Run {
         visit(result_.energy_at_start, result_.invariant_at_start);
         visit(spin_in_warmup_, spin_after_, next_question_);
         for (SampleTimes& times : caller_times_) visit(times);
+        if (control_.observation) visit(observation_times_, *control_.observation);
     }
 
     /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
@@ -217,7 +173,7 @@ class Run {
 
     void offer_state(bool stopped, double seconds) {
         if (!control_.wants_state || !control_.wants_state(stopped)) return;
-        look();
+        sample_rotation_by_event();
         StateWriter state;
         Moment moment = Moment::of(simulation_);
         state(moment);
@@ -240,38 +196,49 @@ class Run {
                static_cast<double>(config_.events);
     }
 
+    /// One event. The snapshot holds the state before it, and is sampled at all times that are due
+    /// until then; after it, it holds the state that the event has left behind.
     void step() {
         const Event event = simulation_.step();
-        look();
-        rotation_times_.pass(snapshot_, path_, event.clock, [&](const Snapshot& s) {
-            average().sample_by_time(s);
-            spin().add(mean_spin(s));
-        });
+        sample_rotation_by_event();
+        while (rotation_times_.next(snapshot_, path_, event.clock)) {
+            rotation().sample_by_time(snapshot_);
+            spin().add(mean_spin(snapshot_));
+        }
+        if (observes())
+            while (observation_times_.next(snapshot_, path_, event.clock))
+                control_.observation->sample(snapshot_);
         for (std::size_t k = 0; k < caller_times_.size(); ++k)
-            caller_times_[k].pass(snapshot_, path_, event.clock, control_.samplers[k].look);
+            while (caller_times_[k].next(snapshot_, path_, event.clock))
+                control_.samplers[k].look(snapshot_);
 
         simulation_.refresh(snapshot_, event);
-        average().follow(snapshot_, event);
-        looked_ = false;
+        rotation().follow(snapshot_, event);
+        rotation_is_sampled_ = false;
         result_.max_overlap = std::max(result_.max_overlap, event.overlap);
+        if (observes()) control_.observation->sample(event, snapshot_);
         if (control_.after_event) control_.after_event(snapshot_, event);
         if (event.kind == EventKind::path_vertex && simulation_.swirls() > event.swirls)
-            begin_swirl();
+            begin_period();
     }
+    bool observes() const { return warm_ && control_.observation; }
 
     /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
     /// when nobody has to wait for it to be written (cluster_rotation.hpp).
-    void look() {
-        if (!looked_) average().sample(snapshot_);
-        looked_ = true;
+    void sample_rotation_by_event() {
+        if (!rotation_is_sampled_) rotation().sample(snapshot_);
+        rotation_is_sampled_ = true;
     }
 
-    void begin_swirl() {
-        rotation_times_.begin_swirl();
-        for (SampleTimes& times : caller_times_) times.begin_swirl();
-        look();
-        average().close_block();
+    /// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up.
+    void begin_period() {
+        rotation_times_.begin_period();
+        observation_times_.begin_period();
+        for (SampleTimes& times : caller_times_) times.begin_period();
+        sample_rotation_by_event();
+        rotation().close_block();
         spin().close_block();
+        if (observes()) control_.observation->close_block();
         if (!warm_ && warm_now()) {
             warm_ = true;
             result_.warmup = simulation_.swirls();
@@ -296,11 +263,11 @@ class Run {
     }
 
     /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
-    ClusterRotation& average() { return warm_ ? after_warmup_ : in_warmup_; }
+    ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
     BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
 
     void finish() {
-        look();
+        sample_rotation_by_event();
         // A run too short for a single whole swirl still has a mean, though no error.
         if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
         if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
@@ -309,8 +276,8 @@ class Run {
                 "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "
                 "more --events or a shorter --warmup would be right.",
                 periods(), *config_.warmup));
-        result_.rotation = average().estimates();
-        result_.steady = find_steady_state(average().by_event().block_means());
+        result_.rotation = rotation().estimates();
+        result_.steady = find_steady_state(rotation().by_event().block_means());
         result_.steady_spin = find_steady_state(spin().series().block_means());
         result_.events = simulation_.events();
         result_.periods = periods();
@@ -326,7 +293,7 @@ class Run {
     std::optional<StateReader> kept_;
     Simulation simulation_;
     Snapshot snapshot_;
-    SampleTimes rotation_times_;
+    SampleTimes rotation_times_, observation_times_;
     std::vector<SampleTimes> caller_times_;
     std::uint64_t events_at_mark_ = simulation_.events().total();
     double periods_at_mark_ = periods();
@@ -335,7 +302,7 @@ class Run {
     BlockMean spin_in_warmup_, spin_after_;
     std::int64_t next_question_ = least_blocks_of_a_steady_state;  // at this swirl: warm?
     bool warm_;
-    bool looked_ = true;  // after the last event
+    bool rotation_is_sampled_ = true;  // after the last event
     RunResult result_;
 };
 

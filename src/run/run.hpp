@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/observation.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/run/config.hpp"
@@ -63,6 +64,10 @@ struct RunControl {
     /// Called a few times a second at most.
     std::function<void(const RunProgress&)> progress;
 
+    /// What is measured besides the rotation, from the end of the warm-up on. Must outlive the run;
+    /// what it has gathered is part of the state that is kept.
+    Observation* observation = nullptr;
+
     /// Called after every event, warm-up included, with the state just after it.
     std::function<void(const Snapshot&, const Event&)> after_event;
 
@@ -85,7 +90,8 @@ struct RunControl {
     /// Gets it (state_archive.hpp): a run that resumes from it goes on bit for bit, and ends with
     /// the same result.
     std::function<void(const std::string& state)> keep_state;
-    /// What keep_state got, of a run with the same configuration and samplers. Throws FileError if
+    /// What keep_state got, of a run with the same configuration, samplers and names of an
+    /// observation that has seen nothing yet. Throws FileError if
     /// it is something else.
     std::optional<std::string> resume;
 };

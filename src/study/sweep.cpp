@@ -262,7 +262,7 @@ class SweepWork {
         if (plan_.frames > 0)
             files.trajectory = folder_ / "trajectories" / (number_of(point) + ".h5");
         files.frames.per_swirl = std::max(plan_.frames, 1);
-        RunMeasurements measurements(config, plan_.measure);
+        Observation observation = observation_of(config, plan_.measure);
         RunControl run_control;
         run_control.stop = control_.stop;
         double counted = 0.0;
@@ -272,12 +272,11 @@ class SweepWork {
             counted = p.fraction;
             counted_events = p.events;
         };
-        measurements.attach_to(run_control);
+        if (!observation.empty()) run_control.observation = &observation;
         const std::string command = command_of(plan_, point, config.seed);
         Provenance provenance;  // only recordings need it
         if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
-        const RunResult result =
-            run_recorded(config, files, run_control, provenance, measurements.gatherers());
+        const RunResult result = run_recorded(config, files, run_control, provenance);
         if (!result.complete) return false;
         count(1.0 - counted, result.events.total() - counted_events);
 
@@ -285,7 +284,7 @@ class SweepWork {
         Json found = result_json(result);
         for (auto& [name, value] : found.items()) json[name] = std::move(value);
         json["command"] = command;
-        if (!plan_.measure.empty()) json["measured"] = measurements.results();
+        if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
         writer_.write(number_of(point) + ".json", json.dump() + "\n",
                       [files, claim] { forget_checkpoint(files); });
         const std::lock_guard lock(mutex_);

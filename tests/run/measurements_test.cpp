@@ -155,13 +155,11 @@ TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
 }
 
 TEST(Measurements, FramesWithoutEventsSayNothingOfCollisions) {
-    RunMeasurements measurements(short_run(), everything());
-    RunControl control;
-    measurements.attach_to(control);
-    for (int swirl = 0; swirl < 3; ++swirl) control.swirl_begins(true);
-    const auto measured = measurements.results();
-    for (const auto& [name, number] : measured_numbers(measured))
-        EXPECT_TRUE(std::isnan(number.mean)) << name;
+    Observation observation = observation_of(short_run(), everything());
+    for (int period = 0; period < 3; ++period) observation.close_block();
+    for (const auto& [name, report] : observation.report())
+        for (const ReportRow& row : report.rows)
+            EXPECT_TRUE(std::isnan(row.estimate.mean)) << name << "." << row.name;
 }
 
 TEST(Measurements, ListIsReadInOrderAndWithoutDoubles) {
@@ -183,8 +181,11 @@ TEST(Measurements, UnknownNameIsRefusedWithThoseThereAre) {
 TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     const Scratch scratch;
     const fs::path& folder = scratch.folder();
-    const auto files =
-        write_measured_tables(measured_run(short_run(), {"profile", "slip"}).measured, folder);
+    Observation observation = observation_of(short_run(), {"profile", "slip"});
+    RunControl control;
+    control.observation = &observation;
+    run(short_run(), control);
+    const auto files = write_measured_tables(observation.report(), folder);
     EXPECT_THAT(files, ElementsAre(folder / "profile.csv", folder / "numbers.csv"));
     std::ifstream profile(files[0]), numbers(files[1]);
     std::string line;

@@ -86,13 +86,13 @@ TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
     for (; !result.complete; ++pieces) {
         std::atomic<bool> stop = false;
         std::uint64_t left = 1'900;
-        RunMeasurements measurements(config, names);
+        Observation observation = observation_of(config, names);
         RunControl control;
         control.stop = &stop;
         control.after_event = [&](const Snapshot&, const Event&) { stop = --left == 0 || stop; };
-        measurements.attach_to(control);
-        result = run_recorded(config, files, control, {}, measurements.gatherers());
-        measured = measurements.results().dump();
+        control.observation = &observation;
+        result = run_recorded(config, files, control, {});
+        measured = measured_json(observation.report()).dump();
     }
     EXPECT_GT(pieces, 10);
     EXPECT_EQ(measured, whole.measured.dump());
@@ -107,11 +107,11 @@ TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
     files.resume = true;
     const auto stopped_run = [&](const char* list) {
         const std::atomic<bool> stop = true;
-        RunMeasurements measurements(config, read_measurement_list(list));
+        Observation observation = observation_of(config, read_measurement_list(list));
         RunControl control;
         control.stop = &stop;
-        measurements.attach_to(control);
-        run_recorded(config, files, control, {}, measurements.gatherers());
+        control.observation = &observation;
+        run_recorded(config, files, control, {});
     };
     stopped_run("density,flow");
     EXPECT_NO_THROW(stopped_run("density,flow"));

@@ -1,0 +1,66 @@
+// The moments at which a dish is sampled: k T / n in every period, or k times an interval. Until
+// the next event the state of a snapshot holds, so the exact state at a moment in between is the
+// same snapshot with another clock:
+//
+//     while (times.next(snapshot, path, event.clock)) observation.sample(snapshot);
+//
+// Times are those of the simulation; the end of a period is the beginning of the next, and counts
+// there.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "swirl/math/real.hpp"
+#include "swirl/physics/container_path.hpp"
+#include "swirl/physics/snapshot.hpp"
+
+namespace swirl {
+
+class SampleTimes {
+  public:
+    /// `interval` above 0: k · interval from the beginning, whatever the periods.
+    SampleTimes(int per_period, double period, double interval = 0.0)
+        : per_period_(per_period), period_(period), interval_(interval) {}
+
+    /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
+    /// period; false if there is none left.
+    bool next(Snapshot& s, const ContainerPath& path, double clock) {
+        if (!due_) due_ = next_in(s.swirls);
+        if (!(*due_ <= clock)) return false;
+        s.clock = *due_;
+        const Leg& leg = path.leg_at(s.clock);
+        s.container_centre = leg.position_at(s.clock);
+        s.container_velocity = leg.velocity_at(s.clock);
+        ++index_;
+        due_ = next_in(s.swirls);
+        return true;
+    }
+    void begin_period() {
+        if (interval_ == 0.0) index_ = 0;
+        due_.reset();
+    }
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(index_);
+    }
+
+  private:
+    /// The next moment on the clock of this period; never, if it is not in it.
+    double next_in(std::int64_t swirls) const {
+        const auto k = static_cast<double>(index_);
+        if (interval_ == 0.0) return index_ < per_period_ ? period_ * k / per_period_ : never;
+        const double swirl = std::floor(k * interval_ / period_);
+        const auto now = static_cast<double>(swirls);
+        return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
+    }
+
+    int per_period_;
+    double period_, interval_;
+    std::int64_t index_ = 0;     // of the next
+    std::optional<double> due_;  // its moment in this period, once it has been asked for
+};
+
+}  // namespace swirl
