@@ -60,8 +60,9 @@ class SpinFrustration {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"wall_spin", "Ω", "|spin| of the discs at the wall", wall_spin()});
-        visit(ReportRow{"pinned_wall_spin", "Ω", "|spin| of the pinned discs at the wall",
+        visit(
+            ReportRow{"wall_spin", "Ω", "size of the spin of the discs at the wall", wall_spin()});
+        visit(ReportRow{"pinned_wall_spin", "Ω", "size of the spin of the pinned discs at the wall",
                         pinned_wall_spin()});
         visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
         visit(ReportRow{"triangles", "1", "share of the touching pairs with a common neighbour",

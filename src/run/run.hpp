@@ -57,6 +57,10 @@ struct RunProgress {
 
 /// What a caller may want while the run goes on. Everything is optional, and nothing of it changes
 /// a bit of the trajectory.
+///
+/// The order, event by event: the samples that are due before it, first the observation's, then
+/// those of each sampler; the event, for the observation, then for after_event; if it ends a
+/// period, the observation's block is closed, and then swirl_begins is called.
 struct RunControl {
     /// Set from outside (a signal) to end the run early; the result then says it is incomplete.
     const std::atomic<bool>* stop = nullptr;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "files/scratch.hpp"
 #include "swirl/run/failure.hpp"
@@ -195,6 +196,54 @@ TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     EXPECT_EQ(line, "quantity,mean,error,effective_samples,blocks");
     std::getline(numbers, line);
     EXPECT_THAT(line, HasSubstr("slip.cluster,0."));
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
+    const Scratch scratch;
+    Observation observation = observation_of(short_run(), everything());
+    RunControl control;
+    control.observation = &observation;
+    run(short_run(), control);
+    const MeasurementReports reports = observation.report();
+    write_measured_tables(reports, scratch.folder());
+    const auto json = measured_json(reports);
+    const std::string numbers = text_of(scratch / "numbers.csv"), help = measurement_help_text(),
+                      terminal = measured_text(reports),
+                      docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/measurements.md");
+    for (const auto& [name, report] : reports) {
+        EXPECT_THAT(docs, HasSubstr("| " + name + " |"));
+        for (const ReportRow& row : report.rows) {
+            const std::string full = name + "." + row.name;
+            EXPECT_TRUE(json.at(name).contains(row.name)) << full;
+            EXPECT_THAT(numbers, HasSubstr("\n" + full + ","));
+            EXPECT_THAT(help, HasSubstr("  " + full + " "));
+            EXPECT_THAT(terminal, HasSubstr("  " + full + " "));
+            EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
+        }
+        for (const ReportTable& table : report.tables) {
+            const std::string full = *table.name == '\0' ? name : name + "." + table.name;
+            const auto& columns = *table.name == '\0' ? json.at(name) : json.at(name)[table.name];
+            const std::string csv = text_of(scratch / (full + ".csv"));
+            EXPECT_THAT(help, HasSubstr("  " + full + " "));
+            EXPECT_THAT(terminal, HasSubstr("  " + full + " "));
+            EXPECT_THAT(docs, HasSubstr("| " + full + " | " + table.columns.front().name));
+            for (const ReportColumn& column : table.columns) {
+                EXPECT_EQ(columns.at(column.name).size(), table.rows()) << full;
+                EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(column.name));
+            }
+        }
+    }
+}
+
+TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {
+    const std::string docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/measurements.md");
+    EXPECT_NE(docs.find(measurement_markdown()), std::string::npos)
+        << "docs/measurements.md must hold what `swirl run --measure markdown` prints.";
 }
 
 }  // namespace

@@ -1,0 +1,159 @@
+#include "swirl/measure/observation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "measure/snapshots.hpp"
+#include "swirl/measure/sample_times.hpp"
+
+namespace swirl {
+namespace {
+
+std::vector<std::string> everything() {
+    std::vector<std::string> names;
+    for (const MeasurementKind& kind : measurement_kinds()) names.emplace_back(kind.name);
+    return names;
+}
+
+const Report& report_of(const std::vector<MeasurementReport>& reports, const std::string& name) {
+    for (const MeasurementReport& r : reports)
+        if (r.name == name) return r.report;
+    static const Report none;
+    return none;
+}
+
+/// `periods` periods of `per_period` samples of the same discs.
+void observe(Observation& observation, int periods, int per_period) {
+    for (int period = 0; period < periods; ++period) {
+        for (int k = 0; k < per_period; ++k) {
+            Snapshot s = random_discs(12, 7, static_cast<double>(k) / per_period);
+            s.swirls = period;
+            observation.sample(s);
+        }
+        observation.close_block();
+    }
+}
+
+Observation observation_of(std::vector<std::string> names) {
+    const Snapshot s = random_discs(12, 7);
+    return Observation(s.container_radius, s.period, std::move(names));
+}
+
+TEST(Observation, WhatAMeasurementNeedsFollowsFromItsFunctions) {
+    std::set<std::string> pinned, tracks, cells, events;
+    for (const MeasurementKind& kind : measurement_kinds()) {
+        if (kind.needs_pinned) pinned.emplace(kind.name);
+        if (kind.needs_tracks) tracks.emplace(kind.name);
+        if (kind.needs_cells) cells.emplace(kind.name);
+        if (kind.needs_events) events.emplace(kind.name);
+    }
+    using Names = std::set<std::string>;
+    EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
+    EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
+    EXPECT_EQ(cells, (Names{"order", "packing"}));
+    EXPECT_EQ(events, (Names{"collisions", "wall", "energy"}));
+}
+
+TEST(Observation, EverySampleOfAFrameCountsAndEventsAreThinned) {
+    Observation observation = observation_of({"density"});
+    observe(observation, 2, 50);
+    Event event{};
+    event.kind = EventKind::path_vertex;
+    for (int k = 0; k < 31; ++k) observation.sample(event, random_discs(12, 7));
+    observation.close_block();
+    const auto by_event = [&] {
+        const auto reports = observation.report();
+        const ReportTable& table = report_of(reports, "density").tables.front();
+        double sum = 0.0;
+        for (std::size_t r = 0; r < table.rows(); ++r) sum += table.at(r, 4);
+        return sum;
+    };
+    EXPECT_TRUE(std::isnan(by_event()));
+    observation.sample(event, random_discs(12, 7));  // the 32nd
+    observation.close_block();
+    EXPECT_GT(by_event(), 0.0);
+}
+
+TEST(Observation, ReportsComeInTheOrderOfTheNamesAndUnknownNamesArePassedOver) {
+    const Observation observation = observation_of({"slip", "nothing", "density"});
+    EXPECT_THAT(observation.names(), testing::ElementsAre("slip", "density"));
+    const auto reports = observation.report();
+    ASSERT_EQ(reports.size(), 2u);
+    EXPECT_EQ(reports[0].name, "slip");
+    EXPECT_EQ(reports[1].report.tables.front().rows(), 10000u);
+}
+
+TEST(Observation, RowsAndColumnsHaveNamesUnitsAndDescriptionsBeforeAnythingIsSeen) {
+    for (const auto& [name, report] : observation_of(everything()).report()) {
+        EXPECT_FALSE(report.rows.empty() && report.tables.empty()) << name;
+        for (const ReportRow& row : report.rows) {
+            EXPECT_STRNE(row.name, "");
+            EXPECT_STRNE(row.unit, "") << row.name;
+            EXPECT_STRNE(row.description, "") << row.name;
+            EXPECT_TRUE(std::isnan(row.estimate.mean)) << row.name;
+        }
+        for (const ReportTable& table : report.tables)
+            for (const ReportColumn& column : table.columns) {
+                EXPECT_STRNE(column.name, "") << name;
+                EXPECT_STRNE(column.unit, "") << column.name;
+            }
+    }
+}
+
+TEST(Observation, MergedHasTheSumOfTheBlocks) {
+    Observation whole = observation_of(everything()), first = observation_of(everything()),
+                second = observation_of(everything());
+    observe(whole, 5, 120);
+    observe(first, 2, 120);
+    observe(second, 3, 120);
+    first.merge(second);
+    const auto merged = first.report(), expected = whole.report();
+    const auto mean = [](const std::vector<MeasurementReport>& reports) {
+        return report_of(reports, "temperature").rows.front().estimate;
+    };
+    EXPECT_EQ(mean(merged).blocks, 5u);
+    // The same samples, added up in another order.
+    EXPECT_NEAR(mean(merged).mean, mean(expected).mean, 1e-12);
+}
+
+TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {
+    const Snapshot s = random_discs(12, 7);
+    Observation observation(s.container_radius, s.period, {"packing"}, false);
+    observe(observation, 2, 100);
+    const auto reports = observation.report();
+    const Report& packing = report_of(reports, "packing");
+    EXPECT_EQ(packing.rows[0].estimate.blocks, 2u);
+    EXPECT_GT(packing.rows[0].estimate.mean, 0.0);
+    EXPECT_TRUE(std::isnan(packing.rows[1].estimate.mean));
+}
+
+TEST(SampleTimes, AreEquallySpacedAndTheEndOfAPeriodBelongsToTheNext) {
+    const ContainerPath path = polygon_path(1.0, 2.0, 6);
+    SampleTimes times(4, 2.0);
+    Snapshot s;
+    s.period = 2.0;
+    std::vector<double> found;
+    for (const double until : {0.4, 0.5, 2.0})
+        while (times.next(s, path, until)) found.push_back(s.clock);
+    EXPECT_THAT(found, testing::ElementsAre(0.0, 0.5, 1.0, 1.5));
+    times.begin_period();
+    s.swirls = 1;
+    ASSERT_TRUE(times.next(s, path, 0.0));
+    EXPECT_EQ(s.clock, 0.0);
+}
+
+TEST(SampleTimes, AnIntervalGoesOnThroughThePeriods) {
+    const ContainerPath path = polygon_path(1.0, 2.0, 6);
+    SampleTimes times(0, 2.0, 1.5);
+    Snapshot s;
+    s.period = 2.0;
+    std::vector<double> found;
+    for (s.swirls = 0; s.swirls < 3; ++s.swirls, times.begin_period())
+        while (times.next(s, path, 2.0)) found.push_back(s.time());
+    EXPECT_THAT(found, testing::ElementsAre(0.0, 1.5, 3.0, 4.5));
+}
+
+}  // namespace
+}  // namespace swirl
