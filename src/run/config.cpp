@@ -12,14 +12,6 @@
 namespace swirl {
 namespace {
 
-// Beyond these the arithmetic is still right but a result means nothing any more; most often a
-// number outside is a slip of the keyboard.
-constexpr double smallest = 1e-6, largest = 1e6;
-constexpr std::int64_t most_discs = 10'000'000;
-constexpr std::int64_t most_events = 1'000'000'000'000'000;
-constexpr std::int64_t most_periods = 1'000'000'000'000;
-constexpr std::int64_t most_sides = 1'000'000;
-
 /// No arrangement of equal discs covers more of the plane (Thue 1910): π/√12.
 constexpr double densest_packing = 0.9069;
 
@@ -28,40 +20,36 @@ std::optional<std::string> outside(const char* name, double value, double from, 
     return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
 }
 
-std::optional<std::string> outside(const char* name, std::int64_t value, std::int64_t from,
-                                   std::int64_t to) {
-    if (value >= from && value <= to) return {};
-    return fmt::format("{} is {}, but it must be a whole number from {} to {}.", name, value, from,
-                       to);
+/// Ranges that depend on other parameters.
+std::optional<std::string> out_of_proportion(const RunConfig& c) {
+    if (auto answer = outside("--contact-duration", c.contact_duration, 0.0, c.period))
+        return answer;
+    if (!c.mixture) return {};
+    if (c.mixture->count < 1 || c.mixture->count > c.discs)
+        return fmt::format(
+            "the count in --mixture is {}, but it must be a whole number from 1 to {}.",
+            c.mixture->count, c.discs);
+    if (auto answer =
+            outside("the radius in --mixture", c.mixture->radius, smallest_value, largest_value))
+        return answer;
+    return outside("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
 }
 
-std::optional<std::string> number_out_of_range(const RunConfig& c) {
-    const std::optional<std::string> answers[] = {
-        outside("--discs", c.discs, 1, most_discs),
-        outside("--mu-disc", c.mu_disc, 0.0, largest),
-        outside("--mu-wall", c.mu_wall, 0.0, largest),
-        outside("--restitution", c.restitution, 0.0, 1.0),
-        outside("--tangential-restitution", c.tangential_restitution, 0.0, 1.0),
-        outside("--mass", c.mass, smallest, largest),
-        outside("--radius", c.radius, smallest, largest),
-        outside("--inertia", c.inertia, 1e-12, 1e18),
-        outside("--container-radius", c.container_radius, smallest, largest),
-        outside("--amplitude", c.amplitude, 0.0, largest),
-        outside("--sides", std::int64_t{c.sides}, 3, most_sides),
-        outside("--period", c.period, smallest, largest),
-        outside("--contact-duration", c.contact_duration, 0.0, c.period),
-        outside("--events", c.events, 1, most_events),
-        outside("--periods", c.periods.value_or(1), 1, most_periods),
-        outside("--warmup", c.warmup.value_or(0), 0, most_periods),
-    };
-    for (const auto& answer : answers)
-        if (answer) return answer;
-    if (!c.mixture) return {};
-    if (auto answer = outside("the count in --mixture", c.mixture->count, 1, c.discs))
-        return answer;
-    if (auto answer = outside("the radius in --mixture", c.mixture->radius, smallest, largest))
-        return answer;
-    return outside("the mass in --mixture", c.mixture->mass, smallest, largest);
+/// What would be right for discs that find no place. Equal discs stand on a lattice, where every
+/// smaller number finds a place too: so the largest can be named, if it is quickly found.
+std::string advice_on_room(const RunConfig& c) {
+    constexpr std::int64_t quickly_placed = 100'000;
+    const std::string advice = "fewer --discs or a larger --container-radius would be right.";
+    const double room =
+        densest_packing * c.container_radius * c.container_radius / (c.radius * c.radius);
+    if (c.mixture || !(room < double(quickly_placed))) return advice;
+    std::int64_t fits = 0, too_many = static_cast<std::int64_t>(room) + 1;
+    while (too_many - fits > 1) {
+        const std::int64_t n = (fits + too_many) / 2;
+        const std::vector<double> radii(static_cast<std::size_t>(n), c.radius);
+        (place_discs(radii, c.container_radius, c.seed) ? fits : too_many) = n;
+    }
+    return fmt::format("at most {} can be placed there, so {}", fits, advice);
 }
 
 std::optional<std::string> does_not_fit(const RunConfig& c) {
@@ -82,9 +70,8 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
     if (area <= limit * R * R) return {};
     return fmt::format(
         "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
-        "it, and more than {:.0f} % is impossible; fewer --discs or a larger --container-radius "
-        "would be right.",
-        c.discs, R, 100.0 * area / (R * R), 100.0 * limit);
+        "it, and more than {:.0f} % is impossible; {}",
+        c.discs, R, 100.0 * area / (R * R), 100.0 * limit, advice_on_room(c));
 }
 
 std::optional<std::string> warmup_too_long(const RunConfig& c) {
@@ -108,7 +95,8 @@ std::optional<std::string> warmup_too_long(const RunConfig& c) {
 }  // namespace
 
 std::optional<std::string> problem(const RunConfig& config) {
-    if (auto answer = number_out_of_range(config)) return answer;
+    if (auto answer = out_of_range(config)) return answer;
+    if (auto answer = out_of_proportion(config)) return answer;
     if (auto answer = does_not_fit(config)) return answer;
     return warmup_too_long(config);
 }
@@ -133,9 +121,9 @@ InitialState make_initial_state(const RunConfig& c) {
     if (!centres)
         throw WrongCall(fmt::format(
             "{} discs of radius {}{} could not be placed in a container of radius {} without "
-            "overlap; fewer --discs or a larger --container-radius would be right.",
+            "overlap; {}",
             c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
-            c.container_radius));
+            c.container_radius, advice_on_room(c)));
 
     InitialState scene{{},
                        make_path(c),
