@@ -12,9 +12,6 @@
 namespace swirl {
 namespace {
 
-/// No arrangement of equal discs covers more of the plane (Thue 1910): π/√12.
-constexpr double densest_packing = 0.9069;
-
 std::optional<std::string> outside(const char* name, double value, double from, double to) {
     if (value >= from && value <= to) return {};
     return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
@@ -35,21 +32,20 @@ std::optional<std::string> out_of_proportion(const RunConfig& c) {
     return outside("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
 }
 
-/// What would be right for discs that find no place. Equal discs stand on a lattice, where every
-/// smaller number finds a place too: so the largest can be named, if it is quickly found.
-std::string advice_on_room(const RunConfig& c) {
-    constexpr std::int64_t quickly_placed = 100'000;
-    const std::string advice = "fewer --discs or a larger --container-radius would be right.";
-    const double room =
-        densest_packing * c.container_radius * c.container_radius / (c.radius * c.radius);
-    if (c.mixture || !(room < double(quickly_placed))) return advice;
-    std::int64_t fits = 0, too_many = static_cast<std::int64_t>(room) + 1;
-    while (too_many - fits > 1) {
-        const std::int64_t n = (fits + too_many) / 2;
-        const std::vector<double> radii(static_cast<std::size_t>(n), c.radius);
-        (place_discs(radii, c.container_radius, c.seed) ? fits : too_many) = n;
-    }
-    return fmt::format("at most {} can be placed there, so {}", fits, advice);
+constexpr const char* advice_on_room =
+    "fewer --discs or a larger --container-radius would be right.";
+
+/// Of a mixture it is only known that it cannot cover more than all there is.
+std::optional<std::string> does_not_cover(const RunConfig& c) {
+    const double R = c.container_radius;
+    const auto count = static_cast<double>(c.mixture->count);
+    const double area = (static_cast<double>(c.discs) - count) * c.radius * c.radius +
+                        count * c.mixture->radius * c.mixture->radius;
+    if (area <= R * R) return {};
+    return fmt::format(
+        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
+        "it; {}",
+        c.discs, R, 100.0 * area / (R * R), advice_on_room);
 }
 
 std::optional<std::string> does_not_fit(const RunConfig& c) {
@@ -60,18 +56,13 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
             "A disc of radius {} does not fit into a container of radius {}: --container-radius "
             "must be larger than --radius.",
             big, R);
-    double area = static_cast<double>(c.discs) * c.radius * c.radius;
-    if (c.mixture) {
-        const auto count = static_cast<double>(c.mixture->count);
-        area += count * (c.mixture->radius * c.mixture->radius - c.radius * c.radius);
-    }
-    // Mixtures of two sizes can be a little denser than equal discs.
-    const double limit = c.mixture ? 1.0 : densest_packing;
-    if (area <= limit * R * R) return {};
+    if (c.mixture) return does_not_cover(c);
+    const double most = std::floor(most_discs_in_dish(c.radius, R));
+    if (static_cast<double>(c.discs) <= most) return {};
     return fmt::format(
-        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
-        "it, and more than {:.0f} % is impossible; {}",
-        c.discs, R, 100.0 * area / (R * R), 100.0 * limit, advice_on_room(c));
+        "{} discs do not fit into a container of radius {}, where no arrangement holds more than "
+        "{:.0f}; {}",
+        c.discs, R, most, advice_on_room);
 }
 
 std::optional<std::string> warmup_too_long(const RunConfig& c) {
@@ -121,9 +112,14 @@ InitialState make_initial_state(const RunConfig& c) {
     if (!centres)
         throw WrongCall(fmt::format(
             "{} discs of radius {}{} could not be placed in a container of radius {} without "
-            "overlap; {}",
+            "overlap: {}{}",
             c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
-            c.container_radius, advice_on_room(c)));
+            c.container_radius,
+            c.mixture ? ""
+                      : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
+                                    "may be found; ",
+                                    std::floor(most_discs_in_dish(c.radius, c.container_radius))),
+            advice_on_room));
 
     InitialState scene{{},
                        make_path(c),
