@@ -32,7 +32,7 @@ Size size_from(const std::string& text) {
 
 }  // namespace
 
-std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand) {
+std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
     auto texts = std::make_shared<AppearanceTexts>();
     texts->frame = "lab";
     const auto group = "Appearance";

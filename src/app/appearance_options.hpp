@@ -1,12 +1,11 @@
 // The options that say how a picture or a movie looks, the same for both.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "swirl/app/options.hpp"
 #include "swirl/film/movie.hpp"
 
 namespace swirl {
@@ -18,7 +17,7 @@ struct AppearanceTexts {
     bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
 };
 
-std::shared_ptr<AppearanceTexts> add_appearance_options(CLI::App& subcommand);
+std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand);
 
 /// Throws WrongCall. `otherwise` is the size if none was given.
 Appearance appearance(const AppearanceTexts& texts, Size otherwise);

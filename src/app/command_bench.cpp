@@ -70,7 +70,7 @@ void make_bench(const BenchCall& call) {
     if (call.json != "-" && call.csv != "-") print_all(bench_report(result));
 }
 
-void add_bench_command(CLI::App& subcommand) {
+void add_bench_command(Subcommand& subcommand) {
     const auto call = std::make_shared<BenchCall>();
     subcommand.add_flag("--full", call->full,
                         "a million discs, too, and a large dish through a whole swirl");
@@ -85,8 +85,8 @@ void add_bench_command(CLI::App& subcommand) {
     subcommand.add_option("--csv", call->csv, "write the result as a table (- prints it)")
         ->type_name("FILE");
     subcommand.add_flag("--quiet", call->quiet, "no progress");
-    set_examples(subcommand, {"swirl bench", "swirl bench --width all --json bench.json",
-                              "swirl bench --full --seconds 5"});
+    subcommand.set_examples({"swirl bench", "swirl bench --width all --json bench.json",
+                             "swirl bench --full --seconds 5"});
     subcommand.callback([call] { make_bench(*call); });
 }
 

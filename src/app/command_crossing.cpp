@@ -7,9 +7,7 @@
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
-#include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/run/version.hpp"
 #include "swirl/study/crossing.hpp"
 
 namespace swirl {
@@ -21,44 +19,6 @@ struct CrossingCall {
     std::string json;
     bool quiet = false;
 };
-
-const char* word(Crossing::Verdict verdict) {
-    switch (verdict) {
-        case Crossing::Verdict::crosses:
-            return "crosses";
-        case Crossing::Verdict::always_rotates:
-            return "always rotates";
-        case Crossing::Verdict::always_counterrotates:
-            return "always counterrotates";
-        case Crossing::Verdict::undecided:
-            break;
-    }
-    return "undecided";
-}
-
-nlohmann::ordered_json search_json(const CrossingSettings& settings, const CrossingSearch& s) {
-    nlohmann::ordered_json points = nlohmann::ordered_json::array();
-    for (std::size_t k = 0; k < s.points.size(); ++k)
-        points.push_back({{"discs", s.points[k].discs},
-                          {"mean", s.points[k].mean},
-                          {"error", s.points[k].error},
-                          {"runs", s.runs_made[k]}});
-    return {{"verdict", word(s.crossing.verdict)},
-            {"discs", s.crossing.discs},
-            {"error", s.crossing.error},
-            {"lower", s.crossing.lower},
-            {"upper", s.crossing.upper},
-            {"within_tolerance", s.within_tolerance},
-            {"tolerance", settings.tolerance},
-            {"points", points},
-            {"runs", s.runs},
-            {"runs_that_drift", s.drifting},
-            {"events", s.events},
-            {"seconds", s.seconds},
-            {"config", config_json(settings.config)},
-            {"command", command_line()},
-            {"version", version()}};
-}
 
 std::string table_text(const CrossingSearch& search) {
     std::string text;
@@ -72,7 +32,6 @@ std::string table_text(const CrossingSearch& search) {
 void find(CrossingCall& call) {
     const bool json_to_stdout = call.json == "-";
     call.settings.config = resolve(*call.parameters);
-    if (!call.parameters->contains("events")) call.settings.config.events = 200'000;
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
 
     CrossingSearch search;
@@ -96,10 +55,9 @@ void find(CrossingCall& call) {
     if (search.drifting > 0)
         text += fmt::format(
             "{} of the runs that this rests on had not reached a steady state after the warm-up; a "
-            "longer --warmup, "
-            "or --warmup auto, would be right.\n",
+            "longer --warmup, or --warmup auto, would be right.\n",
             search.drifting);
-    const std::string json = search_json(call.settings, search).dump(2) + "\n";
+    const std::string json = crossing_json(call.settings, search, command_line());
     if (json_to_stdout) {
         print_all(json);
         if (!call.quiet) fmt::print(stderr, "{}", text);
@@ -109,9 +67,9 @@ void find(CrossingCall& call) {
     print_all(text);
 }
 
-void add_crossing_command(CLI::App& subcommand) {
+void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
-    call->parameters = add_run_options(subcommand, {"discs", "periods"});
+    call->parameters = add_run_options(subcommand, {"discs", "periods"}, {{"events", "2e5"}});
     subcommand
         .add_option("--tolerance", call->settings.tolerance, "wanted standard error of N_c [0.3]")
         ->type_name("NUMBER");
@@ -121,8 +79,8 @@ void add_crossing_command(CLI::App& subcommand) {
         ->type_name("FILE|-")
         ->group("Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
-    set_examples(subcommand, {"swirl crossing --mu 1", "swirl crossing --mu 0.5 --tolerance 0.1",
-                              "swirl crossing --mu-wall 0 --from 20 --json -"});
+    subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.5 --tolerance 0.1",
+                             "swirl crossing --mu-wall 0 --from 20 --json -"});
     subcommand.callback([call] { find(*call); });
 }
 

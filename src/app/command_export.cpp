@@ -73,7 +73,7 @@ void export_file(const ExportCall& call) {
     print_all(text + "\n");
 }
 
-void add_export_command(CLI::App& subcommand) {
+void add_export_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExportCall>();
     subcommand.add_option("file", call->file, "a trajectory")->type_name("FILE.h5")->required();
     subcommand
@@ -87,8 +87,8 @@ void add_export_command(CLI::App& subcommand) {
     subcommand.add_option("--scale", call->scale, "csv: pixels per unit of length [20]")
         ->type_name("NUMBER");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
-    set_examples(subcommand, {"swirl export frames.h5 --to vtp",
-                              "swirl export frames.h5 --to csv --scale 25 --out tracks.csv"});
+    subcommand.set_examples({"swirl export frames.h5 --to vtp",
+                             "swirl export frames.h5 --to csv --scale 25 --out tracks.csv"});
     subcommand.callback([call] { export_file(*call); });
 }
 

@@ -31,7 +31,7 @@ struct MeasureCall {
 
 SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
     if (is_trajectory(call.file)) return series_of(std::make_shared<TrajectoryReader>(call.file));
-    const TrackScale scale = track_scale(call.camera, "fps", call.file);
+    const TrackScale scale = track_scale(call.camera, call.file);
     Tracks tracks = read_tracks(call.file);
     if (tracks.filled > 0)
         remark =
@@ -138,7 +138,7 @@ void measure_file(const MeasureCall& call) {
     if (!call.quiet) print_all(text);
 }
 
-void add_measure_command(CLI::App& subcommand) {
+void add_measure_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MeasureCall>();
     const auto text = [&](const char* name, std::string& into, const char* type,
                           const char* description, const char* group) {
@@ -157,14 +157,14 @@ void add_measure_command(CLI::App& subcommand) {
     text("--skip", call->skip, "PERIODS", "swirls at the start that do not count [0]", "Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group("Output");
     const char* const camera = "Of tracks that are not ours";
-    add_track_options(subcommand, call->camera, "fps", camera);
+    add_track_options(subcommand, call->camera, camera);
     text("--amplitude", call->camera.amplitude, "NUMBER", "of the swirl, in disc radii [0]",
          camera);
     text("--container-radius", call->camera.container_radius, "NUMBER", "in disc radii", camera);
-    set_examples(subcommand,
-                 {"swirl measure frames.h5 --measure density,flow --tables maps",
-                  "swirl measure tracks.csv --fps 960 --scale 24 --omega 11.81 --centre 512,384 "
-                  "--container-radius 8.5"});
+    subcommand.set_examples(
+        {"swirl measure frames.h5 --measure density,flow --tables maps",
+         "swirl measure tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre 512,384 "
+         "--container-radius 8.5"});
     subcommand.callback([call] { measure_file(*call); });
 }
 

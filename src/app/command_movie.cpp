@@ -92,7 +92,7 @@ void make_and_report(const MovieCall& call) {
                                       result.frames, config.frames, where));
 }
 
-void add_movie_command(CLI::App& subcommand) {
+void add_movie_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MovieCall>();
     const auto group = "Movie";
     subcommand.add_option("--out", call->out, "the movie; its ending decides: .mp4, .webm or .gif")
@@ -125,14 +125,14 @@ void add_movie_command(CLI::App& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
     call->footage = add_footage_options(subcommand);
-    set_examples(subcommand,
-                 {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
-                  "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
-                  "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif",
-                  "swirl movie run.h5 --color id --out run.mp4",
-                  "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
-                  "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
-                  "dish.mp4"});
+    subcommand.set_examples(
+        {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
+         "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
+         "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif",
+         "swirl movie run.h5 --color id --out run.mp4",
+         "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
+         "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
+         "dish.mp4"});
     subcommand.callback([call] { make_and_report(*call); });
 }
 

@@ -110,16 +110,15 @@ void make_paper(PaperCall& call) {
 std::string figure_list() {
     std::string text = "Figures:";
     for (const PaperFigure& figure : paper_figures())
-        text += fmt::format("\n  {:<6}{}", figure.name, figure.description);
+        text += fmt::format("\n  {:<11}{}", figure.name, figure.description);
     return text;
 }
 
-void add_paper_command(CLI::App& subcommand) {
+void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();
     subcommand
         .add_option("--figure", call->figures, "which ones [all]; may be given several times")
-        ->type_name("NAME")
-        ->expected(1, 100);
+        ->type_name("NAME");
     subcommand.add_flag("--quick", call->settings.quick,
                         "fewer points and shorter runs: the shape in a minute");
     subcommand.add_flag("--movies", call->movies,
@@ -132,9 +131,9 @@ void add_paper_command(CLI::App& subcommand) {
     subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");
     subcommand.add_flag("--quiet", call->quiet, "no progress");
-    set_examples(subcommand, {"swirl paper --figure 5b --quick",
-                              "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
-    subcommand.footer(figure_list() + "\n\n" + subcommand.get_footer());
+    subcommand.set_examples({"swirl paper --figure 5b --quick",
+                             "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
+    subcommand.explain(figure_list() + "\n");
     subcommand.callback([call] { make_paper(*call); });
 }
 

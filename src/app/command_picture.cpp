@@ -40,7 +40,7 @@ void draw_and_report(const PictureCall& call) {
                   remark_on(config.footage, config.appearance));
 }
 
-void add_picture_command(CLI::App& subcommand) {
+void add_picture_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PictureCall>();
     const auto group = "Picture";
     subcommand
@@ -63,10 +63,10 @@ void add_picture_command(CLI::App& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
     call->footage = add_footage_options(subcommand);
-    set_examples(subcommand,
-                 {"swirl picture --discs 48 --frame m --color pinned --theme light --out 48.pdf",
-                  "swirl picture --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
-                  "swirl picture run.h5 --at 12.5 --trails --out instant.svg"});
+    subcommand.set_examples(
+        {"swirl picture --discs 48 --frame m --color pinned --theme light --out 48.pdf",
+         "swirl picture --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
+         "swirl picture run.h5 --at 12.5 --trails --out instant.svg"});
     subcommand.callback([call] { draw_and_report(*call); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "swirl/app/command_line.hpp"
 #include "swirl/app/commands.hpp"
+#include "swirl/app/config_file.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/recording_options.hpp"
@@ -48,6 +49,22 @@ std::vector<std::string> measurements_of(const RunCall& call) {
     return read_measurement_list(call.measure);
 }
 
+/// Returns the text of the file.
+std::string take_config_file(const RunCall& call,
+                             const std::map<std::string, std::string*>& others) {
+    const std::string& file = call.recording->config_file;
+    if (file.empty()) return "";
+    std::vector<std::string> names = recording_option_names();
+    for (const auto& [name, text] : others) names.push_back(name);
+    const ConfigFile from_file = read_config_file(file, names, Lists::refused, "run");
+    *call.parameters = overridden(from_file.parameters, *call.parameters);
+    take_others(from_file.others, others);
+    ParameterTexts recording = from_file.others;
+    for (const auto& [name, text] : others) recording.erase(name);
+    take_recording_options(*call.recording, std::move(recording));
+    return from_file.text;
+}
+
 /// With nothing but a checkpoint to go on, it says what run it is, and what its call asked for.
 void take_call_from_checkpoint(const RunCall& call,
                                const std::map<std::string, std::string*>& others) {
@@ -56,11 +73,11 @@ void take_call_from_checkpoint(const RunCall& call,
         !call.parameters->empty())
         return;
     const KeptCall kept = call_in_checkpoint(checkpoint->second);
-    *call.parameters = parameters_in(nlohmann::ordered_json::parse(kept.configuration));
+    *call.parameters = parameters_in(kept.configuration);
     for (const auto& [name, text] : kept.options) {
         const auto other = others.find(name);
         if (other == others.end())
-            call.recording->texts.try_emplace(name, text);
+            call.recording->texts.try_emplace(plain_name(name), text);
         else if (other->second->empty())
             *other->second = text;
     }
@@ -71,7 +88,7 @@ void run_and_report(RunCall& call) {
     if (call.measure == "markdown") return print_all(measurement_markdown());
     const std::map<std::string, std::string*> others{
         {"json", &call.json}, {"measure", &call.measure}, {"tables", &call.tables}};
-    const std::string config_text = take_config_file(*call.recording, *call.parameters, others);
+    const std::string config_text = take_config_file(call, others);
     take_call_from_checkpoint(call, others);
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
@@ -116,7 +133,7 @@ void run_and_report(RunCall& call) {
         files.checkpoint.string()));
 }
 
-void add_run_command(CLI::App& subcommand) {
+void add_run_command(Subcommand& subcommand) {
     const auto call = std::make_shared<RunCall>();
     call->parameters = add_run_options(subcommand);
     call->recording = add_recording_options(subcommand);
@@ -139,12 +156,12 @@ void add_run_command(CLI::App& subcommand) {
         .add_flag("--dry-run", call->dry_run,
                   "only print what would be run, as a configuration file")
         ->group("Output");
-    set_examples(subcommand, {"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
-                              "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
-                              "swirl run --discs 48 --measure density,flow --tables maps",
-                              "swirl run study.toml --discs 40 --trajectory frames.h5",
-                              "swirl run --discs 48 --events 1e9 --json out.json --resume"});
-    subcommand.footer("To measure:\n" + measurement_list_text() + "\n" + subcommand.get_footer());
+    subcommand.set_examples({"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
+                             "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
+                             "swirl run --discs 48 --measure density,flow --tables maps",
+                             "swirl run study.toml --discs 40 --trajectory frames.h5",
+                             "swirl run --discs 48 --events 1e9 --json out.json --resume"});
+    subcommand.explain("To measure:\n" + measurement_list_text());
     subcommand.callback([call] { run_and_report(*call); });
 }
 

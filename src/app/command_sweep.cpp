@@ -6,13 +6,11 @@
 #include <map>
 
 #include "swirl/app/commands.hpp"
+#include "swirl/app/config_file.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
-#include "swirl/files/config.hpp"
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/study/slurm.hpp"
@@ -41,44 +39,13 @@ std::int64_t whole(const char* name, const std::string& text, std::int64_t other
 }
 
 void take_config_file(SweepCall& call) {
-    std::error_code ignored;
-    if (!fs::exists(call.config_file, ignored))
-        throw WrongCall(fmt::format(
-            "There is no plan '{}'; lists can be given as options too, as in --discs 5:48.",
-            call.config_file));
     const std::map<std::string, std::string*> others{
         {"seeds", &call.seeds}, {"measure", &call.measure}, {"frames", &call.frames}};
     std::vector<std::string> names;
     for (const auto& [name, target] : others) names.push_back(name);
-    for (const RunParameter& p : run_parameters()) names.push_back(p.name);
-    Config config;
-    try {
-        config = parse_config(read_whole_file(call.config_file), call.config_file);
-    } catch (const FileError& wrong) {
-        throw WrongCall(wrong.what());
-    }
-    for (const auto& [name, entry] : config.entries) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            const auto meant = nearest_name(name, names);
-            throw WrongCall(fmt::format("'{}', line {}: there is no parameter '{}'{}",
-                                        call.config_file, entry.line, name,
-                                        meant ? fmt::format("; did you mean '{}'?", *meant)
-                                              : "; `swirl sweep --help` lists them."));
-        }
-        if (entry.values.empty())
-            throw WrongCall(fmt::format("'{}', line {}: the list of {} is empty.", call.config_file,
-                                        entry.line, name));
-        std::string text;
-        for (const std::string& value : entry.values) {
-            if (!text.empty()) text += ',';
-            text += value;
-        }
-        const auto other = others.find(name);
-        if (other == others.end())
-            call.parameters->try_emplace(name, text);
-        else if (other->second->empty())
-            *other->second = text;
-    }
+    const ConfigFile plan = read_config_file(call.config_file, names, Lists::taken, "sweep");
+    *call.parameters = overridden(plan.parameters, *call.parameters);
+    take_others(plan.others, others);
 }
 
 SweepPlan plan_of(SweepCall& call) {
@@ -186,7 +153,7 @@ void sweep(SweepCall& call) {
     print_outcome(call, plan, outcome);
 }
 
-void add_sweep_command(CLI::App& subcommand) {
+void add_sweep_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SweepCall>();
     subcommand
         .add_option("plan", call->config_file, "a TOML file with parameters and lists of them")
@@ -223,13 +190,13 @@ void add_sweep_command(CLI::App& subcommand) {
     text("--cpus", call->cpus, "N", "processors of each task [the whole node]", cluster);
     text("--time", call->job.time, "TIME", "limit for each task, as sbatch takes it", cluster);
     text("--partition", call->job.partition, "NAME", "of the cluster", cluster);
-    set_examples(subcommand, {"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
-                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
-                              "swirl sweep --out study --status"});
+    subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
+                             "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
+                             "swirl sweep --out study --status"});
     subcommand.callback([call] { sweep(*call); });
 }
 
-void add_collect_command(CLI::App& subcommand) {
+void add_collect_command(Subcommand& subcommand) {
     struct Collect {
         std::string folder, table;
     };
@@ -242,7 +209,7 @@ void add_collect_command(CLI::App& subcommand) {
                     "where to write the table, or - for stdout "
                     "[DIR/table.csv]")
         ->type_name("FILE|-");
-    set_examples(subcommand, {"swirl collect study", "swirl collect study --csv -"});
+    subcommand.set_examples({"swirl collect study", "swirl collect study --csv -"});
     subcommand.callback([call] {
         const SweepPlan plan = read_plan(call->folder);
         const Table table = collect_sweep(call->folder, plan);

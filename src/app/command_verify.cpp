@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "swirl/app/commands.hpp"
 #include "swirl/app/output.hpp"
@@ -22,30 +23,30 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 RunConfig config_in(const std::string& file, const std::string& text) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object())
-        throw Failure(fmt::format("'{}' does not say which run it is of.", file));
     try {
-        return resolve(parameters_in(json));
+        return resolve(parameters_in(text));
     } catch (const WrongCall& wrong) {
         throw Failure(
             fmt::format("'{}' cannot be run again with this version: {}", file, wrong.what()));
-    } catch (const nlohmann::json::exception&) {
-        throw Failure(fmt::format("'{}' does not say which run it is of.", file));
     }
 }
 
-std::string of_version(const std::string& made_by) {
-    return made_by == version()
+std::string of_version(const std::string& other) {
+    return other == version()
                ? std::string()
-               : fmt::format(" It was made by swirl {}, this is {}.", made_by, version());
+               : fmt::format(" It was made by swirl {}, this is {}.", other, version());
+}
+
+std::string made_by(const Json& result) {
+    const Json by = result.value("version", Json());
+    return by.is_string() ? by.get<std::string>() : "?";
 }
 
 void verify_result(const std::string& file, bool quiet) {
     const Json json = Json::parse(read_whole_file(file), nullptr, false);
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
-    if (!json.value("complete", false))
+    if (json.value("complete", Json()) != Json(true))
         throw Failure(fmt::format(
             "'{}' is of a run that was stopped before its end, and cannot be compared.", file));
     const RunConfig config = config_in(file, json["config"].dump());
@@ -63,10 +64,10 @@ void verify_result(const std::string& file, bool quiet) {
         if (json.value(part, Json()) != result.at(part))
             throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,
                                       json.value(part, Json()).dump(), result.at(part).dump(),
-                                      of_version(json.value("version", std::string("?")))));
+                                      of_version(made_by(json))));
     if (!quiet)
         print_all(fmt::format("The same, bit for bit: {} events, state {}.\n", again.events.total(),
-                              json["state_hash"].get<std::string>()));
+                              result["state_hash"].get<std::string>()));
 }
 
 /// Every frame against the engine's state at that moment.
@@ -136,7 +137,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     if (!quiet) print_all(fmt::format("The same, bit for bit: {} events.\n", log.events()));
 }
 
-void add_verify_command(CLI::App& subcommand) {
+void add_verify_command(Subcommand& subcommand) {
     struct Verify {
         std::string file;
         bool quiet = false;
@@ -147,7 +148,7 @@ void add_verify_command(CLI::App& subcommand) {
         ->type_name("FILE")
         ->required();
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
-    set_examples(subcommand, {"swirl verify result.json", "swirl verify frames.h5"});
+    subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
         std::ifstream stream(call->file, std::ios::binary);
         if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", call->file));

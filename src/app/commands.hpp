@@ -5,24 +5,25 @@
 // so that a new one is a new file and nothing else.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include <functional>
-#include <string>
+#include <memory>
 #include <vector>
+
+#include "swirl/app/options.hpp"
 
 namespace swirl {
 
 class Command {
   public:
-    using Add = void (*)(CLI::App& subcommand);
+    using Add = void (*)(Subcommand& subcommand);
 
     /// `place` decides about the order in `swirl --help`. `add` gives the subcommand its options
-    /// and its callback; what goes wrong in there is thrown (run/failure.hpp).
+    /// and its callback.
     Command(int place, const char* name, const char* description, Add add);
 
     int place() const { return place_; }
-    void add_to(CLI::App& app) const;
+    const char* name() const { return name_; }
+    const char* description() const { return description_; }
+    void add_options(Subcommand& subcommand) const { add_(subcommand); }
 
     /// All there are, in order.
     static std::vector<const Command*> all();
@@ -33,8 +34,5 @@ class Command {
     const char* description_;
     Add add_;
 };
-
-/// Lines at the end of a subcommand's help, each one a call that works.
-void set_examples(CLI::App& subcommand, const std::vector<std::string>& examples);
 
 }  // namespace swirl

@@ -29,13 +29,11 @@ RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
     return ball;
 }
 
-constexpr const char* camera_fps = "camera-fps";
-
 /// A run, or a recording of ours, is in no need of translation.
 void refuse_camera(const FootageTexts& texts) {
     const TrackTexts& camera = texts.camera;
     for (const auto& [name, given] :
-         {std::pair(camera_fps, !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
+         {std::pair("camera-fps", !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
           std::pair("omega", !camera.omega.empty()), std::pair("centre", !camera.centre.empty()),
           std::pair("phase", !camera.phase.empty()), std::pair("clockwise", camera.clockwise),
           std::pair("over", !texts.pictures.empty()),
@@ -58,15 +56,15 @@ Footage tracked_in(const FootageTexts& texts) {
         return text;
     };
     camera.amplitude = take("amplitude");
-    camera.container_radius = take("container-radius");
+    camera.container_radius = take("container_radius");
     if (!given.empty())
-        throw WrongCall(fmt::format(
-            "{} holds recorded tracks: --{} cannot change them, and only --amplitude and "
-            "--container-radius say something of their container.",
-            texts.file, given.begin()->first));
+        throw WrongCall(
+            fmt::format("{} holds recorded tracks: {} cannot change them, and only --amplitude and "
+                        "--container-radius say something of their container.",
+                        texts.file, option_name(given.begin()->first)));
     if (const auto wrong = film_problem(texts.pictures)) throw WrongCall(*wrong);
     Tracks tracks = read_tracks(texts.file);
-    const TrackScale scale = track_scale(camera, camera_fps, texts.file);
+    const TrackScale scale = track_scale(camera, texts.file);
     return tracked(std::move(tracks), scale,
                    escaped(std::filesystem::path(texts.file).filename().string()), texts.pictures,
                    texts.first_picture);
@@ -74,7 +72,7 @@ Footage tracked_in(const FootageTexts& texts) {
 
 }  // namespace
 
-std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
+std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand) {
     auto texts = std::make_shared<FootageTexts>();
     const auto group = "What is shown";
     subcommand
@@ -98,7 +96,7 @@ std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand) {
         ->type_name("NUMBER")
         ->group(group);
     const auto camera = "Of tracks that are not ours (and --amplitude, --container-radius)";
-    add_track_options(subcommand, texts->camera, camera_fps, camera);
+    add_track_options(subcommand, texts->camera, camera);
     subcommand
         .add_option(
             "--over", texts->pictures,
@@ -124,9 +122,8 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     if (!texts.file.empty()) {
         if (!texts.parameters->empty())
             throw WrongCall(
-                fmt::format("{} was recorded with parameters of its own: --{} cannot "
-                            "change them.",
-                            texts.file, texts.parameters->begin()->first));
+                fmt::format("{} was recorded with parameters of its own: {} cannot change them.",
+                            texts.file, option_name(texts.parameters->begin()->first)));
         if (texts.beside || texts.slip)
             throw WrongCall("A recording stands alone: --beside and --rolling-ball need a run.");
         return {recorded(texts.file)};

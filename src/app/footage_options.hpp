@@ -2,13 +2,12 @@
 // minimal model, or a camera's tracks.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "swirl/app/options.hpp"
 #include "swirl/app/track_options.hpp"
 #include "swirl/film/frame_source.hpp"
 #include "swirl/film/movie.hpp"
@@ -27,7 +26,7 @@ struct FootageTexts {
     double ball_radius = 0.5 * paper_container_radius;
 };
 
-std::shared_ptr<FootageTexts> add_footage_options(CLI::App& subcommand);
+std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand);
 
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<Footage> footage(const FootageTexts& texts);

@@ -1,11 +1,11 @@
-// The options of the files that a run leaves behind, and the configuration file it may come from.
+// The options of the files that a run leaves behind, and the run as a configuration file.
 #pragma once
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "swirl/app/options.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/recorded_run.hpp"
 
@@ -18,13 +18,12 @@ struct RecordingCall {
     bool resume = false;
 };
 
-std::shared_ptr<RecordingCall> add_recording_options(CLI::App& subcommand);
+std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand);
 
-/// Reads the configuration file, if one was given, and adds what it says to what the command line
-/// did not say: to `parameters`, to the recording, and to `others` (further options, whose names
-/// must be in there). Returns the text of the file. Throws WrongCall for names that do not exist.
-std::string take_config_file(RecordingCall& recording, ParameterTexts& parameters,
-                             std::map<std::string, std::string*> others);
+/// The names of the options above, as they stand in a configuration file.
+std::vector<std::string> recording_option_names();
+/// Adds what a file says to what the command line did not say.
+void take_recording_options(RecordingCall& recording, ParameterTexts from_file);
 
 /// `json` is where the result goes: the checkpoint is named after it, or after another file of the
 /// run, or after its parameters.

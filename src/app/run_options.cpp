@@ -1,20 +1,28 @@
 #include "swirl/app/run_options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace swirl {
 
-std::shared_ptr<ParameterTexts> add_run_options(CLI::App& subcommand,
-                                                const std::vector<std::string>& without) {
-    auto texts = std::make_shared<ParameterTexts>();
-    for (const RunParameter& p : run_parameters()) {
+std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
+                                                const std::vector<std::string>& without,
+                                                const ParameterTexts& defaults) {
+    auto texts = std::make_shared<ParameterTexts>(defaults);
+    for (const Parameter& p : run_parameters) {
+        if (!p.can_be_given()) continue;
         if (std::find(without.begin(), without.end(), p.name) != without.end()) continue;
         const std::string name = p.name;
+        const auto other = defaults.find(name);
+        const std::string by_default = other == defaults.end() ? default_of(p) : other->second;
         subcommand
-            .add_option_function<std::string>(
-                "--" + name, [texts, name](const std::string& text) { (*texts)[name] = text; },
-                p.description)
-            ->type_name(p.value)
+            .add_option_function(
+                option_name(name),
+                [texts, name](const std::string& text) { (*texts)[name] = text; },
+                by_default.empty() ? p.description
+                                   : fmt::format("{} [{}]", p.description, by_default))
+            ->type_name(p.form)
             ->group(p.group);
     }
     return texts;

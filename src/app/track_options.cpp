@@ -36,13 +36,12 @@ double number_option(const std::string& name, const std::string& text, double ot
     return *value;
 }
 
-void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::string& fps,
-                       const std::string& group) {
+void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group) {
     const auto text = [&](const std::string& name, std::string& into, const char* type,
                           const char* description) {
         subcommand.add_option(name, into, description)->type_name(type)->group(group);
     };
-    text("--" + fps, texts.fps, "NUMBER", "frames per unit of time (LAMMPS: steps) [1]");
+    text("--camera-fps", texts.fps, "NUMBER", "frames per unit of time (LAMMPS: steps) [1]");
     text("--scale", texts.scale, "NUMBER", "pixels per disc radius [1]");
     text("--omega", texts.omega, "NUMBER",
          "angular velocity of the swirl, in radians per unit of time");
@@ -68,17 +67,17 @@ Tracks read_tracks(const std::string& file) {
     return read_trackpy_csv(file);
 }
 
-TrackScale track_scale(const TrackTexts& texts, const std::string& fps, const std::string& file) {
+TrackScale track_scale(const TrackTexts& texts, const std::string& file) {
     constexpr double any = -std::numeric_limits<double>::infinity();
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty())
             throw WrongCall(fmt::format(
-                "'{}' does not say how the container moved; --{} is needed (and --{}, --scale, "
-                "--centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
-                file, name, fps));
+                "'{}' does not say how the container moved; --{} is needed (and --camera-fps, "
+                "--scale, --centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
+                file, name));
     TrackScale scale;
-    scale.frames_per_time = number_option(fps, texts.fps, 1.0, 1e-12);
+    scale.frames_per_time = number_option("camera-fps", texts.fps, 1.0, 1e-12);
     scale.pixels_per_radius = number_option("scale", texts.scale, 1.0, 1e-12);
     scale.period = 2.0 * pi / number_option("omega", texts.omega, 1.0, 1e-12);
     scale.amplitude = number_option("amplitude", texts.amplitude, 0.0, 0.0);

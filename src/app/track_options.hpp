@@ -1,10 +1,9 @@
 // The options that say how the tracks of a camera, or of another program, translate.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 
+#include "swirl/app/options.hpp"
 #include "swirl/files/tracks.hpp"
 
 namespace swirl {
@@ -20,16 +19,14 @@ struct TrackTexts {
 double number_option(const std::string& name, const std::string& text, double otherwise,
                      double from);
 
-/// `fps` is what the option for the camera's frames is called. --amplitude and --container-radius
-/// are left to the caller, who may have them already.
-void add_track_options(CLI::App& subcommand, TrackTexts& texts, const std::string& fps,
-                       const std::string& group);
+/// --amplitude and --container-radius are left to the caller, who may have them already.
+void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group);
 
 /// Whether the file is one of ours (HDF5) and no tracks. Throws Failure if it cannot be read.
 bool is_trajectory(const std::string& file);
 /// A table of trackpy or a LAMMPS dump, by what it begins with. Throws FileError.
 Tracks read_tracks(const std::string& file);
-/// Throws WrongCall for what is missing or wrong. `fps` as above.
-TrackScale track_scale(const TrackTexts& texts, const std::string& fps, const std::string& file);
+/// Throws WrongCall for what is missing or wrong.
+TrackScale track_scale(const TrackTexts& texts, const std::string& file);
 
 }  // namespace swirl

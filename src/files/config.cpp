@@ -97,7 +97,7 @@ Config parse_config(std::string text, std::string_view name) {
         const toml::table table = toml::parse(text, name);
         for (const auto& [key, node] : table) {
             std::string option(key.str());
-            std::replace(option.begin(), option.end(), '_', '-');
+            std::replace(option.begin(), option.end(), '-', '_');
             if (!config.entries.emplace(option, reader.entry(node, key.str())).second)
                 reader.wrong(int(node.source().begin.line),
                              fmt::format("{} is given twice", option));

@@ -2,7 +2,7 @@
 // them.
 //
 //     discs = 40               # --discs 40
-//     mu-wall = 0.5            # --mu-wall 0.5; mu_wall means the same
+//     mu_wall = 0.5            # --mu-wall 0.5; mu-wall means the same
 //     inertia = "ring"
 //     trajectory = "run.h5"
 //
@@ -26,8 +26,8 @@ struct ConfigEntry {
 };
 
 struct Config {
-    std::string text;  // as it was, for the output
-    std::map<std::string, ConfigEntry, std::less<>> entries;
+    std::string text;                                         // as it was, for the output
+    std::map<std::string, ConfigEntry, std::less<>> entries;  // names with underscores
 };
 
 /// `name` is for messages. Throws FileError with the line of what is wrong: not TOML, tables,

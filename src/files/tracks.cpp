@@ -23,7 +23,11 @@ constexpr std::int64_t longest_gap = 5;  // frames
 /// The lines of a text, with their numbers.
 class Lines {
   public:
-    Lines(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {}
+    Lines(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {
+        // Some editors and spreadsheets begin a text with a byte order mark.
+        constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+        if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+    }
 
     bool next(std::string_view& line) {
         if (rest_.empty()) return false;
@@ -72,6 +76,22 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
         const std::size_t end = line.find(separator);
         const std::string_view part = line.substr(0, end);
         if (separator != ' ' || !part.empty()) parts.push_back(part);
+        if (end == line.npos) return parts;
+        line.remove_prefix(end + 1);
+    }
+}
+
+/// The values of a line of a table, without the spaces and quotes around them.
+std::vector<std::string_view> cells(std::string_view line) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        while (line.starts_with(' ')) line.remove_prefix(1);
+        const std::size_t close = line.starts_with('"') ? line.find('"', 1) : line.npos;
+        const std::size_t end = line.find(',', close == line.npos ? 0 : close);
+        std::string_view part =
+            close == line.npos ? line.substr(0, end) : line.substr(1, close - 1);
+        while (close == line.npos && part.ends_with(' ')) part.remove_suffix(1);
+        parts.push_back(part);
         if (end == line.npos) return parts;
         line.remove_prefix(end + 1);
     }
@@ -177,7 +197,7 @@ class TrackSeries {
 Tracks read_trackpy_csv(const std::filesystem::path& path) {
     const std::string text = read_whole_file(path);
     Lines lines(path, text);
-    const auto names = split(lines.expect("a header line with frame, particle, x, y"), ',');
+    const auto names = cells(lines.expect("a header line with frame, particle, x, y"));
     const auto frame = index_of(names, "frame"), particle = index_of(names, "particle");
     const auto x = index_of(names, "x"), y = index_of(names, "y");
     if (!frame || !particle || !x || !y)
@@ -188,7 +208,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     std::string_view line;
     while (lines.next(line)) {
         if (line.empty()) continue;
-        const auto parts = split(line, ',');
+        const auto parts = cells(line);
         if (parts.size() != names.size())
             lines.wrong(fmt::format("{} values, but the header names {} columns", parts.size(),
                                     names.size()));

@@ -43,20 +43,31 @@ std::vector<Vec2> outline(const ContainerPath& path) {
     return points;
 }
 
+/// "$μ_{d}$": a parameter's symbol, as labels are written (draw/label.hpp).
+std::string symbol_of(const char* name) {
+    const std::string symbol = find_parameter(name)->symbol;
+    const std::size_t subscript = symbol.find('_');
+    if (subscript == symbol.npos) return "$" + symbol + "$";
+    return fmt::format("${}_{{{}}}$", symbol.substr(0, subscript), symbol.substr(subscript + 1));
+}
+
 }  // namespace
 
 std::vector<std::string> parameter_labels(const RunConfig& config) {
-    std::vector<std::string> labels{fmt::format("$N$ = {}", config.discs)};
-    labels.push_back("$μ_{d}$ = " + plain(config.mu_disc));
-    labels.push_back("$μ_{w}$ = " + plain(config.mu_wall));
-    if (config.restitution != 1.0) labels.push_back("$e$ = " + plain(config.restitution));
+    std::vector<std::string> labels;
+    const auto label = [&](const char* name, const std::string& value) {
+        labels.push_back(symbol_of(name) + " = " + value);
+    };
+    label("discs", fmt::format("{}", config.discs));
+    label("mu_disc", plain(config.mu_disc));
+    label("mu_wall", plain(config.mu_wall));
+    if (config.restitution != 1.0) label("restitution", plain(config.restitution));
     if (config.tangential_restitution != 0.0)
-        labels.push_back("$β$ = " + plain(config.tangential_restitution));
-    labels.push_back(
-        "$I$ = " + plain(config.inertia / (config.mass * config.radius * config.radius)) +
-        " $m$$r^{2}$");
-    labels.push_back("$R$ = " + plain(config.container_radius / config.radius) + " $r$");
-    labels.push_back("$A$ = " + plain(config.amplitude / config.radius) + " $r$");
+        label("tangential_restitution", plain(config.tangential_restitution));
+    label("inertia",
+          plain(config.inertia / (config.mass * config.radius * config.radius)) + " $m$$r^{2}$");
+    label("container_radius", plain(config.container_radius / config.radius) + " $r$");
+    label("amplitude", plain(config.amplitude / config.radius) + " $r$");
     if (config.mixture)
         labels.push_back(fmt::format("{} discs of {} $r$", config.mixture->count,
                                      plain(config.mixture->radius / config.radius)));

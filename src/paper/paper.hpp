@@ -2,7 +2,7 @@
 // of their results, and a script in figures/ that draws the table.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <atomic>
 #include <filesystem>

@@ -12,56 +12,40 @@
 namespace swirl {
 namespace {
 
-// Beyond these the arithmetic is still right but a result means nothing any more; most often a
-// number outside is a slip of the keyboard.
-constexpr double smallest = 1e-6, largest = 1e6;
-constexpr std::int64_t most_discs = 10'000'000;
-constexpr std::int64_t most_events = 1'000'000'000'000'000;
-constexpr std::int64_t most_periods = 1'000'000'000'000;
-constexpr std::int64_t most_sides = 1'000'000;
-
-/// No arrangement of equal discs covers more of the plane (Thue 1910): π/√12.
-constexpr double densest_packing = 0.9069;
-
 std::optional<std::string> outside(const char* name, double value, double from, double to) {
     if (value >= from && value <= to) return {};
     return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
 }
 
-std::optional<std::string> outside(const char* name, std::int64_t value, std::int64_t from,
-                                   std::int64_t to) {
-    if (value >= from && value <= to) return {};
-    return fmt::format("{} is {}, but it must be a whole number from {} to {}.", name, value, from,
-                       to);
+/// Ranges that depend on other parameters.
+std::optional<std::string> out_of_proportion(const RunConfig& c) {
+    if (auto answer = outside("--contact-duration", c.contact_duration, 0.0, c.period))
+        return answer;
+    if (!c.mixture) return {};
+    if (c.mixture->count < 1 || c.mixture->count > c.discs)
+        return fmt::format(
+            "the count in --mixture is {}, but it must be a whole number from 1 to {}.",
+            c.mixture->count, c.discs);
+    if (auto answer =
+            outside("the radius in --mixture", c.mixture->radius, smallest_value, largest_value))
+        return answer;
+    return outside("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
 }
 
-std::optional<std::string> number_out_of_range(const RunConfig& c) {
-    const std::optional<std::string> answers[] = {
-        outside("--discs", c.discs, 1, most_discs),
-        outside("--mu-disc", c.mu_disc, 0.0, largest),
-        outside("--mu-wall", c.mu_wall, 0.0, largest),
-        outside("--restitution", c.restitution, 0.0, 1.0),
-        outside("--tangential-restitution", c.tangential_restitution, 0.0, 1.0),
-        outside("--mass", c.mass, smallest, largest),
-        outside("--radius", c.radius, smallest, largest),
-        outside("--inertia", c.inertia, 1e-12, 1e18),
-        outside("--container-radius", c.container_radius, smallest, largest),
-        outside("--amplitude", c.amplitude, 0.0, largest),
-        outside("--sides", std::int64_t{c.sides}, 3, most_sides),
-        outside("--period", c.period, smallest, largest),
-        outside("--contact-duration", c.contact_duration, 0.0, c.period),
-        outside("--events", c.events, 1, most_events),
-        outside("--periods", c.periods.value_or(1), 1, most_periods),
-        outside("--warmup", c.warmup.value_or(0), 0, most_periods),
-    };
-    for (const auto& answer : answers)
-        if (answer) return answer;
-    if (!c.mixture) return {};
-    if (auto answer = outside("the count in --mixture", c.mixture->count, 1, c.discs))
-        return answer;
-    if (auto answer = outside("the radius in --mixture", c.mixture->radius, smallest, largest))
-        return answer;
-    return outside("the mass in --mixture", c.mixture->mass, smallest, largest);
+constexpr const char* advice_on_room =
+    "fewer --discs or a larger --container-radius would be right.";
+
+/// Of a mixture it is only known that it cannot cover more than all there is.
+std::optional<std::string> does_not_cover(const RunConfig& c) {
+    const double R = c.container_radius;
+    const auto count = static_cast<double>(c.mixture->count);
+    const double area = (static_cast<double>(c.discs) - count) * c.radius * c.radius +
+                        count * c.mixture->radius * c.mixture->radius;
+    if (area <= R * R) return {};
+    return fmt::format(
+        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
+        "it; {}",
+        c.discs, R, 100.0 * area / (R * R), advice_on_room);
 }
 
 std::optional<std::string> does_not_fit(const RunConfig& c) {
@@ -72,19 +56,13 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
             "A disc of radius {} does not fit into a container of radius {}: --container-radius "
             "must be larger than --radius.",
             big, R);
-    double area = static_cast<double>(c.discs) * c.radius * c.radius;
-    if (c.mixture) {
-        const auto count = static_cast<double>(c.mixture->count);
-        area += count * (c.mixture->radius * c.mixture->radius - c.radius * c.radius);
-    }
-    // Mixtures of two sizes can be a little denser than equal discs.
-    const double limit = c.mixture ? 1.0 : densest_packing;
-    if (area <= limit * R * R) return {};
+    if (c.mixture) return does_not_cover(c);
+    const double most = std::floor(most_discs_in_dish(c.radius, R));
+    if (static_cast<double>(c.discs) <= most) return {};
     return fmt::format(
-        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
-        "it, and more than {:.0f} % is impossible; fewer --discs or a larger --container-radius "
-        "would be right.",
-        c.discs, R, 100.0 * area / (R * R), 100.0 * limit);
+        "{} discs do not fit into a container of radius {}, where no arrangement holds more than "
+        "{:.0f}; {}",
+        c.discs, R, most, advice_on_room);
 }
 
 std::optional<std::string> warmup_too_long(const RunConfig& c) {
@@ -108,7 +86,8 @@ std::optional<std::string> warmup_too_long(const RunConfig& c) {
 }  // namespace
 
 std::optional<std::string> problem(const RunConfig& config) {
-    if (auto answer = number_out_of_range(config)) return answer;
+    if (auto answer = out_of_range(config)) return answer;
+    if (auto answer = out_of_proportion(config)) return answer;
     if (auto answer = does_not_fit(config)) return answer;
     return warmup_too_long(config);
 }
@@ -133,9 +112,14 @@ InitialState make_initial_state(const RunConfig& c) {
     if (!centres)
         throw WrongCall(fmt::format(
             "{} discs of radius {}{} could not be placed in a container of radius {} without "
-            "overlap; fewer --discs or a larger --container-radius would be right.",
+            "overlap: {}{}",
             c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
-            c.container_radius));
+            c.container_radius,
+            c.mixture ? ""
+                      : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
+                                    "may be found; ",
+                                    std::floor(most_discs_in_dish(c.radius, c.container_radius))),
+            advice_on_room));
 
     InitialState scene{{},
                        make_path(c),

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 
@@ -39,54 +40,46 @@ const char* word(SteadyState::Verdict verdict) {
     return "too short to tell";
 }
 
+/// COUNT:RADIUS:MASS, whatever stands in their places.
+std::string mixture_text(const Json& mixture) {
+    const auto part = [&](const char* name) { return mixture.value(name, Json()).dump(); };
+    return fmt::format("{}:{}:{}", part("count"), part("radius"), part("mass"));
+}
+
+struct ToJson {
+    Json operator()(std::monostate) const { return nullptr; }
+    Json operator()(const Mixture& m) const {
+        return {{"count", m.count}, {"radius", m.radius}, {"mass", m.mass}};
+    }
+    Json operator()(const auto& number_or_word) const { return number_or_word; }
+};
+
 }  // namespace
 
-Json config_json(const RunConfig& c) {
-    Json json{{"discs", c.discs},
-              {"mu_disc", c.mu_disc},
-              {"mu_wall", c.mu_wall},
-              {"inertia", c.inertia},
-              {"mass", c.mass},
-              {"radius", c.radius},
-              {"mixture", nullptr},
-              {"restitution", c.restitution},
-              {"tangential_restitution", c.tangential_restitution},
-              {"contact_duration", c.contact_duration},
-              {"container_radius", c.container_radius},
-              {"amplitude", c.amplitude},
-              {"period", c.period},
-              {"speed", container_speed(c)},
-              {"omega", c.omega()},
-              {"path", c.path == PathShape::circle ? "circle" : "polygon"},
-              {"sides", nullptr},
-              {"events", nullptr},
-              {"periods", nullptr},
-              {"warmup", nullptr},
-              {"seed", c.seed}};
-    if (c.mixture)
-        json["mixture"] = Json{
-            {"count", c.mixture->count}, {"radius", c.mixture->radius}, {"mass", c.mixture->mass}};
-    if (c.path == PathShape::polygon) json["sides"] = c.sides;
-    if (c.periods)
-        json["periods"] = *c.periods;
-    else
-        json["events"] = c.events;
-    if (c.warmup) json["warmup"] = *c.warmup;
-    if (c.warmup_found) json["warmup"] = "auto";
+Json config_json(const RunConfig& config) {
+    Json json = Json::object();
+    for (const Parameter& p : run_parameters)
+        if (p.is_written()) json[p.name] = std::visit(ToJson(), value_of(p, config));
     return json;
+}
+
+std::string config_text(const RunConfig& config) { return config_json(config).dump(); }
+
+ParameterTexts parameters_in(const std::string& config) {
+    const Json json = Json::parse(config, nullptr, false);
+    if (!json.is_object()) throw WrongCall("It does not say which run it is of.");
+    return parameters_in(json);
 }
 
 ParameterTexts parameters_in(const Json& config) {
     ParameterTexts texts;
     for (const auto& [name, value] : config.items()) {
-        if (value.is_null() || name == "omega" || name == "speed") continue;  // follow from others
-        std::string option = name;
-        std::replace(option.begin(), option.end(), '_', '-');
+        const Parameter* const p = find_parameter(name);
+        if (value.is_null() || (p && p->follows)) continue;
         if (value.is_object())
-            texts[option] = fmt::format("{}:{}:{}", value.at("count").dump(),
-                                        value.at("radius").dump(), value.at("mass").dump());
+            texts[name] = mixture_text(value);
         else
-            texts[option] = value.is_string() ? value.get<std::string>() : value.dump();
+            texts[name] = value.is_string() ? value.get<std::string>() : value.dump();
     }
     return texts;
 }

@@ -3,7 +3,8 @@
 // (an error from too few blocks) is null.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/run.hpp"
@@ -13,8 +14,13 @@ namespace swirl {
 /// Every parameter, resolved, in the order of `swirl run --help`.
 nlohmann::ordered_json config_json(const RunConfig& config);
 
-/// The parameters that resolve() to that configuration again.
+/// The same as one line of text.
+std::string config_text(const RunConfig& config);
+
+/// The parameters that resolve() to that configuration again. The text is what somebody else may
+/// have written: throws WrongCall if it is no configuration.
 ParameterTexts parameters_in(const nlohmann::ordered_json& config);
+ParameterTexts parameters_in(const std::string& config);
 
 /// {"mean", "error", "effective_samples", "blocks"}
 nlohmann::ordered_json estimate_json(const Estimate& estimate);

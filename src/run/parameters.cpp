@@ -3,25 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <numeric>
 
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {
 
-std::optional<std::string_view> text_of(const ParameterTexts& given, std::string_view name) {
-    const auto found = given.find(name);
-    if (found == given.end()) return {};
-    return std::string_view(found->second);
-}
+template <class... Cases>
+struct Either : Cases... {
+    using Cases::operator()...;
+};
 
 [[noreturn]] void unreadable(std::string_view name, std::string_view text, const char* right) {
-    throw WrongCall(fmt::format("--{} is '{}', but it must be {}.", name, text, right));
+    throw WrongCall(fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
 }
 
 double number_from(std::string_view name, std::string_view text) {
@@ -30,39 +27,170 @@ double number_from(std::string_view name, std::string_view text) {
     return *value;
 }
 
-void take(const ParameterTexts& given, std::string_view name, double& into) {
-    if (const auto text = text_of(given, name)) into = number_from(name, *text);
+std::int64_t whole_from(std::string_view name, std::string_view text) {
+    const auto value = read_whole_number(text);
+    if (!value) unreadable(name, text, "a whole number below 10^18, for example 48 or 1e6");
+    return *value;
 }
 
-std::optional<std::int64_t> whole(const ParameterTexts& given, std::string_view name) {
-    const auto text = text_of(given, name);
-    if (!text) return {};
-    const auto value = read_whole_number(*text);
-    if (!value) unreadable(name, *text, "a whole number below 10^18, for example 48 or 1e6");
-    return value;
+std::uint64_t seed_from(std::string_view name, std::string_view text) {
+    std::uint64_t seed = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, seed);
+    if (error != std::errc() || end != last)
+        unreadable(name, text, "a whole number from 0 to 18446744073709551615");
+    return seed;
 }
 
-std::optional<std::int64_t> warmup_from(const ParameterTexts& given) {
-    const auto text = text_of(given, "warmup");
-    if (text && !read_whole_number(*text))
-        unreadable("warmup", *text, "a whole number of swirls, for example 20, or auto");
-    return whole(given, "warmup");
+/// Still outside the range of every number of this type if it was.
+int clamped(std::int64_t value) {
+    return static_cast<int>(std::clamp<std::int64_t>(value, -1, 1'000'000'000));
+}
+
+/// Into the member of which the row is.
+void read_member(const Parameter& p, std::string_view text, RunConfig& config) {
+    std::visit(Either{[](std::monostate) {},
+                      [&](double RunConfig::*m) { config.*m = number_from(p.name, text); },
+                      [&](std::int64_t RunConfig::*m) { config.*m = whole_from(p.name, text); },
+                      [&](int RunConfig::*m) { config.*m = clamped(whole_from(p.name, text)); },
+                      [&](std::uint64_t RunConfig::*m) { config.*m = seed_from(p.name, text); },
+                      [&](std::optional<std::int64_t> RunConfig::*m) {
+                          config.*m = whole_from(p.name, text);
+                      }},
+               p.member);
+}
+
+ParameterValue member_value(const Parameter& p, const RunConfig& config) {
+    return std::visit(
+        Either{[](std::monostate) -> ParameterValue { return {}; },
+               [&](int RunConfig::*m) -> ParameterValue { return std::int64_t{config.*m}; },
+               [&](std::optional<std::int64_t> RunConfig::*m) -> ParameterValue {
+                   return config.*m ? ParameterValue(*(config.*m)) : ParameterValue();
+               },
+               [&](auto RunConfig::*m) -> ParameterValue { return config.*m; }},
+        p.member);
+}
+
+void read_parameter(const Parameter& p, std::string_view text, const ParameterTexts& given,
+                    RunConfig& config) {
+    if (p.read)
+        p.read(text, given, config);
+    else
+        read_member(p, text, config);
+}
+
+std::string as_text(const ParameterValue& value) {
+    return std::visit(
+        Either{[](std::monostate) { return std::string(); }, [](const std::string& s) { return s; },
+               [](const Mixture& m) { return fmt::format("{}:{}:{}", m.count, m.radius, m.mass); },
+               [](auto number) { return fmt::format("{}", number); }},
+        value);
+}
+
+/// 1e6 for 1000000.
+std::string in_few_characters(const std::string& number) {
+    const std::size_t zeros = number.size() - 1 - number.find_last_not_of('0');
+    if (zeros < 4 || !read_whole_number(number)) return number;
+    return fmt::format("{}e{}", number.substr(0, number.size() - zeros), zeros);
+}
+
+/// The same names in one spelling; all of them known.
+ParameterTexts known_texts(const ParameterTexts& given) {
+    ParameterTexts texts;
+    for (const auto& [name, text] : given) {
+        const Parameter* const row = find_parameter(name);
+        if (row == nullptr || !row->can_be_given()) {
+            const auto meant = nearest_name(plain_name(name), parameter_names());
+            throw WrongCall(fmt::format("There is no parameter '{}'{}.", name,
+                                        meant ? fmt::format("; did you mean '{}'?", *meant)
+                                              : "; `swirl run --help` lists them"));
+        }
+        if (!texts.emplace(row->name, text).second)
+            throw WrongCall(fmt::format("{} is given twice.", option_name(row->name)));
+    }
+    return texts;
+}
+
+double inertia_named(std::string_view name, double mass, double radius) {
+    if (name == "ring") return ring_inertia(mass, radius);
+    if (name == "solid") return solid_inertia(mass, radius);
+    return paper_inertia * mass * radius * radius;
+}
+
+/// Of the same material as the other discs: m ~ r².
+double mass_of_second_size(double radius, const RunConfig& config) {
+    const double ratio = radius / config.radius;
+    return config.mass * ratio * ratio;
+}
+
+/// Amplitude, period and speed: two of them make the third. Of three, one that only the file says
+/// goes; the speed first, which is made of the others.
+void leave_two_of_three(ParameterTexts& texts, const ParameterTexts& by_hand) {
+    constexpr const char* three[] = {"speed", "period", "amplitude"};
+    for (const char* name : three)
+        if (!texts.contains(name)) return;
+    for (const char* name : three)
+        if (!by_hand.contains(name)) return void(texts.erase(name));
+}
+
+/// A circle has no sides.
+void leave_path_or_sides(ParameterTexts& texts, const ParameterTexts& by_hand) {
+    const auto path = texts.find("path");
+    if (path == texts.end() || path->second.find("circle") == std::string::npos) return;
+    if (by_hand.contains("path") && !by_hand.contains("sides")) texts.erase("sides");
+    if (by_hand.contains("sides") && !by_hand.contains("path")) texts.erase("path");
+}
+
+std::optional<std::string> outside(const Parameter& p, double value) {
+    if (value >= p.lowest && value <= p.highest) return {};
+    return fmt::format("{} is {}, but it must be a number from {} to {}.", option_name(p.name),
+                       value, p.lowest, p.highest);
+}
+
+std::optional<std::string> outside(const Parameter& p, std::int64_t value) {
+    const auto lowest = static_cast<std::int64_t>(p.lowest);
+    const auto highest = static_cast<std::int64_t>(p.highest);
+    if (value >= lowest && value <= highest) return {};
+    return fmt::format("{} is {}, but it must be a whole number from {} to {}.",
+                       option_name(p.name), value, lowest, highest);
+}
+
+std::optional<std::string> out_of_range(const Parameter& p, const RunConfig& config) {
+    const ParameterValue value = member_value(p, config);
+    if (const auto* number = std::get_if<double>(&value)) return outside(p, *number);
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return outside(p, *whole);
+    return {};
+}
+
+}  // namespace
+
+void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    const double mu = number_from("mu", text);
+    if (mu < 0.0) unreadable("mu", text, "0 or more; friction cannot be negative");
+    config.mu_disc = config.mu_wall = mu;
 }
 
 /// Names are multiples of m r²; a number is the moment of inertia itself.
-double inertia_from(std::string_view text, double mass, double radius) {
-    if (text == "paper") return paper_inertia * mass * radius * radius;
-    if (text == "ring") return ring_inertia(mass, radius);
-    if (text == "solid") return solid_inertia(mass, radius);
+void read_inertia(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    if (text == "paper" || text == "ring" || text == "solid") {
+        config.inertia = inertia_named(text, config.mass, config.radius);
+        return;
+    }
     const auto value = read_number(text);
     if (!value)
         unreadable("inertia", text,
                    "a number above 0, or paper (10 m r^2), ring (m r^2) or solid (m r^2 / 2)");
-    return *value;
+    config.inertia = *value;
 }
 
-/// COUNT:RADIUS or COUNT:RADIUS:MASS; without a mass, of the same material (m ~ r²).
-Mixture mixture_from(std::string_view text, const RunConfig& config) {
+/// By its name where it has one, so that it follows another mass or radius.
+std::string spell_inertia(const RunConfig& config) {
+    for (const char* name : {"paper", "ring", "solid"})
+        if (config.inertia == inertia_named(name, config.mass, config.radius)) return name;
+    return fmt::format("{}", config.inertia);
+}
+
+void read_mixture(std::string_view text, const ParameterTexts&, RunConfig& config) {
     constexpr auto right =
         "COUNT:RADIUS or COUNT:RADIUS:MASS, for example 12:1.4 for twelve discs of radius 1.4";
     const auto first = text.find(':');
@@ -72,25 +200,31 @@ Mixture mixture_from(std::string_view text, const RunConfig& config) {
     const auto radius =
         read_number(text.substr(first + 1, second == text.npos ? second : second - first - 1));
     if (!count || !radius) unreadable("mixture", text, right);
-    const double ratio = *radius / config.radius;
-    double mass = config.mass * ratio * ratio;
-    if (second != text.npos) {
-        const auto given = read_number(text.substr(second + 1));
-        if (!given) unreadable("mixture", text, right);
-        mass = *given;
-    }
-    return {*count, *radius, mass};
+    config.mixture = Mixture{*count, *radius, mass_of_second_size(*radius, config)};
+    if (second == text.npos) return;
+    const auto mass = read_number(text.substr(second + 1));
+    if (!mass) unreadable("mixture", text, right);
+    config.mixture->mass = *mass;
 }
 
-/// Amplitude, period and speed: two of them make the third.
-void resolve_speed(const ParameterTexts& given, RunConfig& config) {
-    const auto text = text_of(given, "speed");
-    if (!text) return;
-    const double speed = number_from("speed", *text);
-    const bool period_given = text_of(given, "period").has_value();
-    const bool amplitude_given = text_of(given, "amplitude").has_value();
-    if (!(speed >= 0.0)) unreadable("speed", *text, "0 (a container that stands still) or more");
-    if (period_given && amplitude_given) {
+ParameterValue write_mixture(const RunConfig& config) {
+    return config.mixture ? ParameterValue(*config.mixture) : ParameterValue();
+}
+
+/// Without the mass where it follows from the radius, so that it follows another mass too.
+std::string spell_mixture(const RunConfig& config) {
+    const Mixture& m = *config.mixture;
+    if (m.mass == mass_of_second_size(m.radius, config))
+        return fmt::format("{}:{}", m.count, m.radius);
+    return as_text(m);
+}
+
+void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+    const double speed = number_from("speed", text);
+    const bool period_given = given.contains("period");
+    if (!(speed >= 0.0 && speed <= largest_value))
+        unreadable("speed", text, "from 0 (a container that stands still) to 1e6");
+    if (period_given && given.contains("amplitude")) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;
         throw WrongCall(fmt::format(
@@ -113,164 +247,127 @@ void resolve_speed(const ParameterTexts& given, RunConfig& config) {
     }
 }
 
-std::vector<std::string> names() {
-    std::vector<std::string> all;
-    for (const RunParameter& p : run_parameters()) all.emplace_back(p.name);
-    return all;
+ParameterValue write_speed(const RunConfig& config) { return container_speed(config); }
+ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
+
+void read_path(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    if (text != "polygon" && text != "circle") unreadable("path", text, "polygon or circle");
+    config.path = text == "circle" ? PathShape::circle : PathShape::polygon;
 }
 
-void refuse_unknown(const ParameterTexts& given) {
-    const auto known = names();
-    for (const auto& [name, text] : given) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const auto meant = nearest_name(name, known);
-        throw WrongCall(fmt::format("There is no parameter '{}'{}.", name,
-                                    meant ? fmt::format("; did you mean '{}'?", *meant)
-                                          : "; `swirl run --help` lists them"));
-    }
+ParameterValue write_path(const RunConfig& config) {
+    return config.path == PathShape::circle ? "circle" : "polygon";
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
+void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    const std::int64_t sides = whole_from("sides", text);
+    if (config.path == PathShape::circle)
+        throw WrongCall(fmt::format(
+            "--sides is {}, but --path circle has no sides; leave one of the two away.", sides));
+    config.sides = clamped(sides);
 }
 
-}  // namespace
+ParameterValue write_sides(const RunConfig& config) {
+    if (config.path == PathShape::circle) return {};
+    return std::int64_t{config.sides};
+}
 
-const std::vector<RunParameter>& run_parameters() {
-    static const std::vector<RunParameter> all = {
-        {"discs", "N", "number of discs [48]", "The discs"},
-        {"mu", "NUMBER", "friction of discs with discs and with the wall [1]", "The discs"},
-        {"mu-disc", "NUMBER", "friction between discs, if it differs from --mu", "The discs"},
-        {"mu-wall", "NUMBER", "friction with the wall, if it differs from --mu", "The discs"},
-        {"inertia", "NUMBER|paper|ring|solid",
-         "moment of inertia of a disc: paper = 10 m r^2, ring = m r^2, solid = m r^2 / 2 [paper]",
-         "The discs"},
-        {"mass", "NUMBER", "mass of a disc [1]", "The discs"},
-        {"radius", "NUMBER", "radius of a disc [1]", "The discs"},
-        {"mixture", "COUNT:RADIUS[:MASS]",
-         "COUNT of the discs have this radius instead (and this mass; by default of the same "
-         "material, m ~ r^2)",
-         "The discs"},
-        {"restitution", "0..1", "normal restitution e; 1 is elastic [1]", "The discs"},
-        {"tangential-restitution", "0..1",
-         "the fraction of its slip that a sticking contact gives back [0]", "The discs"},
-        {"contact-duration", "TIME",
-         "with --restitution below 1: a collision this soon after a disc's last one is elastic "
-         "[0.001]",
-         "The discs"},
-        {"container-radius", "NUMBER", "radius of the container [8.6]", "The container"},
-        {"amplitude", "NUMBER", "distance of its centre from the swirl centre [1.892]",
-         "The container"},
-        {"period", "NUMBER", "time for one swirl [11.866071]", "The container"},
-        {"speed", "NUMBER", "its speed: instead of --period (or of --amplitude)", "The container"},
-        {"path", "polygon|circle", "shape of its path [polygon]", "The container"},
-        {"sides", "M", "sides of the polygon [30]", "The container"},
-        {"events", "NUMBER", "length of the run in events of all kinds [1e6]", "The run"},
-        {"periods", "NUMBER", "length of the run in swirls, instead of --events", "The run"},
-        {"warmup", "PERIODS|auto",
-         "swirls at the start that do not count; auto finds out how many it takes (MSER-5 and "
-         "Geweke's test of rotation and spins; at most half of the run) [20, or a fifth of the run "
-         "if that is shorter]",
-         "The run"},
-        {"seed", "NUMBER", "decides places and velocities at the start [1]", "The run"},
-    };
-    return all;
+ParameterValue write_events(const RunConfig& config) {
+    return config.periods ? ParameterValue() : ParameterValue(config.events);
+}
+
+void read_periods(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+    if (const auto events = given.find("events"); events != given.end())
+        throw WrongCall(fmt::format(
+            "--events {} and --periods {} both give the length of the run; leave one away.",
+            events->second, text));
+    config.periods = whole_from("periods", text);
+}
+
+void read_warmup(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    config.warmup_found = text == "auto";
+    if (config.warmup_found) return;
+    config.warmup = read_whole_number(text);
+    if (!config.warmup)
+        unreadable("warmup", text, "a whole number of swirls, for example 20, or auto");
+}
+
+ParameterValue write_warmup(const RunConfig& config) {
+    if (config.warmup_found) return "auto";
+    return config.warmup ? ParameterValue(*config.warmup) : ParameterValue();
+}
+
+const Parameter* find_parameter(std::string_view name) {
+    const std::string plain = plain_name(name);
+    for (const Parameter& p : run_parameters)
+        if (plain == p.name) return &p;
+    return nullptr;
+}
+
+std::vector<std::string> parameter_names() {
+    std::vector<std::string> names;
+    for (const Parameter& p : run_parameters)
+        if (p.can_be_given()) names.emplace_back(p.name);
+    return names;
+}
+
+ParameterValue value_of(const Parameter& p, const RunConfig& config) {
+    return p.write ? p.write(config) : member_value(p, config);
+}
+
+std::string default_of(const Parameter& p) {
+    return p.by_default ? p.by_default : in_few_characters(as_text(value_of(p, {})));
 }
 
 RunConfig resolve(const ParameterTexts& given) {
-    refuse_unknown(given);
+    const ParameterTexts texts = known_texts(given);
     RunConfig config;
-    if (const auto text = text_of(given, "mu"))
-        config.mu_disc = config.mu_wall = number_from("mu", *text);
-    if (const auto text = text_of(given, "mu"); text && config.mu_disc < 0.0)
-        unreadable("mu", *text, "0 or more; friction cannot be negative");
-    take(given, "mu-disc", config.mu_disc);
-    take(given, "mu-wall", config.mu_wall);
-    take(given, "restitution", config.restitution);
-    take(given, "tangential-restitution", config.tangential_restitution);
-    take(given, "contact-duration", config.contact_duration);
-    take(given, "mass", config.mass);
-    take(given, "radius", config.radius);
-    take(given, "container-radius", config.container_radius);
-    take(given, "amplitude", config.amplitude);
-    take(given, "period", config.period);
-    config.discs = whole(given, "discs").value_or(config.discs);
-    config.inertia =
-        inertia_from(text_of(given, "inertia").value_or("paper"), config.mass, config.radius);
-
-    if (const auto text = text_of(given, "path")) {
-        if (*text != "polygon" && *text != "circle") unreadable("path", *text, "polygon or circle");
-        config.path = *text == "circle" ? PathShape::circle : PathShape::polygon;
-    }
-    if (const auto sides = whole(given, "sides")) {
-        if (config.path == PathShape::circle)
-            throw WrongCall(fmt::format(
-                "--sides is {}, but --path circle has no sides; leave one of the two away.",
-                *sides));
-        config.sides = static_cast<int>(std::clamp<std::int64_t>(*sides, -1, 1'000'000'000));
-    }
-    if (text_of(given, "events") && text_of(given, "periods"))
-        throw WrongCall(fmt::format(
-            "--events {} and --periods {} both give the length of the run; leave one away.",
-            *text_of(given, "events"), *text_of(given, "periods")));
-    config.events = whole(given, "events").value_or(config.events);
-    config.periods = whole(given, "periods");
-    config.warmup_found = text_of(given, "warmup") == std::optional<std::string_view>("auto");
-    if (!config.warmup_found) config.warmup = warmup_from(given);
-    if (const auto text = text_of(given, "seed")) {
-        const auto [end, error] =
-            std::from_chars(text->data(), text->data() + text->size(), config.seed);
-        if (error != std::errc() || end != text->data() + text->size())
-            unreadable("seed", *text, "a whole number from 0 to 18446744073709551615");
-    }
-    if (const auto text = text_of(given, "mixture")) config.mixture = mixture_from(*text, config);
-    // The speed is made of amplitude, period and sides; make sure of them first.
+    const auto read_all = [&](ReadingOrder order) {
+        for (const Parameter& p : run_parameters) {
+            if (p.order != order) continue;
+            if (const auto found = texts.find(p.name); found != texts.end())
+                read_parameter(p, found->second, texts, config);
+            else if (order == ReadingOrder::then && p.by_default)
+                read_parameter(p, p.by_default, texts, config);  // in terms of what was given
+        }
+    };
+    read_all(ReadingOrder::first);
+    read_all(ReadingOrder::then);
+    // What the last ones are made of must be sound.
     if (const auto wrong = problem(config)) throw WrongCall(*wrong);
-    resolve_speed(given, config);
+    read_all(ReadingOrder::last);
     if (const auto wrong = problem(config)) throw WrongCall(*wrong);
     return config;
 }
 
-std::optional<double> read_number(std::string_view text) {
-    double value = 0.0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value)) return {};
-    return value;
-}
-
-std::optional<std::int64_t> read_whole_number(std::string_view text) {
-    std::int64_t whole_value = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, whole_value);
-    if (error == std::errc() && end == last) return whole_value;
-    const auto value = read_number(text);  // "1e6"
-    if (!value || std::trunc(*value) != *value || std::fabs(*value) > 1e18) return {};
-    return static_cast<std::int64_t>(*value);
-}
-
-std::optional<std::string> nearest_name(std::string_view wrong,
-                                        const std::vector<std::string>& names) {
-    std::optional<std::string> best;
-    std::size_t least = std::max<std::size_t>(2, wrong.size() / 3) + 1;
-    for (const std::string& name : names) {
-        const std::size_t distance = edit_distance(wrong, name);
-        if (distance >= least) continue;
-        least = distance;
-        best = name;
+ParameterTexts texts_of(const RunConfig& config) {
+    ParameterTexts texts;
+    for (const Parameter& p : run_parameters) {
+        const ParameterValue value = value_of(p, config);
+        if (p.follows || std::holds_alternative<std::monostate>(value)) continue;
+        texts[p.name] = p.spell ? p.spell(config) : as_text(value);
     }
-    return best;
+    return texts;
+}
+
+ParameterTexts overridden(ParameterTexts file, const ParameterTexts& by_hand) {
+    for (const auto& [name, text] : by_hand)
+        if (const Parameter* const p = find_parameter(name))
+            for (const char* other : p->instead_of)
+                if (other) file.erase(other);
+    for (const auto& [name, text] : by_hand) file.insert_or_assign(name, text);
+    leave_two_of_three(file, by_hand);
+    leave_path_or_sides(file, by_hand);
+    return file;
+}
+
+std::optional<std::string> out_of_range(const RunConfig& config) {
+    // What others are made of is named first: a mass of 0, not the inertia that follows.
+    for (const ReadingOrder order : {ReadingOrder::first, ReadingOrder::then, ReadingOrder::last})
+        for (const Parameter& p : run_parameters)
+            if (p.order == order)
+                if (auto wrong = out_of_range(p, config)) return wrong;
+    return {};
 }
 
 }  // namespace swirl

@@ -38,6 +38,16 @@ Json identity(const RunConfig& config, const RunFiles& files, const Observation*
             {"measured", measured}};
 }
 
+/// What a checkpoint says about its run.
+Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
+    Json about = Json::parse(kept.about, nullptr, false);
+    if (!about.is_object() || !about.value("identity", Json()).is_object() ||
+        !about["identity"].value("parameters", Json()).is_object())
+        throw FileError(fmt::format(
+            "The checkpoint '{}' does not say which run it is of; remove it.", file.string()));
+    return about;
+}
+
 std::string difference(const Json& there, const Json& here) {
     for (const auto& [name, value] : here.at("parameters").items())
         if (there.at("parameters").value(name, Json()) != value)
@@ -90,7 +100,8 @@ class Recorder {
 
     void resume() {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
-        const Json about = Json::parse(kept.about), here = identity(config_, files_, observation_);
+        const Json about = about_in(files_.checkpoint, kept),
+                   here = identity(config_, files_, observation_);
         if (about.at("identity") != here)
             throw WrongCall(fmt::format(
                 "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
@@ -183,7 +194,7 @@ void forget_checkpoint(const RunFiles& files) {
 }
 
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
-    const Json about = Json::parse(read_checkpoint(checkpoint).about);
+    const Json about = about_in(checkpoint, read_checkpoint(checkpoint));
     return {about.at("identity").at("parameters").dump(), about.value("call", ParameterTexts())};
 }
 

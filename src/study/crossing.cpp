@@ -7,10 +7,13 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
 #include "swirl/study/all_cores.hpp"
 
 namespace swirl {
@@ -195,6 +198,46 @@ class Search {
     std::uint64_t events_ = 0, runs_ = 0;
 };
 
+const char* word(Crossing::Verdict verdict) {
+    switch (verdict) {
+        case Crossing::Verdict::crosses:
+            return "crosses";
+        case Crossing::Verdict::always_rotates:
+            return "always rotates";
+        case Crossing::Verdict::always_counterrotates:
+            return "always counterrotates";
+        case Crossing::Verdict::undecided:
+            break;
+    }
+    return "undecided";
+}
+
+/// How many discs it is at is N_c: "discs" would be a number of a run's discs.
+nlohmann::ordered_json search_json(const CrossingSettings& settings, const CrossingSearch& s,
+                                   const std::string& command) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < s.points.size(); ++k)
+        points.push_back({{"discs", s.points[k].discs},
+                          {"mean", s.points[k].mean},
+                          {"error", s.points[k].error},
+                          {"runs", s.runs_made[k]}});
+    return {{"verdict", word(s.crossing.verdict)},
+            {"N_c", s.crossing.discs},
+            {"N_c_error", s.crossing.error},
+            {"N_c_lower", s.crossing.lower},
+            {"N_c_upper", s.crossing.upper},
+            {"within_tolerance", s.within_tolerance},
+            {"tolerance", settings.tolerance},
+            {"points", points},
+            {"runs", s.runs},
+            {"runs_that_drift", s.drifting},
+            {"events", s.events},
+            {"seconds", s.seconds},
+            {"config", config_json(settings.config)},
+            {"command", command},
+            {"version", version()}};
+}
+
 }  // namespace
 
 CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
@@ -212,6 +255,11 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
                         "of N_c that is wanted.",
                         settings.tolerance));
     return Search(settings, control)();
+}
+
+std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
+                          const std::string& command) {
+    return search_json(settings, search, command).dump(2) + "\n";
 }
 
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {

@@ -54,5 +54,8 @@ CrossingSearch search_crossing(const CrossingSettings& settings,
 
 /// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
+/// All that was found, and the command that asked for it.
+std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
+                          const std::string& command);
 
 }  // namespace swirl

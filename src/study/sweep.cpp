@@ -143,7 +143,7 @@ Json plan_json(const SweepPlan& plan) {
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
     std::string command = "swirl run";
     for (const auto& [name, value] : plan.parameters(point))
-        if (name != "seed") command += fmt::format(" --{} {}", name, value);
+        if (name != "seed") command += fmt::format(" {} {}", option_name(name), value);
     if (!plan.measure.empty())
         command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
     return command + fmt::format(" --seed {}", seed);
@@ -154,9 +154,9 @@ std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
 std::vector<std::string> range(std::string_view name, std::string_view text) {
     const auto refuse = [&](const char* why) {
         throw WrongCall(fmt::format(
-            "--{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
+            "{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
             "0:0.25:1.",
-            name, text, why));
+            option_name(name), text, why));
     };
     std::vector<double> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -347,12 +347,6 @@ PointResult read_result(const fs::path& file) {
     if (json.is_discarded() || !json.is_object())
         throw FileError(
             fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
-    if (json.value("format", 0) != result_format)
-        throw FileError(fmt::format(
-            "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
-            "call `swirl sweep` again, or collect with the program that wrote it.",
-            file.string(), json.value("format", 0), json.value("version", std::string("?")),
-            result_format));
     PointResult result;
     result.there = true;
     result.quantities.reserve(std::size(estimators));
@@ -360,6 +354,12 @@ PointResult read_result(const fs::path& file) {
         return value.is_number() ? value.get<double>() : not_known;
     };
     try {
+        if (json.value("format", 0) != result_format)
+            throw FileError(fmt::format(
+                "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
+                "call `swirl sweep` again, or collect with the program that wrote it.",
+                file.string(), json.value("format", 0), json.value("version", std::string("?")),
+                result_format));
         for (const char* name : estimators) {
             const Json& found = json.at("rotation").at(name);
             result.quantities.emplace_back(name, Estimate{.mean = number(found.at("mean")),
@@ -378,6 +378,28 @@ PointResult read_result(const fs::path& file) {
                         file.string()));
     }
     return result;
+}
+
+/// How many runs it is, however many: a plan from a file may hold anything.
+double product(const SweepPlan& plan) {
+    double count = double(plan.replicas);
+    for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
+    return count;
+}
+
+/// Every value of an axis must make another run; a run that is wanted again is a replica.
+void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
+    ParameterTexts texts = plan.parameters(0);
+    std::map<std::uint64_t, std::string> seen;
+    for (const std::string& value : axis.values) {
+        texts[axis.name] = value;
+        const auto [before, is_new] = seen.emplace(checksum(config_text(resolve(texts))), value);
+        if (!is_new)
+            throw WrongCall(fmt::format(
+                "{0} {1} and {0} {2} are the same run here; leave one of them away, or the "
+                "parameter that takes its place (for several runs of each there is --seeds).",
+                option_name(axis.name), before->second, value));
+    }
 }
 
 Table::Cell cell_of(const std::string& text) {
@@ -420,8 +442,7 @@ ParameterTexts SweepPlan::parameters(std::size_t point) const {
 
 RunConfig SweepPlan::config(std::size_t point) const {
     RunConfig config = resolve(parameters(point));
-    const std::string identity =
-        fmt::format("{} replica {}", config_json(config).dump(), replica(point));
+    const std::string identity = fmt::format("{} replica {}", config_text(config), replica(point));
     config.seed = Random(checksum(identity)).bits() >> 11;  // exact in every JSON reader
     return config;
 }
@@ -432,8 +453,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string_view part = text.substr(begin, end - begin);
         if (part.empty())
-            throw WrongCall(
-                fmt::format("--{} is '{}', but a value in the list is empty.", name, text));
+            throw WrongCall(fmt::format("{} is '{}', but a value in the list is empty.",
+                                        option_name(name), text));
         if (part.find(':') != part.npos && name != "mixture") {
             const auto more = range(name, part);
             values.insert(values.end(), more.begin(), more.end());
@@ -445,29 +466,22 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
     return values;
 }
 
-SweepPlan make_plan(const ParameterTexts& texts, std::int64_t replicas) {
+SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     SweepPlan plan;
     plan.replicas = replicas;
-    for (const RunParameter& p : run_parameters())
-        if (const auto found = texts.find(p.name); found != texts.end())
+    ParameterTexts texts;
+    for (const auto& [name, text] : given) texts[plain_name(name)] = text;
+    for (const Parameter& p : run_parameters)
+        if (const auto found = texts.find(p.name); found != texts.end() && p.can_be_given()) {
             plan.axes.push_back({p.name, list_of_values(p.name, found->second)});
-    double count = double(replicas);
-    for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
-    if (count > double(most_points))
+            texts.erase(found);
+        }
+    if (!texts.empty()) resolve(texts);  // says which is not known
+    if (const double count = product(plan); count > double(most_points))
         throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
                                     count, most_points));
-    ParameterTexts unknown = texts;
-    for (const SweepAxis& axis : plan.axes) unknown.erase(axis.name);
-    if (!unknown.empty()) resolve(unknown);  // says which is not known
     // A mistake in one value shows before anything is run; combinations show when their turn comes.
-    ParameterTexts first = plan.parameters(0);
-    resolve(first);
-    for (const SweepAxis& axis : plan.axes)
-        for (const std::string& value : axis.values) {
-            ParameterTexts changed = first;
-            changed[axis.name] = value;
-            resolve(changed);
-        }
+    for (const SweepAxis& axis : plan.axes) refuse_useless(plan, axis);
     return plan;
 }
 
@@ -484,16 +498,22 @@ SweepPlan read_plan(const fs::path& folder) {
             throw FileError(fmt::format("'{}' is in format {}, but this program reads format {}.",
                                         file.string(), json.at("format").dump(), result_format));
         for (const auto& [name, values] : json.at("axes").items())
-            plan.axes.push_back({name, values.get<std::vector<std::string>>()});
+            plan.axes.push_back({plain_name(name), values.get<std::vector<std::string>>()});
         plan.replicas = json.at("replicas").get<std::int64_t>();
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
-        for (const SweepAxis& axis : plan.axes)
-            if (axis.values.empty()) throw FileError("");
-        if (plan.replicas < 1) throw FileError("");
     } catch (const nlohmann::json::exception&) {
-        throw FileError(fmt::format("'{}' is damaged.", file.string()));
+        throw FileError(fmt::format("'{}' is damaged: it is no plan of a sweep.", file.string()));
     }
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.values.empty())
+            throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
+                                        file.string(), axis.name));
+    if (const double count = product(plan); !(count >= 1.0 && count <= double(most_points)))
+        throw FileError(
+            fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
+                        "each point, but from 1 to {} runs are possible.",
+                        file.string(), count, plan.replicas, most_points));
     return plan;
 }
 

@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "swirl/files/table.hpp"
-#include "swirl/run/config.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
@@ -53,8 +52,9 @@ struct SweepPlan {
 /// "5:48", "0:0.25:1" (from : step : to), "0.1,0.5,1", or one value. Throws WrongCall.
 std::vector<std::string> list_of_values(std::string_view name, std::string_view text);
 
-/// Texts may be lists. Throws WrongCall, also for a point that cannot be run.
-SweepPlan make_plan(const ParameterTexts& texts, std::int64_t replicas);
+/// Texts may be lists. Throws WrongCall, also for a point that cannot be run, and for two values
+/// that are the same run.
+SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas);
 
 /// The plan of a folder; throws FileError if there is none.
 SweepPlan read_plan(const std::filesystem::path& folder);

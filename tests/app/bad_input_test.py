@@ -1,9 +1,11 @@
 """Bad input: one clear sentence on stderr that names the value, exit code 2 (wrong call) or 1
 (failure), nothing left under its final name, never a crash or a hang."""
 
+import json
 import os
 import resource
 import subprocess
+import tempfile
 import unittest
 
 from program import SWIRL, InFolder, swirl
@@ -15,8 +17,8 @@ CALLS = [
     ("--discs 2.5", 2, ["--discs is '2.5'", "whole number"]),
     ("--discs many", 2, ["--discs is 'many'", "whole number"]),
     ("--discs 1e30", 2, ["--discs is '1e30'"]),
-    ("--discs 60", 2, ["60 discs", "8.6", "overlap"]),
-    ("--discs 5000", 2, ["5000 discs do not fit", "8.6"]),
+    ("--discs 60", 2, ["60 discs", "8.6", "overlap", "more than 65"]),
+    ("--discs 5000", 2, ["5000 discs do not fit", "8.6", "more than 65"]),
     ("--mu -1", 2, ["--mu is '-1'", "0 or more"]),
     ("--mu nan", 2, ["--mu is 'nan'", "finite number"]),
     ("--mu inf", 2, ["--mu is 'inf'", "finite number"]),
@@ -89,7 +91,7 @@ class BadCalls(unittest.TestCase):
     def test_each_is_answered_with_one_sentence_that_names_the_value(self):
         for call, code, words in CALLS:
             with self.subTest(call):
-                done = swirl("run", *call.split(), timeout=20)
+                done = swirl("run", *call.split(), timeout=60)
                 self.assertEqual(done.returncode, code, done.stderr)
                 self.assertEqual(done.stdout, "")
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -108,6 +110,44 @@ class BadCalls(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("--figure is '9z'", done.stderr)
         self.assertIn("5b", done.stderr)
+
+    def test_help_onto_a_full_disk(self):
+        for call in (["--help"], ["run", "--help"], ["--version"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([SWIRL, *call], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      timeout=20)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("No space left", done.stderr)
+
+    def test_a_damaged_plan_of_a_sweep(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for text, word in (('{"format": 1, "axes": {"mu": []}, "replicas": 1}', "no values"),
+                               ('{"format": 1, "axes": {}, "replicas": 1152921504606846976}',
+                                "1.15e+18 runs"),
+                               ('{"format": 1, "axes"', "no plan of a sweep"),
+                               ('{"format": 1, "axes": 7, "replicas": 1}', "no plan of a sweep")):
+                with open(os.path.join(folder, "plan.json"), "w") as plan:
+                    plan.write(text)
+                done = swirl("sweep", "--out", folder, "--status")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(word, done.stderr)
+                self.assertNotIn("json.exception", done.stderr)
+
+    def test_results_that_are_not_what_they_should_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.json")
+            config = json.loads(swirl("run", "--events", 10, "--json", "-", "--quiet").stdout)
+            config["config"]["mixture"] = {"count": 2}
+            for text in ("{", '{"config": 7, "state_hash": 7, "complete": true}',
+                         '{"config": {}, "state_hash": 7, "complete": "yes"}',
+                         '{"config": {"mu": [1]}, "state_hash": "7", "complete": true}',
+                         json.dumps(config)):
+                with open(file, "w") as result:
+                    result.write(text)
+                done = swirl("verify", file)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn("a.json", done.stderr)
+                self.assertNotIn("json.exception", done.stderr)
 
     def test_bytes_that_are_no_text(self):
         done = subprocess.run([SWIRL.encode(), b"run", b"--discs", b"\xff\xfe"],

@@ -25,16 +25,25 @@ TEST(Config, ReadsNumbersTextsAndLists) {
     ASSERT_EQ(config.entries.size(), 7u);
     const auto one = [&](const char* name) { return config.entries.at(name).values.at(0); };
     EXPECT_EQ(one("discs"), "40");
-    EXPECT_EQ(one("mu-wall"), "0.1");
+    EXPECT_EQ(one("mu_wall"), "0.1");
     EXPECT_EQ(std::stod(one("events")), 1e6);
     EXPECT_EQ(one("inertia"), "ring");
     EXPECT_EQ(one("seed"), "18446744073709551");
     EXPECT_EQ(one("quiet"), "true");
-    const ConfigEntry& list = config.entries.at("mu-disc");
+    const ConfigEntry& list = config.entries.at("mu_disc");
     EXPECT_TRUE(list.is_list);
     EXPECT_EQ(list.values, (std::vector<std::string>{"0.1", "1"}));
     EXPECT_EQ(list.line, 7);
     EXPECT_TRUE(parse_config("", "a.toml").entries.empty());
+}
+
+TEST(Config, ReadsWhatAnEditorOnWindowsWrites) {
+    const Config config = parse_config(
+        "\xef\xbb\xbf"
+        "discs = 40\r\nmu = 0.5\r\n",
+        "a.toml");
+    EXPECT_EQ(config.entries.at("discs").values.at(0), "40");
+    EXPECT_EQ(config.entries.at("mu").values.at(0), "0.5");
 }
 
 TEST(Config, RefusesWhatIsNoConfigurationWithTheLine) {

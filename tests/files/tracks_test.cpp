@@ -56,6 +56,16 @@ TEST(TrackpyTable, ReadsColumnsInAnyOrderAmongOthersAndRowsInAnyOrder) {
     EXPECT_EQ(tracks.frames[1].position[0].x, 7.0);
 }
 
+TEST(TrackpyTable, ReadsWhatSpreadsheetsWrite) {
+    const Tracks tracks = tracks_in(
+        "\xef\xbb\xbf\"frame\",\"particle\", x ,\"y\",\"note\"\r\n"
+        "\"0\",\"7\",1.5, 2.5,\"near, the wall\"\r\n");
+    ASSERT_EQ(tracks.frames.size(), 1u);
+    EXPECT_EQ(tracks.frames[0].id.at(0), 7);
+    EXPECT_EQ(tracks.frames[0].position.at(0).x, 1.5);
+    EXPECT_EQ(tracks.frames[0].position.at(0).y, 2.5);
+}
+
 TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
     const auto refused = [](const std::string& text) { return refusal(tracks_in, text); };
     const std::string head = "frame,particle,x,y\n";

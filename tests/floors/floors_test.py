@@ -76,6 +76,12 @@ class Floors(unittest.TestCase):
         for floor in ENGINE:
             self.assertTrue(list(sources(floor)), floor)
 
+    def test_headers_that_take_long_to_compile_stay_in_few_files(self):
+        for header, homes in (("CLI/CLI.hpp", {"parser.cpp"}), ("toml++/toml.h", {"config.cpp"})):
+            found = {os.path.basename(file) for floor in BELOW for file in sources(floor)
+                     if header in [what for what, _ in includes(file)]}
+            self.assertEqual(found, homes, header)
+
     def test_no_floor_looks_up_or_sideways(self):
         for floor, below in BELOW.items():
             for file in sources(floor):

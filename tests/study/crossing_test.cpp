@@ -49,6 +49,16 @@ TEST(CrossingSearch, WithoutWallFrictionThereIsNoneAndItSaysWhy) {
     EXPECT_THAT(report, HasSubstr("between N = 8 and 20 the lowest is"));
 }
 
+TEST(CrossingSearch, ItsJsonCallsTheNumberOfDiscsNc) {
+    CrossingSearch found;
+    found.crossing.discs = 36.5;
+    found.crossing.error = 0.25;
+    const std::string json = crossing_json(CrossingSettings{}, found, "swirl crossing");
+    EXPECT_THAT(json, HasSubstr("\"N_c\": 36.5"));
+    EXPECT_THAT(json, HasSubstr("\"N_c_error\": 0.25"));
+    EXPECT_THAT(json, HasSubstr("\"command\": \"swirl crossing\""));
+}
+
 TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
     CrossingSettings backwards = short_search(1.0);
     backwards.from = 48;

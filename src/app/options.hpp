@@ -1,0 +1,81 @@
+// What a subcommand can be called with, as data: its options, its help, and what it does. Only
+// parser.cpp knows how arguments are taken apart.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace swirl {
+
+/// Where the value of an option goes; a bool is a flag and takes none.
+using OptionTarget =
+    std::variant<bool*, std::string*, std::int64_t*, int*, double*, std::optional<int>*,
+                 std::optional<std::int64_t>*, std::optional<double>*, std::vector<std::string>*,
+                 std::function<void(const std::string&)>>;
+
+struct Option {
+    std::string name;  // "--json"; without hyphens: an argument by its place
+    OptionTarget target;
+    std::string description;
+    std::string value_form = {};  // what stands after it: "FILE"
+    std::string help_group = {};
+    bool is_required = false;
+
+    Option* type_name(std::string form) {
+        value_form = std::move(form);
+        return this;
+    }
+    Option* group(std::string name_of_group) {
+        help_group = std::move(name_of_group);
+        return this;
+    }
+    Option* required() {
+        is_required = true;
+        return this;
+    }
+};
+
+class Subcommand {
+  public:
+    /// The option returned stays where it is. A vector takes the option as often as it is given.
+    template <class Target>
+    Option* add_option(std::string name, Target& target, std::string description) {
+        return add(std::move(name), &target, std::move(description));
+    }
+    Option* add_option_function(std::string name, std::function<void(const std::string&)> take,
+                                std::string description) {
+        return add(std::move(name), std::move(take), std::move(description));
+    }
+    Option* add_flag(std::string name, bool& target, std::string description) {
+        return add(std::move(name), &target, std::move(description));
+    }
+
+    /// Calls that work, at the end of the help.
+    void set_examples(const std::vector<std::string>& examples);
+    /// What else the help says, before the examples.
+    void explain(std::string text) { explanation_ = std::move(text); }
+    /// What is done once all options have arrived; what goes wrong in there is thrown
+    /// (run/failure.hpp).
+    void callback(std::function<void()> action) { action_ = std::move(action); }
+
+    const std::deque<Option>& options() const { return options_; }
+    std::string footer() const;
+    void act() const { action_(); }
+
+  private:
+    Option* add(std::string name, OptionTarget target, std::string description) {
+        options_.push_back({std::move(name), std::move(target), std::move(description)});
+        return &options_.back();
+    }
+
+    std::deque<Option> options_;
+    std::string explanation_, examples_;
+    std::function<void()> action_;
+};
+
+}  // namespace swirl

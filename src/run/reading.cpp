@@ -1,0 +1,71 @@
+#include "swirl/run/reading.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace swirl {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<double> read_number(std::string_view text) {
+    double value = 0.0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) return {};
+    return value;
+}
+
+std::optional<std::int64_t> read_whole_number(std::string_view text) {
+    std::int64_t whole_value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, whole_value);
+    if (error == std::errc() && end == last) return whole_value;
+    const auto value = read_number(text);  // "1e6"
+    if (!value || std::trunc(*value) != *value || std::fabs(*value) > 1e18) return {};
+    return static_cast<std::int64_t>(*value);
+}
+
+std::string plain_name(std::string_view name) {
+    std::string plain(name);
+    std::replace(plain.begin(), plain.end(), '-', '_');
+    return plain;
+}
+
+std::string option_name(std::string_view name) {
+    std::string option(name);
+    std::replace(option.begin(), option.end(), '_', '-');
+    return "--" + option;
+}
+
+std::optional<std::string> nearest_name(std::string_view wrong,
+                                        const std::vector<std::string>& names) {
+    std::optional<std::string> best;
+    std::size_t least = std::max<std::size_t>(2, wrong.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t distance = edit_distance(wrong, name);
+        if (distance >= least) continue;
+        least = distance;
+        best = name;
+    }
+    return best;
+}
+
+}  // namespace swirl

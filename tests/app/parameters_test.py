@@ -1,0 +1,156 @@
+"""Every parameter of a run in every place where one may stand, and what wins where two places say
+different things. The list of parameters is the one in docs/parameters.md."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from program import SOURCE, SWIRL, InFolder, result_of, swirl
+
+ROW = re.compile(r"^\| `(\w+)` \| [^|]* \| (`--([a-z-]+) [^`]*`)? \|", re.MULTILINE)
+
+# Where one tenth less than the default will not do.
+OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
+         "speed": "2", "path": "circle", "periods": "50", "warmup": "2", "seed": "7",
+         "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5"}
+
+
+def rows():
+    """Name to option, which is empty for what is only written."""
+    with open(os.path.join(SOURCE, "docs", "parameters.md")) as page:
+        return {name: option for name, _, option in ROW.findall(page.read())}
+
+
+def settings_in(toml):
+    """Name to text."""
+    return dict(line.split(" = ") for line in toml.splitlines())
+
+
+PARAMETERS = rows()
+GIVEN = {name: f"--{option}" for name, option in PARAMETERS.items() if option}
+PAPER = settings_in(swirl("run", "--dry-run").stdout)
+
+
+def another(name):
+    return OTHER[name] if name in OTHER else repr(0.9 * float(PAPER[name]))
+
+
+class Everywhere(InFolder):
+    in_memory = True
+
+    def test_the_page_knows_them_all(self):
+        self.assertGreater(len(GIVEN), 15)
+        self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu"})
+
+    def test_help(self):
+        text = swirl("run", "--help").stdout
+        for name, option in GIVEN.items():
+            self.assertRegex(text, rf"(?m)^  {option} ", name)
+
+    def test_option_file_and_dry_run(self):
+        for name, option in GIVEN.items():
+            with self.subTest(name):
+                by_option = swirl("run", option, another(name), "--dry-run")
+                self.assertEqual(by_option.returncode, 0, by_option.stderr)
+                self.assertNotEqual(settings_in(by_option.stdout), PAPER)
+                for spelling in (name, name.replace("_", "-")):
+                    with open(self.path("a.toml"), "w") as file:
+                        file.write(f'{spelling} = "{another(name)}"\n')
+                    by_file = swirl("run", self.path("a.toml"), "--dry-run")
+                    self.assertEqual(by_file.stdout, by_option.stdout, by_file.stderr)
+                # What it prints is that run again.
+                with open(self.path("a.toml"), "w") as file:
+                    file.write(by_option.stdout)
+                again = swirl("run", self.path("a.toml"), "--dry-run")
+                self.assertEqual(again.stdout, by_option.stdout, again.stderr)
+        self.assertEqual(swirl("run", "--mu_disc", "0.5", "--dry-run").stdout,
+                         swirl("run", "--mu-disc=0.5", "--dry-run").stdout)
+
+    def test_axis_of_a_sweep(self):
+        for name, option in GIVEN.items():
+            with self.subTest(name):
+                done = swirl("sweep", option, another(name), "--out", self.path("s"), "--dry-run")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"  {name}: {another(name)}", done.stdout)
+
+    def test_identity_of_a_resumed_run(self):
+        call = [SWIRL, "run", "--events", "1e14", "--quiet", "--checkpoint", self.path("kept")]
+        process = subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=20), 130)
+        for name, option in GIVEN.items():
+            with self.subTest(name):
+                shutil.copy(self.path("kept"), self.path("copy"))
+                length = [] if name in ("events", "periods") else ["--events", "1e14"]
+                done = swirl("run", *length, option, another(name), "--checkpoint",
+                             self.path("copy"), "--resume")
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn("belongs to another run", done.stderr)
+
+
+class WhoWins(InFolder):
+    in_memory = True
+
+    def on_top_of(self, file, *by_hand):
+        """The settings when the options come with a file that says everything about a run."""
+        with open(self.path("a.toml"), "w") as opened:
+            opened.write(swirl("run", *file, "--dry-run").stdout)
+        done = swirl("run", self.path("a.toml"), *by_hand, "--dry-run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return settings_in(done.stdout)
+
+    def test_the_option_wins_over_its_relatives_in_the_file(self):
+        self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_disc"], "0.7")
+        self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_wall"], "0.7")
+        self.assertEqual(self.on_top_of(["--mu", "0.7"], "--mu-wall", "0")["mu_disc"], "0.7")
+        self.assertEqual(self.on_top_of([], "--periods", "50")["periods"], "50")
+        self.assertNotIn("periods", self.on_top_of(["--periods", "50"], "--events", "1e5"))
+        self.assertEqual(self.on_top_of([], "--path", "circle")["path"], '"circle"')
+        self.assertEqual(self.on_top_of(["--path", "circle"], "--sides", "9")["sides"], "9")
+        self.assertEqual(self.on_top_of(["--sides", "9"], "--path", "polygon")["sides"], "9")
+        faster = self.on_top_of([], "--speed", "2")
+        self.assertAlmostEqual(float(faster["period"]), 11.866071 / 2, places=6)
+        self.assertEqual(faster["amplitude"], PAPER["amplitude"])
+        wider = self.on_top_of([], "--speed", "2", "--period", "11.866071")
+        self.assertAlmostEqual(float(wider["amplitude"]), 2 * 1.892, places=6)
+
+    def test_so_it_is_with_the_times_of_frames(self):
+        recorded = ["--trajectory", self.path("a.h5"), "--frames", "8"]
+        settings = self.on_top_of(recorded, "--frame-interval", "0.5")
+        self.assertEqual(settings["frame_interval"], "0.5")
+        self.assertNotIn("frames", settings)
+
+    def test_a_sweep_over_a_file_has_the_axis_that_was_asked_for(self):
+        with open(self.path("a.toml"), "w") as opened:
+            opened.write(swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout)
+        done = swirl("sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"),
+                     "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()
+        self.assertEqual(len(table), 3)
+        self.assertNotEqual(table[1].split(",")[-1], table[2].split(",")[-1])
+
+    def test_an_axis_without_effect_is_refused(self):
+        done = swirl("sweep", "--mu", "0.1,0.5", "--mu-disc", "1", "--mu-wall", "1", "--out",
+                     self.path("s"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--mu 0.1 and --mu 0.5 are the same run", done.stderr)
+        self.assertEqual(self.left_behind(), [])
+
+    def test_the_table_of_a_sweep_has_the_names_of_the_json(self):
+        self.assertEqual(swirl("sweep", "--mu-disc", "0.5", "--discs", 5, "--events", 100,
+                               "--out", self.path("s"), "--quiet").returncode, 0)
+        heads = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()[0].split(",")
+        self.assertIn("mu_disc", heads)
+        with open(self.path("s/results/000000.json")) as result:
+            self.assertIn("mu_disc", json.load(result)["config"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,70 @@
+// The table in docs/parameters.md is made of the rows. When it is out of date, this writes it anew:
+//
+//     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='ParameterTable.*'
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "swirl/run/parameters.hpp"
+
+namespace swirl {
+namespace {
+
+const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/parameters.md";
+constexpr std::string_view begin = "<!-- made of src/run/parameters.hpp -->\n";
+constexpr std::string_view end = "<!-- end -->\n";
+
+/// A bar would end the cell.
+std::string in_a_cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2)
+        text.insert(at, 1, '\\');
+    return text;
+}
+
+std::string range_of(const Parameter& p) {
+    return p.highest > 0.0 ? fmt::format("{:g} … {:g}", p.lowest, p.highest) : "";
+}
+
+std::string row(const Parameter& p) {
+    const std::string option =
+        p.can_be_given() ? fmt::format("`{} {}`", option_name(p.name), in_a_cell(p.form)) : "";
+    return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, p.symbol, option,
+                       default_of(p), range_of(p), p.unit, in_a_cell(p.description));
+}
+
+std::string table() {
+    std::string text;
+    std::string_view group;
+    for (const Parameter& p : run_parameters) {
+        if (group != p.group)
+            text += fmt::format(
+                "\n### {}\n\n| Name | Symbol | Option | Default | Range | Unit | |\n"
+                "|---|---|---|---|---|---|---|\n",
+                p.group);
+        group = p.group;
+        text += row(p);
+    }
+    return text + "\n";
+}
+
+TEST(ParameterTable, InTheDocsIsUpToDate) {
+    std::ostringstream text;
+    text << std::ifstream(page).rdbuf();
+    std::string docs = text.str();
+    const std::size_t from = docs.find(begin), to = docs.find(end);
+    ASSERT_NE(from, docs.npos);
+    ASSERT_NE(to, docs.npos);
+    const std::size_t first = from + begin.size();
+    if (std::getenv("SWIRL_WRITE_DOCS")) {
+        docs.replace(first, to - first, table());
+        std::ofstream(page) << docs;
+        return;
+    }
+    EXPECT_EQ(docs.substr(first, to - first), table());
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,90 @@
+// What a sweep is before it is run: its axes, its points and their seeds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files/scratch.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/study/sweep.hpp"
+
+namespace swirl {
+namespace {
+
+std::string refusal(const ParameterTexts& texts) {
+    try {
+        make_plan(texts, 1);
+    } catch (const WrongCall& wrong) {
+        return wrong.what();
+    }
+    return "";
+}
+
+// Results of earlier versions stay comparable only as long as seeds stay what they are.
+TEST(SweepPlan, TheSeedsOfPointsAreWhatTheyAlwaysWere) {
+    const SweepPlan plan = make_plan({{"discs", "5,6"},
+                                      {"mu-disc", "0.5"},
+                                      {"mixture", "2:1.2"},
+                                      {"path", "circle"},
+                                      {"speed", "2"},
+                                      {"seed", "3"},
+                                      {"events", "1000"}},
+                                     2);
+    ASSERT_EQ(plan.points(), 4u);
+    const std::uint64_t seeds[] = {1700515903352763, 6180745996988959, 952870390363854,
+                                   4737086376560742};
+    for (std::size_t point = 0; point < 4; ++point)
+        EXPECT_EQ(plan.config(point).seed, seeds[point]);
+}
+
+TEST(SweepPlan, EveryParameterCanBeAnAxis) {
+    for (const std::string& name : parameter_names()) {
+        const std::string text = default_of(*find_parameter(name));
+        const std::string value = name == "mixture"   ? "2:1.2"
+                                  : name == "warmup"  ? "7"
+                                  : name == "periods" ? "50"
+                                  : text.empty()      ? "1"
+                                                      : text;
+        const SweepPlan plan = make_plan({{name, value}}, 1);
+        ASSERT_EQ(plan.axes.size(), 1u);
+        EXPECT_EQ(plan.axes[0].name, name);
+    }
+}
+
+TEST(SweepPlan, AnAxisWithoutEffectIsRefused) {
+    EXPECT_THAT(refusal({{"mu", "0.1,0.5"}, {"mu_disc", "1"}, {"mu_wall", "1"}}),
+                testing::HasSubstr("--mu 0.1 and --mu 0.5 are the same run"));
+    EXPECT_THAT(refusal({{"discs", "5,6,5"}}), testing::HasSubstr("--seeds"));
+    EXPECT_EQ(refusal({{"mu", "0.1,0.5"}, {"mu_disc", "1"}}), "");
+}
+
+class PlanFile : public testing::Test {
+  protected:
+    std::string refusal_of(const std::string& text) {
+        write_quickly(scratch_ / "plan.json", text);
+        try {
+            read_plan(scratch_.folder());
+        } catch (const FileError& wrong) {
+            return wrong.what();
+        }
+        return "";
+    }
+    Scratch scratch_;
+};
+
+TEST_F(PlanFile, ThatNobodyCanDoIsRefusedInASentence) {
+    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":[]},"replicas":1})"),
+                testing::HasSubstr("discs has no values"));
+    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":1152921504606846976})"),
+                testing::HasSubstr("1.15e+18 runs"));
+    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":0})"),
+                testing::HasSubstr("from 1 to"));
+    EXPECT_THAT(refusal_of(R"({"format":1)"), testing::HasSubstr("is no plan of a sweep"));
+}
+
+TEST_F(PlanFile, OfBeforeTheNamesHadUnderscoresIsRead) {
+    EXPECT_EQ(refusal_of(R"({"format":1,"axes":{"mu-disc":["0.5","1"]},"replicas":1})"), "");
+    EXPECT_EQ(read_plan(scratch_.folder()).axes.at(0).name, "mu_disc");
+}
+
+}  // namespace
+}  // namespace swirl
