@@ -1,7 +1,9 @@
 #include "swirl/draw/movie.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,11 +110,15 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
                          int frames_per_second)
     : path_(path), aside_(path + ".partial") {
     // ffmpeg would say this too, but only once the first frames have been drawn.
-    const int probe = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (probe < 0)
+    lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (lock_ < 0)
         throw DrawFailure("The movie " + path_ + " could not be written: " + std::strerror(errno) +
                           ".");
-    ::close(probe);
+    if (!lock()) {
+        ::close(lock_);
+        throw DrawFailure("The movie " + path_ +
+                          " is being made by another process; wait for it or choose another name.");
+    }
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
             arguments(format, size, frames_per_second, aside_), Ffmpeg::Side::input,
@@ -120,6 +126,7 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
             "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.");
     } catch (const DrawFailure&) {
         ::unlink(aside_.c_str());
+        ::close(lock_);
         throw;
     }
 }
@@ -127,6 +134,15 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
 MovieWriter::~MovieWriter() {
     ffmpeg_.reset();
     if (!finished_) ::unlink(aside_.c_str());
+    ::close(lock_);
+}
+
+/// Nobody else writes the file aside, and it still has its name.
+bool MovieWriter::lock() {
+    struct stat ours, named;
+    return (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+           ::fstat(lock_, &ours) == 0 && ::stat(aside_.c_str(), &named) == 0 &&
+           ours.st_ino == named.st_ino;
 }
 
 void MovieWriter::fail(int status) {
@@ -156,7 +172,8 @@ void MovieWriter::finish() {
     const bool complained = ffmpeg_->said().find("No space left") != std::string::npos;
     if (!well || complained) fail(status);
     finished_ = true;
-    if (std::rename(aside_.c_str(), path_.c_str()) == 0) return;
+    // Only now is it known that all of it arrived.
+    if (::fsync(lock_) == 0 && std::rename(aside_.c_str(), path_.c_str()) == 0) return;
     const std::string reason = std::strerror(errno);
     ::unlink(aside_.c_str());
     throw DrawFailure("The movie " + path_ + " could not be written: " + reason + ".");
