@@ -109,16 +109,7 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
                          int frames_per_second)
     : path_(path), aside_(path + ".partial") {
-    // ffmpeg would say this too, but only once the first frames have been drawn.
-    lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-    if (lock_ < 0)
-        throw DrawFailure("The movie " + path_ + " could not be written: " + std::strerror(errno) +
-                          ".");
-    if (!lock()) {
-        ::close(lock_);
-        throw DrawFailure("The movie " + path_ +
-                          " is being made by another process; wait for it or choose another name.");
-    }
+    open_aside();
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
             arguments(format, size, frames_per_second, aside_), Ffmpeg::Side::input,
@@ -137,12 +128,27 @@ MovieWriter::~MovieWriter() {
     ::close(lock_);
 }
 
-/// Nobody else writes the file aside, and it still has its name.
-bool MovieWriter::lock() {
-    struct stat ours, named;
-    return (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
-           ::fstat(lock_, &ours) == 0 && ::stat(aside_.c_str(), &named) == 0 &&
-           ours.st_ino == named.st_ino;
+/// Always a file of our own: the ffmpeg of a movie that was killed may still write into the one
+/// that it was given. (ffmpeg would complain too, but only once the first frames have been drawn.)
+void MovieWriter::open_aside() {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        const bool fresh = lock_ >= 0;
+        if (!fresh && errno == EEXIST)
+            lock_ = ::open(aside_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (lock_ < 0 && errno == ENOENT) continue;
+        if (lock_ < 0)
+            throw DrawFailure("The movie " + path_ +
+                              " could not be written: " + std::strerror(errno) + ".");
+        const bool locked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+        struct stat about {};
+        if (locked && fresh && ::fstat(lock_, &about) == 0 && about.st_nlink > 0) return;
+        if (locked && !fresh) ::unlink(aside_.c_str());  // what a kill left behind
+        ::close(lock_);
+        if (!locked) break;
+    }
+    throw DrawFailure("The movie " + path_ +
+                      " is being made by another process; wait for it or choose another name.");
 }
 
 void MovieWriter::fail(int status) {

@@ -44,7 +44,7 @@ class MovieWriter {
 
   private:
     [[noreturn]] void fail(int status);
-    bool lock();
+    void open_aside();
 
     std::string path_, aside_;
     std::unique_ptr<Ffmpeg> ffmpeg_;

@@ -3,7 +3,7 @@
    before it, or keeps a record of everything that changes files.
 
      FAULT_CALL   open read pwrite write fsync rename close unlink truncate, or change: any that
-                  changes files (all but open for reading, read and close)
+                  changes files (all but open for reading, read and close), or new: operator new
      FAULT_AT     which call of that kind, from 1; 0: none, only count
      FAULT_ERRNO  the number of the error it gives; 0: the process is killed instead
      FAULT_EVER   1: all calls from there on fail, not only this one
@@ -252,6 +252,22 @@ static int removed(const char* path) {
 }
 int unlink(const char* path) { return removed(path); }
 int remove(const char* path) { return removed(path); }
+
+/* operator new, and what throws std::bad_alloc. */
+void* _Znwm(size_t size) {
+    static int wanted = -1;
+    if (wanted < 0) wanted = strcmp(setting("FAULT_CALL"), "new") == 0;
+    if (wanted) {
+        pthread_mutex_lock(&lock);
+        const int failed = fails("new", 0);
+        pthread_mutex_unlock(&lock);
+        if (failed) {
+            void (*refuse)(void) = (void (*)(void))dlsym(RTLD_DEFAULT, "_ZSt17__throw_bad_allocv");
+            refuse();
+        }
+    }
+    return malloc(size ? size : 1);
+}
 
 int close(int file) {
     if (!*name_of(file)) return (int)syscall(SYS_close, file);

@@ -12,6 +12,7 @@ import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -68,7 +69,7 @@ class Faults(unittest.TestCase):
 
     def some(self, numbers, most):
         numbers = list(numbers)
-        if EVERY or len(numbers) <= most:
+        if len(numbers) <= most:
             return numbers
         return sorted(self.choose.sample(numbers, most))
 
@@ -127,6 +128,7 @@ class Faults(unittest.TestCase):
         self.assertTrue(done.stderr.startswith("swirl: "), f"{where}: {done.stderr}")
 
     def fail_each(self, arguments, assert_right, most):
+        most = 10**9 if EVERY else most
         for call in CALLS:
             calls, said, right = self.count(call, arguments), 0, 0
             for error, ever in ((errno.ENOSPC, "0"), (errno.EIO, "1"), (errno.EIO, "0"))[
@@ -145,11 +147,35 @@ class Faults(unittest.TestCase):
             TABLE.append(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
                          f"{said} said so, {right} right all the same")
 
+    def fail_memory(self, most):
+        calls, said, right, aborted = self.count("new", self.run_call), 0, 0, 0
+        # Before main() nobody is there who could say anything.
+        before = self.count("new", ["--version"])
+        for k in self.some(range(before, calls + 1), most):
+            where = f"new {k} of {calls}"
+            self.anew()
+            done = self.swirl(*self.run_call, **setting("new", k, errno.ENOMEM))
+            if done.returncode == 0:
+                self.assert_right(where)
+                right += 1
+            elif done.returncode == -signal.SIGABRT and "std::bad_alloc" in done.stderr:
+                aborted += 1  # the JSON library needs memory in its destructors
+            else:
+                self.assert_said(done, where)
+                said += 1
+        TABLE.append(f"run, new fails: {calls} places, {said + right + aborted} tried, {said} said "
+                     f"so, {right} right all the same, {aborted} aborted")
+        self.assertLess(aborted, max(4, (said + right) / 4))
+
     # --- the tests ---------------------------------------------------------------------------------
 
     def test_a_call_that_fails_in_a_run_is_told_or_does_no_harm(self):
         self.undisturbed()
         self.fail_each(self.run_call, self.assert_right, 5)
+
+    def test_memory_that_is_not_given_in_a_run_is_told_or_does_no_harm(self):
+        self.undisturbed()
+        self.fail_memory(600 if EVERY else 15)
 
     def test_a_call_that_fails_in_a_sweep_is_told_or_does_no_harm(self):
         self.undisturbed_sweep()
@@ -158,7 +184,7 @@ class Faults(unittest.TestCase):
     def test_killed_before_a_change_of_a_file_the_run_is_resumed_to_the_same_bits(self):
         self.undisturbed()
         calls = self.count("change", self.run_call)
-        tried = self.some(range(1, calls + 1), 20)
+        tried = self.some(range(1, calls + 1), 10**9 if EVERY else 20)
         for k in tried:
             self.anew()
             self.swirl(*self.run_call, FAULT_UNDER=self.folder, **setting("change", k))
