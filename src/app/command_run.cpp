@@ -7,6 +7,7 @@
 #include "swirl/app/commands.hpp"
 #include "swirl/app/config_file.hpp"
 #include "swirl/app/output.hpp"
+#include "swirl/app/overwriting.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/recording_options.hpp"
 #include "swirl/app/run_options.hpp"
@@ -100,6 +101,11 @@ void run_and_report(RunCall& call) {
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
     if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
+    if (is_done_already(files, call.json, config)) {
+        if (!call.quiet) print_all(fmt::format("'{}' is complete already.\n", call.json));
+        return;
+    }
+    refuse_to_overwrite(files, call.json);
     files.complain = [](const std::string& what) { fmt::print(stderr, "swirl: {}\n", what); };
     if (files.resume && !std::filesystem::exists(files.checkpoint) && !call.quiet)
         fmt::print(stderr, "swirl: There is no checkpoint '{}'; the run starts at its beginning.\n",

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +17,7 @@
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/run/version.hpp"
 
@@ -42,99 +46,221 @@ std::string made_by(const Json& result) {
     return by.is_string() ? by.get<std::string>() : "?";
 }
 
+/// What says how, when and by whom a result was made, and not what it is.
+bool is_of_the_call(const std::string& name) {
+    for (const char* other : {"seconds", "events_per_second", "warnings", "version", "build"})
+        if (name == other) return true;
+    return false;
+}
+
+/// Runs again to the end, or until `enough` says so.
+RunResult run_again(const RunConfig& config, RunControl control, bool quiet,
+                    const std::atomic<bool>* enough = nullptr) {
+    ProgressLine line("again", quiet);
+    std::atomic<bool> stop = false;
+    control.stop = &stop;
+    control.progress = [&](const RunProgress& p) {
+        line.show(p.fraction, fmt::format("{} events", p.events));
+    };
+    const auto asked = std::move(control.after_event);
+    control.after_event = [&](const Snapshot& s, const Event& event) {
+        if (asked) asked(s, event);
+        if (stop_signal().load(std::memory_order_relaxed) || (enough && *enough)) stop = true;
+    };
+    RunResult result = run(config, control);
+    line.clear();
+    if (stop_signal().load()) throw Interrupted("Stopped before the end of the run.");
+    return result;
+}
+
 void verify_result(const std::string& file, bool quiet) {
-    const Json json = Json::parse(read_whole_file(file), nullptr, false);
+    const Json json = Json::parse(read_regular_file(file), nullptr, false);
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
     if (json.value("complete", Json()) != Json(true))
         throw Failure(fmt::format(
             "'{}' is of a run that was stopped before its end, and cannot be compared.", file));
     const RunConfig config = config_in(file, json["config"].dump());
-    ProgressLine line("again", quiet);
-    RunControl control;
-    control.stop = &stop_signal();
-    control.progress = [&](const RunProgress& p) {
-        line.show(p.fraction, fmt::format("{} events", p.events));
-    };
-    const RunResult again = run(config, control);
-    line.clear();
-    if (!again.complete) throw Interrupted("Stopped before the end of the run.");
-    const Json result = result_json(again);
-    for (const char* part : {"state_hash", "events", "rotation"})
-        if (json.value(part, Json()) != result.at(part))
+    const Json result = result_json(run_again(config, {}, quiet));
+    for (const auto& [part, now] : result.items())
+        if (!is_of_the_call(part) && json.value(part, Json()) != Json::parse(now.dump()))
             throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,
-                                      json.value(part, Json()).dump(), result.at(part).dump(),
+                                      json.value(part, Json()).dump(), now.dump(),
                                       of_version(made_by(json))));
     if (!quiet)
-        print_all(fmt::format("The same, bit for bit: {} events, state {}.\n", again.events.total(),
-                              result["state_hash"].get<std::string>()));
+        print_all(fmt::format("The same, bit for bit: {} events, state {}.\n",
+                              result["events"]["total"].dump(), result["state_hash"].get<std::string>()));
+}
+
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(Vec2 a, Vec2 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y); }
+
+/// A frame as it was recorded and a moment of the run: everything that a frame consists of.
+bool same_frame(const Snapshot& frame, const Snapshot& now) {
+    bool same = frame.size() == now.size() && frame.swirls == now.swirls &&
+                same_bits(frame.clock, now.clock) && same_bits(frame.period, now.period) &&
+                same_bits(frame.container_radius, now.container_radius) &&
+                same_bits(frame.container_centre, now.container_centre) &&
+                same_bits(frame.container_velocity, now.container_velocity);
+    for (std::size_t i = 0; same && i < now.size(); ++i)
+        same = same_bits({frame.x[i], frame.y[i]}, now.position(i)) &&
+               same_bits({frame.vx[i], frame.vy[i]}, {now.vx[i], now.vy[i]}) &&
+               same_bits(frame.angle[i], now.orientation(i)) &&
+               same_bits(frame.spin[i], now.spin[i]) && same_bits(frame.radius[i], now.radius[i]) &&
+               same_bits(frame.mass[i], now.mass[i]) && same_bits(frame.inertia[i], now.inertia[i]);
+    return same;
+}
+
+/// How a recording is compared with the run that it says it is of.
+class Comparison {
+  public:
+    Comparison(std::string file, const char* what, std::uint64_t there, bool complete,
+               std::string made_by)
+        : file_(std::move(file)),
+          what_(what),
+          there_(there),
+          complete_(complete),
+          made_by_(std::move(made_by)),
+          enough_(!complete && there == 0) {}
+
+    std::uint64_t next() const { return next_; }
+    const std::atomic<bool>* enough() const { return &enough_; }
+    /// Of an unfinished recording the run may have more.
+    bool expects_more() const { return next_ < there_ || complete_; }
+
+    void found(bool same, std::string_view how) {
+        if (next_ >= there_) refuse(fmt::format("it ends there, but the run has more {}s", what_));
+        if (!same) refuse(how);
+        if (++next_ == there_ && !complete_) enough_ = true;
+    }
+    [[noreturn]] void refuse(std::string_view how) const {
+        throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, what_, next_, how,
+                                  of_version(made_by_)));
+    }
+    void report(bool quiet) const {
+        if (next_ < there_) refuse(fmt::format("the run has no more than {}", next_));
+        if (quiet) return;
+        print_all(complete_ ? fmt::format("The same, bit for bit: {} {}s.\n", next_, what_)
+                            : fmt::format(
+                                  "The same, bit for bit, as far as it goes: {} {}s of a run that "
+                                  "was not finished.\n",
+                                  next_, what_));
+    }
+
+  private:
+    std::string file_;
+    const char* what_;
+    std::uint64_t there_, next_ = 0;
+    bool complete_;
+    std::string made_by_;
+    std::atomic<bool> enough_;
+};
+
+/// When its frames were taken, as the recording says.
+FrameTimes frame_times_in(const std::string& file, const std::string& text) {
+    const Json json = Json::parse(text, nullptr, false);
+    FrameTimes times;
+    try {
+        if (json.contains("events"))
+            times.events = json.at("events").get<std::int64_t>();
+        else if (json.contains("interval"))
+            times.interval = json.at("interval").get<double>();
+        else
+            times.per_swirl = json.at("per_swirl").get<int>();
+    } catch (const nlohmann::json::exception&) {
+        throw Failure(fmt::format(
+            "'{}' does not say when its frames were taken, so nobody knows how many there must be.",
+            file));
+    }
+    if (times.events.value_or(1) < 1 || !(times.interval.value_or(1.0) > 0.0) ||
+        times.per_swirl < 1)
+        throw Failure(fmt::format("'{}' says that no time lies between its frames.", file));
+    return times;
 }
 
 /// Every frame against the engine's state at that moment.
 void verify_trajectory(const std::string& file, bool quiet) {
     TrajectoryReader reader(file);
     const RunConfig config = config_in(file, reader.provenance("parameters"));
-    Simulation simulation(make_initial_state(config));
-    ProgressLine line("again", quiet);
-    for (std::uint64_t k = 0; k < reader.frames(); ++k) {
-        if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
-        const Snapshot frame = reader.frame(k);
-        simulation.advance_to(frame.swirls, frame.clock);
-        const Snapshot now = simulation.snapshot();
-        bool same = frame.size() == now.size();
-        for (std::size_t i = 0; same && i < now.size(); ++i) {
-            const Vec2 p = now.position(i);
-            same = p.x == frame.x[i] && p.y == frame.y[i] && now.vx[i] == frame.vx[i] &&
-                   now.vy[i] == frame.vy[i] && now.orientation(i) == frame.angle[i] &&
-                   now.spin[i] == frame.spin[i];
-        }
-        if (!same)
-            throw Failure(fmt::format("'{}' differs from frame {} on (time {}).{}", file, k,
-                                      frame.time(), of_version(reader.provenance("version"))));
-        line.show(double(k + 1) / double(reader.frames()), fmt::format("frame {}", k + 1));
-    }
-    line.clear();
-    if (!quiet) print_all(fmt::format("The same, bit for bit: {} frames.\n", reader.frames()));
+    const FrameTimes times = frame_times_in(file, reader.provenance("frames"));
+    Comparison comparison(file, "frame", reader.frames(), reader.complete(),
+                          reader.provenance("version"));
+    std::uint64_t events = 0;
+    const auto compare = [&](const Snapshot& now) {
+        if (!comparison.expects_more()) return;
+        const std::uint64_t k = comparison.next();
+        comparison.found(k < reader.frames() && same_frame(reader.frame(k), now) &&
+                             reader.events_before(k) == events,
+                         "the run has another one");
+    };
+    RunControl control;
+    if (!times.events)
+        control.samplers.push_back({times.per_swirl, compare, times.interval.value_or(0.0)});
+    control.after_event = [&](const Snapshot& s, const Event&) {
+        ++events;
+        if (times.events && events % std::uint64_t(*times.events) == 0) compare(s);
+    };
+    run_again(config, control, quiet, comparison.enough());
+    comparison.report(quiet);
 }
 
 bool same_events(const Event& a, const Event& b) {
-    return a.swirls == b.swirls && a.clock == b.clock && a.kind == b.kind && a.i == b.i &&
-           a.j == b.j && a.normal.x == b.normal.x && a.normal.y == b.normal.y &&
-           a.impulse.normal == b.impulse.normal && a.impulse.tangential == b.impulse.tangential &&
+    return a.swirls == b.swirls && same_bits(a.clock, b.clock) && a.kind == b.kind && a.i == b.i &&
+           a.j == b.j && same_bits(a.normal, b.normal) &&
+           same_bits(a.impulse.normal, b.impulse.normal) &&
+           same_bits(a.impulse.tangential, b.impulse.tangential) &&
            a.impulse.sticks == b.impulse.sticks;
+}
+
+bool same_discs(const Disc& a, const Disc& b) {
+    return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
+           same_bits(a.angle, b.angle) && same_bits(a.spin, b.spin) && same_bits(a.time, b.time) &&
+           same_bits(a.radius, b.radius) && same_bits(a.mass, b.mass) &&
+           same_bits(a.inertia, b.inertia);
+}
+
+/// What the log says of the run before its first event.
+void verify_beginning(const EventLogReader& log, const InitialState& scene,
+                      const Simulation& simulation, const Comparison& comparison) {
+    if (log.initial().size() != simulation.size()) comparison.refuse("another number of discs");
+    for (std::size_t i = 0; i < simulation.size(); ++i)
+        if (!same_discs(log.initial()[i], simulation.disc(i)))
+            comparison.refuse(fmt::format("disc {} begins otherwise", i));
+    if (!same_bits(log.period(), scene.path.period) ||
+        !same_bits(log.swirl_end(), scene.path.legs.back().end) ||
+        !same_bits(log.container_radius(), scene.container_radius))
+        comparison.refuse("the container is another");
 }
 
 /// Every event against the engine's, and the state that they lead to against its state.
 void verify_event_log(const std::string& file, bool quiet) {
     EventLogReader log(file);
-    Simulation simulation(make_initial_state(config_in(file, log.provenance("parameters"))));
+    const RunConfig config = config_in(file, log.provenance("parameters"));
+    Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
+    const InitialState scene = make_initial_state(config);
+    Simulation simulation(scene);
+    verify_beginning(log, scene, simulation, comparison);
     Replay replay(log.initial(), log.swirl_end());
-    ProgressLine line("again", quiet);
-    const auto refuse = [&](std::uint64_t event, const char* what) {
-        throw Failure(fmt::format("'{}' differs from event {} on: {}.{}", file, event, what,
-                                  of_version(log.provenance("version"))));
-    };
-    if (log.initial().size() != simulation.size()) refuse(0, "another number of discs");
     constexpr std::uint64_t at_once = 1 << 16;
-    for (std::uint64_t first = 0; first < log.events(); first += at_once) {
-        if (stop_signal().load()) throw Interrupted("Stopped before the last event.");
-        std::uint64_t k = first;
-        for (const Event& event : log.read(first, std::min(at_once, log.events() - first))) {
-            if (!same_events(event, simulation.step())) refuse(k, "another event happens now");
-            replay.apply(event);
-            ++k;
-        }
-        line.show(double(k) / double(log.events()), fmt::format("event {}", k));
-    }
-    for (std::size_t i = 0; i < simulation.size(); ++i) {
-        const Disc a = replay.discs()[i], b = simulation.disc(i);
-        if (a.position.x != b.position.x || a.position.y != b.position.y ||
-            a.velocity.x != b.velocity.x || a.velocity.y != b.velocity.y || a.angle != b.angle ||
-            a.spin != b.spin || a.time != b.time)
-            refuse(0, "the state that the events lead to is another");
-    }
-    line.clear();
-    if (!quiet) print_all(fmt::format("The same, bit for bit: {} events.\n", log.events()));
+    std::vector<Event> block;
+    RunControl control;
+    control.after_event = [&](const Snapshot&, const Event& now) {
+        if (!comparison.expects_more()) return;
+        const std::uint64_t k = comparison.next();
+        if (k < log.events() && k % at_once == 0)
+            block = log.read(k, std::min(at_once, log.events() - k));
+        const bool same = k < log.events() && same_events(block[k % at_once], now);
+        comparison.found(same, "another event happens now");
+        simulation.step();
+        replay.apply(now);
+    };
+    run_again(config, control, quiet, comparison.enough());
+    for (std::size_t i = 0; i < simulation.size(); ++i)
+        if (!same_discs(replay.discs()[i], simulation.disc(i)))
+            comparison.refuse("the state that the events lead to is another");
+    comparison.report(quiet);
 }
 
 void add_verify_command(Subcommand& subcommand) {
@@ -150,6 +276,11 @@ void add_verify_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
     subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
+        std::error_code unknown;
+        if (std::filesystem::exists(call->file, unknown) &&
+            !std::filesystem::is_regular_file(call->file, unknown))
+            throw Failure(
+                fmt::format("'{}' is not a regular file, but it must be one.", call->file));
         std::ifstream stream(call->file, std::ios::binary);
         if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", call->file));
         if (stream.get() != 0x89) return verify_result(call->file, call->quiet);

@@ -45,7 +45,9 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
     const auto kind = std::filesystem::status(file, ignored).type();
     if (kind == std::filesystem::file_type::regular ||
         kind == std::filesystem::file_type::not_found) {
-        write_whole_file(target.empty() ? file : target, text);
+        const auto& place = target.empty() ? file : target;
+        write_whole_file(place, text);
+        remove_leftovers(place.parent_path(), place.filename().string());
         return;
     }
     std::FILE* const stream = std::fopen(file.c_str(), "w");

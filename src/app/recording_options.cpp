@@ -153,6 +153,10 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
         .add_flag("--resume", call->resume,
                   "go on from the checkpoint, if there is one, to the same result bit for bit")
         ->group(group);
+    subcommand
+        .add_flag("--overwrite", call->overwrite,
+                  "begin anew over files that are there; a checkpoint is kept as NAME.backup")
+        ->group(group);
     return call;
 }
 
@@ -176,6 +180,9 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     files.event_log = text_of(call, "log_events");
     files.compression = compression(call);
     files.resume = call.resume;
+    files.overwrite = call.overwrite;
+    if (call.resume && call.overwrite)
+        throw WrongCall("--resume goes on, --overwrite begins anew; give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");

@@ -1,5 +1,7 @@
 // The command line. Reads the arguments, calls the subcommand, and turns what went wrong into one
 // sentence and an exit code: 0 done, 1 could not be done, 2 wrong call, 130 stopped by a signal.
+#include <fcntl.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -31,9 +33,17 @@ int main_or_throw(int argc, char** argv) {
     return 0;
 }
 
+/// A program may be called with its standard input, output or errors closed. The next file it
+/// opened would get that number, and be written into by whoever complains.
+void open_closed_standard_files() {
+    for (int number = 0; number <= 2; ++number)
+        if (fcntl(number, F_GETFD) < 0) (void)open("/dev/null", O_RDWR);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    open_closed_standard_files();
     // A file that grows beyond what is allowed is an error of write(), like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
     swirl::remember_command_line(argc, argv);

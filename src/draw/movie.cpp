@@ -1,7 +1,9 @@
 #include "swirl/draw/movie.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -107,12 +109,7 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
                          int frames_per_second)
     : path_(path), aside_(path + ".partial") {
-    // ffmpeg would say this too, but only once the first frames have been drawn.
-    const int probe = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (probe < 0)
-        throw DrawFailure("The movie " + path_ + " could not be written: " + std::strerror(errno) +
-                          ".");
-    ::close(probe);
+    open_aside();
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
             arguments(format, size, frames_per_second, aside_), Ffmpeg::Side::input,
@@ -120,6 +117,7 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
             "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.");
     } catch (const DrawFailure&) {
         ::unlink(aside_.c_str());
+        ::close(lock_);
         throw;
     }
 }
@@ -127,6 +125,30 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
 MovieWriter::~MovieWriter() {
     ffmpeg_.reset();
     if (!finished_) ::unlink(aside_.c_str());
+    ::close(lock_);
+}
+
+/// Always a file of our own: the ffmpeg of a movie that was killed may still write into the one
+/// that it was given. (ffmpeg would complain too, but only once the first frames have been drawn.)
+void MovieWriter::open_aside() {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        const bool fresh = lock_ >= 0;
+        if (!fresh && errno == EEXIST)
+            lock_ = ::open(aside_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (lock_ < 0 && errno == ENOENT) continue;
+        if (lock_ < 0)
+            throw DrawFailure("The movie " + path_ +
+                              " could not be written: " + std::strerror(errno) + ".");
+        const bool locked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+        struct stat about {};
+        if (locked && fresh && ::fstat(lock_, &about) == 0 && about.st_nlink > 0) return;
+        if (locked && !fresh) ::unlink(aside_.c_str());  // what a kill left behind
+        ::close(lock_);
+        if (!locked) break;
+    }
+    throw DrawFailure("The movie " + path_ +
+                      " is being made by another process; wait for it or choose another name.");
 }
 
 void MovieWriter::fail(int status) {
@@ -156,7 +178,8 @@ void MovieWriter::finish() {
     const bool complained = ffmpeg_->said().find("No space left") != std::string::npos;
     if (!well || complained) fail(status);
     finished_ = true;
-    if (std::rename(aside_.c_str(), path_.c_str()) == 0) return;
+    // Only now is it known that all of it arrived.
+    if (::fsync(lock_) == 0 && std::rename(aside_.c_str(), path_.c_str()) == 0) return;
     const std::string reason = std::strerror(errno);
     ::unlink(aside_.c_str());
     throw DrawFailure("The movie " + path_ + " could not be written: " + reason + ".");

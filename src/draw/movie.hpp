@@ -44,9 +44,11 @@ class MovieWriter {
 
   private:
     [[noreturn]] void fail(int status);
+    void open_aside();
 
     std::string path_, aside_;
     std::unique_ptr<Ffmpeg> ffmpeg_;
+    int lock_ = -1;          // on the file aside, which ffmpeg opens for itself
     bool finished_ = false;  // the file aside is gone
 };
 

@@ -40,10 +40,11 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
     }
     file.append(number(sum.value()));
     file.finish();
+    remove_leftovers(path.parent_path(), path.filename().string());
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
-    const std::string bytes = read_whole_file(path);
+    const std::string bytes = read_regular_file(path);
     std::string_view rest = bytes;
     const auto refuse = [&](const std::string& why) {
         throw FileError(fmt::format("'{}' {}.", path.string(), why));

@@ -5,18 +5,14 @@
 #include <algorithm>
 
 #include "swirl/files/file_error.hpp"
-#include "swirl/files/whole_file.hpp"
+#include "swirl/files/recording.hpp"
 
 namespace swirl {
 namespace {
 
 constexpr std::uint64_t chunk = 16384;
-constexpr std::chrono::milliseconds flush_interval(500);
+constexpr std::chrono::milliseconds flush_interval(1000);
 const std::string parameters = "/parameters";
-
-std::filesystem::path partial_name(const std::filesystem::path& path) {
-    return path.string() + std::string(partial_suffix);
-}
 
 std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y) {
     std::vector<double> both;
@@ -77,9 +73,9 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
     flush();
 }
 
-EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::uint64_t events) {
-    take_back_name(partial_name(path), path);
-    EventLogWriter writer(path, Hdf5File(partial_name(path), StagedFile::Mode::change));
+EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::uint64_t events,
+                                      const std::string& run) {
+    EventLogWriter writer(path, reopen_recording(path, run));
     writer.file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     writer.open_columns();
     Columns& c = writer.columns_;
@@ -131,9 +127,9 @@ void EventLogWriter::empty_buffer() {
     last_flush_ = std::chrono::steady_clock::now();
 }
 
-void EventLogWriter::flush(bool durable) {
+void EventLogWriter::flush() {
     empty_buffer();
-    file_->flush(durable);
+    file_->flush();
     last_flush_ = std::chrono::steady_clock::now();
 }
 
@@ -141,9 +137,8 @@ void EventLogWriter::finish() {
     empty_buffer();
     file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{1});
     columns_ = {};
-    file_->close();
+    file_->finish(path_);
     file_.reset();
-    give_final_name(partial_name(path_), path_);
 }
 
 bool is_event_log(const std::filesystem::path& path) {
@@ -168,6 +163,13 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     normal_impulse_ = column("normal_impulse");
     tangential_impulse_ = column("tangential_impulse");
     sticks_ = column("sticks");
+    for (const Column* each : {&swirls_, &clock_, &kind_, &i_, &j_, &normal_x_, &normal_y_,
+                               &normal_impulse_, &tangential_impulse_, &sticks_})
+        if (!each->row_shape().empty())
+            throw FileError(
+                fmt::format("'{}' contradicts itself: an event has one value in each "
+                            "column, and it has a table in one.",
+                            path.string()));
     events_ = std::min({swirls_.rows(), clock_.rows(), kind_.rows(), i_.rows(), j_.rows(),
                         normal_x_.rows(), normal_y_.rows(), normal_impulse_.rows(),
                         tangential_impulse_.rows(), sticks_.rows()});

@@ -47,7 +47,8 @@ class EventLogWriter {
     EventLogWriter(const std::filesystem::path& path, const Snapshot& initial, double swirl_end,
                    const Provenance& provenance, int compression = default_compression);
     /// Carries on with an unfinished log, of which the first `events` count.
-    static EventLogWriter resume(const std::filesystem::path& path, std::uint64_t events);
+    static EventLogWriter resume(const std::filesystem::path& path, std::uint64_t events,
+                                 const std::string& run = "");
     EventLogWriter(EventLogWriter&&) noexcept = default;
     EventLogWriter& operator=(EventLogWriter&&) noexcept = default;
 
@@ -57,7 +58,7 @@ class EventLogWriter {
         if (buffer_.size() == buffer_size) empty_buffer();
     }
     std::uint64_t events() const { return events_; }
-    void flush(bool durable = false);
+    void flush();
     void finish();
 
   private:

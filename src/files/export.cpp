@@ -371,6 +371,7 @@ void export_series(const SnapshotSeries& series, ExportFormat format,
             break;
     }
     file.finish();
+    remove_leftovers(path.parent_path(), path.filename().string());
 }
 
 }  // namespace swirl

@@ -204,16 +204,30 @@ struct Hdf5File::State {
         : path(p.string()), staged(p, mode) {}
 
     static void leak(const std::shared_ptr<State>& state) { new std::shared_ptr<State>(state); }
-    [[noreturn]] void fail(std::string_view what) {
-        const std::string reason =
-            failure.empty() ? fmt::format("'{}': {} failed ({}).", path, what, library_reason())
-                            : failure;
-        staged.abandon();
-        throw FileError(reason);
+    std::string sentence(std::string_view what) const {
+        return fmt::format("'{}': {} failed ({}).", path, what, library_reason());
     }
+    [[noreturn]] void fail(std::string_view what) {
+        if (failure.empty()) failure = sentence(what);
+        staged.abandon();
+        throw FileError(failure);
+    }
+    /// A failure that the library did not pass on counts too.
     hid_t check(hid_t result, std::string_view what) {
-        if (result < 0) fail(what);
+        if (result < 0 || !failure.empty()) fail(what);
         return result;
+    }
+    /// For destructors, which cannot throw: the next check() does.
+    void note(herr_t result, std::string_view what) {
+        if (result < 0 && failure.empty()) failure = sentence(what);
+    }
+    void commit() {
+        try {
+            staged.commit();
+        } catch (const FileError& error) {
+            if (failure.empty()) failure = error.what();
+            fail("writing");
+        }
     }
     Handle object(const std::string& name) {
         return {check(H5Oopen(id, name.c_str(), H5P_DEFAULT), "opening " + name), H5Oclose};
@@ -221,11 +235,13 @@ struct Hdf5File::State {
     void write_attribute(const std::string& owner, const std::string& name, hid_t type, hid_t space,
                          const void* value) {
         const Handle target = object(owner);
-        H5Adelete(target, name.c_str());
-        const Handle attribute(
-            H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        if (check(H5Aexists(target, name.c_str()), "looking for attribute " + name) > 0)
+            check(H5Adelete(target, name.c_str()), "replacing attribute " + name);
+        Handle attribute(H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
         check(attribute, "creating attribute " + name);
         check(H5Awrite(attribute, type, value), "writing attribute " + name);
+        check(attribute.close(), "closing attribute " + name);
     }
 };
 
@@ -236,7 +252,7 @@ struct Column::Handle {
     ~Handle() {
         const Locked lock(library_lock());
         // Closing the file closes its datasets; the number may belong to something else by then.
-        if (file->id >= 0) H5Dclose(id);
+        if (file->id >= 0) file->note(H5Dclose(id), "closing a column");
     }
 };
 
@@ -256,6 +272,7 @@ Column::Column(std::shared_ptr<Handle> handle, std::string name)
     chunk_shape_.assign(extent.begin(), extent.end());
     const int filters = H5Pget_nfilters(properties);
     packing_ = filters > 1 ? Packing::deflate : filters == 1 ? Packing::stream : Packing::none;
+    handle_->file->check(0, "opening " + name_);
 }
 
 /// Some rows of a column, or one entry of the last dimension of each: in the file and in memory.
@@ -318,9 +335,18 @@ void Column::put_chunk(std::uint64_t first, const void* bytes, std::size_t size,
 template <ColumnValue T>
 std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
     const Locked lock(library_lock());
-    if (first + count > rows_)
+    if (first > rows_ || count > rows_ - first)
         throw FileError(fmt::format("'{}' has {} entries in {}, entries {} to {} were asked for.",
                                     handle_->file->path, rows_, name_, first, first + count));
+    // Deflate makes at best a byte of a thousand, so a small file that promises a large column
+    // lies, and the memory for it must not even be asked for.
+    constexpr double most_packed = 2048.0;
+    double bytes = double(count) * sizeof(T);
+    for (const std::uint64_t d : row_shape_) bytes *= double(d);
+    if (bytes > most_packed * double(handle_->file->staged.size()))
+        throw FileError(
+            fmt::format("'{}' is damaged: its {} is said to hold more than such a small file can.",
+                        handle_->file->path, name_));
     std::vector<T> values(count * product(row_shape_));
     if (values.empty()) return values;
     const Selection rows(*this, first, count, {});
@@ -365,27 +391,22 @@ Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
     return *this;
 }
 
-void Hdf5File::flush(bool durable) {
+void Hdf5File::flush() {
     const Locked lock(library_lock());
     state_->check(H5Fflush(state_->id, H5F_SCOPE_GLOBAL), "writing");
-    try {
-        state_->staged.commit(durable);
-    } catch (const FileError& error) {
-        state_->failure = error.what();
-        state_->fail("writing");
-    }
+    state_->commit();
 }
 
-void Hdf5File::close() {
+void Hdf5File::finish(const std::filesystem::path& final_name) {
     const Locked lock(library_lock());
-    flush(true);
+    // All that can fail comes before the closing, while the library can still say so.
+    flush();
     const herr_t closed = H5Fclose(std::exchange(state_->id, -1));
-    if (closed < 0) {
-        state_->leak(state_);  // see the destructor
-        state_->fail("closing");
-    }
+    if (closed < 0) state_->leak(state_);  // see the destructor
+    state_->check(closed, "closing");
     // Closing may have trimmed the file.
-    state_->staged.commit(true);
+    state_->commit();
+    state_->staged.rename_to(final_name);
 }
 
 void Hdf5File::create_group(const std::string& name) {
@@ -400,7 +421,9 @@ bool Hdf5File::has(const std::string& name) const {
     // Each part of the path has to be asked for by itself.
     for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
         const std::string part = name.substr(0, end);
-        if (H5Lexists(state_->id, part.c_str(), H5P_DEFAULT) <= 0) return false;
+        if (state_->check(H5Lexists(state_->id, part.c_str(), H5P_DEFAULT),
+                          "looking for " + part) == 0)
+            return false;
         if (end == std::string::npos) return true;
     }
 }
@@ -409,13 +432,14 @@ std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
     const Locked lock(library_lock());
     const Handle target = state_->object(group);
     std::vector<std::string> names;
-    H5Literate(
+    const herr_t listed = H5Literate(
         target, H5_INDEX_NAME, H5_ITER_INC, nullptr,
         [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
             static_cast<std::vector<std::string>*>(out)->emplace_back(name);
             return 0;
         },
         &names);
+    state_->check(listed, "listing " + group);
     return names;
 }
 
@@ -448,12 +472,13 @@ void Hdf5File::write(const std::string& name, const std::vector<T>& values,
     const Handle space(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(properties, false);
-    const Handle set(H5Dcreate2(state_->id, name.c_str(), disk_type<T>(), space, H5P_DEFAULT,
-                                properties, H5P_DEFAULT),
-                     H5Dclose);
+    Handle set(H5Dcreate2(state_->id, name.c_str(), disk_type<T>(), space, H5P_DEFAULT, properties,
+                          H5P_DEFAULT),
+               H5Dclose);
     state_->check(set, "creating " + name);
     state_->check(H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                   "writing " + name);
+    state_->check(set.close(), "closing " + name);
 }
 
 void Hdf5File::write(const std::string& name, const std::string& text) {
@@ -462,13 +487,14 @@ void Hdf5File::write(const std::string& name, const std::string& text) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(properties, false);
-    const Handle set(
+    Handle set(
         H5Dcreate2(state_->id, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
         H5Dclose);
     state_->check(set, "creating " + name);
     const std::string padded = text.empty() ? std::string(1, '\0') : text;
     state_->check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()),
                   "writing " + name);
+    state_->check(set.close(), "closing " + name);
 }
 
 Column Hdf5File::column(const std::string& name) const {
@@ -542,7 +568,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
     const Locked lock(library_lock());
     return has(object) &&
-           H5Aexists_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+           state_->check(H5Aexists_by_name(state_->id, object.c_str(), name.c_str(), H5P_DEFAULT),
+                         "looking for attribute " + name) > 0;
 }
 
 namespace {

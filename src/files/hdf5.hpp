@@ -1,6 +1,8 @@
 // HDF5, as much of it as we need: typed columns that grow, attributes, groups, links. The C library
 // with its handles closed by themselves and its failures as FileError. Files are written through
-// StagedFile, so what was flushed survives a kill, and a full disk leaves the last flushed state.
+// StagedFile, so what was flushed survives a kill and a power cut, and a full disk leaves the last
+// flushed state. After a failure, of the disk or of the library, also one that came while a handle
+// was closed, every further call throws: such a file is never completed.
 //
 // The library keeps global state and is not built for threads in every distribution; one lock
 // around each call makes files on different threads safe.
@@ -57,6 +59,7 @@ class Column {
     /// Of a chunk, rows first.
     const Dimensions& chunk_shape() const { return chunk_shape_; }
     Packing packing() const { return packing_; }
+    /// Throws FileError, also when the file is too small to hold that much.
     template <ColumnValue T>
     std::vector<T> read(std::uint64_t first, std::uint64_t count) const;
     template <ColumnValue T>
@@ -121,10 +124,10 @@ class Hdf5File {
     void make_scale(const std::string& dataset, const std::string& name);
     void attach_scales(const std::string& dataset, const std::vector<std::string>& scales);
 
-    /// What has been written survives a kill; `durable`: a power cut too.
-    void flush(bool durable = false);
-    /// Flushes and closes; throws FileError if that fails.
-    void close();
+    /// What has been written survives a kill and a power cut.
+    void flush();
+    /// Flushes, closes, and gives the file its final name.
+    void finish(const std::filesystem::path& final_name);
 
   private:
     friend class Column;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -15,6 +16,8 @@ namespace swirl {
 namespace {
 
 constexpr std::chrono::milliseconds gathering(200);
+/// Each has a descriptor until it has its name, and a process may have a thousand or so.
+constexpr std::size_t most_at_once = 128;
 
 }  // namespace
 
@@ -24,7 +27,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& folder)
 ResultWriter::~ResultWriter() {
     try {
         finish();
-    } catch (const FileError&) {
+    } catch (...) {
         // Who wants to know has called finish().
     }
 }
@@ -56,8 +59,9 @@ void ResultWriter::work() {
         lock.unlock();
         std::exception_ptr failure;
         try {
-            write_together(items);
-        } catch (const FileError&) {
+            for (std::size_t k = 0; k < items.size(); k += most_at_once)
+                write_together({items.data() + k, std::min(most_at_once, items.size() - k)});
+        } catch (...) {
             failure = std::current_exception();
         }
         lock.lock();
@@ -65,7 +69,16 @@ void ResultWriter::work() {
     }
 }
 
-void ResultWriter::write_together(std::vector<Item>& items) {
+void ResultWriter::write_together(std::span<Item> items) {
+    // Opened before anything is written: it is told of every failure from then on.
+    const int handle = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const auto close = [](const int* open) { ::close(*open); };
+    const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&handle, close);
+    const auto fail = [&] {
+        throw FileError(
+            fmt::format("'{}' could not be written to: {}.", folder_.string(), system_reason()));
+    };
+    if (handle < 0) fail();
     // Unfinished ones remove themselves.
     std::vector<std::unique_ptr<WholeFile>> files;
     for (const Item& item : items) {
@@ -73,18 +86,11 @@ void ResultWriter::write_together(std::vector<Item>& items) {
         files.back()->append(item.bytes);
         files.back()->empty_buffer();
     }
-    const int handle = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (handle < 0 || ::syncfs(handle) != 0) {
-        const std::string reason = system_reason();
-        if (handle >= 0) ::close(handle);
-        throw FileError(fmt::format("'{}' could not be written to: {}.", folder_.string(), reason));
-    }
-    for (std::size_t k = 0; k < items.size(); ++k) {
-        files[k]->give_name();
-        if (items[k].written) items[k].written();
-    }
-    ::fsync(handle);
-    ::close(handle);
+    if (::syncfs(handle) != 0) fail();
+    for (const auto& file : files) file->give_name();
+    sync_folder_of(folder_ / items.front().name);
+    for (const Item& item : items)
+        if (item.written) item.written();
 }
 
 }  // namespace swirl

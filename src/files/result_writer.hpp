@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,7 +35,7 @@ class ResultWriter {
         std::function<void()> written;
     };
     void work();
-    void write_together(std::vector<Item>& items);
+    void write_together(std::span<Item> items);
 
     std::filesystem::path folder_;
     std::vector<Item> waiting_;

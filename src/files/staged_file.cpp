@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "swirl/files/checksum.hpp"
 #include "swirl/files/file_error.hpp"
@@ -37,51 +38,81 @@ bool write_at(int file, std::uint64_t offset, const void* bytes, std::size_t siz
     return true;
 }
 
+void close_if_open(int& file) {
+    if (file >= 0) ::close(file);
+    file = -1;
+}
+
 }  // namespace
 
 StagedFile::StagedFile(const std::filesystem::path& path, Mode mode)
     : path_(path), journal_path_(path.string() + ".journal") {
-    const int how = mode == Mode::read ? O_RDONLY : O_RDWR | (mode == Mode::create ? O_CREAT : 0);
-    file_ = ::open(path.c_str(), how | O_CLOEXEC, 0666);
-    if (file_ < 0)
+    try {
+        open(mode);
+    } catch (...) {
+        close_if_open(journal_);
+        close_if_open(file_);
+        throw;
+    }
+}
+
+void StagedFile::open(Mode mode) {
+    const int how = mode == Mode::read     ? O_RDONLY | O_NONBLOCK
+                    : mode == Mode::change ? O_RDWR | O_NOFOLLOW | O_NONBLOCK
+                                           : O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CREAT;
+    file_ = ::open(path_.c_str(), how | O_CLOEXEC, 0666);
+    if (file_ < 0) fail("could not be opened");
+    struct stat about;
+    if (::fstat(file_, &about) != 0) fail("could not be opened");
+    if (!S_ISREG(about.st_mode))
         throw FileError(
-            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
-    if (mode != Mode::read && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        ::close(file_);
+            fmt::format("'{}' is not a regular file, but it must be one.", path_.string()));
+    if (mode != Mode::read && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw FileError(fmt::format(
             "'{}' is being written by another process; wait for it or choose another name.",
-            path.string()));
+            path_.string()));
+    // Between the two calls whoever had the lock may have given the file its final name.
+    struct stat named;
+    if (mode != Mode::read && (::stat(path_.c_str(), &named) != 0 || named.st_ino != about.st_ino))
+        throw FileError(
+            fmt::format("'{}' was completed or removed by another process just now; try again.",
+                        path_.string()));
+    if (mode == Mode::create) return begin_anew();
+    committed_ = size_ = static_cast<std::uint64_t>(about.st_size);
+    if (load_journal() && mode == Mode::change) commit();
+}
+
+void StagedFile::begin_anew() {
+    new_ = true;
+    // What an older journal says must not come over the new file, not after a power cut either.
+    if (::access(journal_path_.c_str(), F_OK) == 0) {
+        open_journal();
+        empty_journal();
+        if (::fdatasync(journal_) != 0) fail("could not be emptied");
     }
-    if (mode == Mode::create) {
-        ::unlink(journal_path_.c_str());
-        if (::ftruncate(file_, 0) != 0) {
-            const std::string reason = system_reason();
-            ::close(file_);
-            throw FileError(fmt::format("'{}' could not be emptied: {}.", path.string(), reason));
-        }
-        return;
-    }
-    struct stat about;
-    if (::fstat(file_, &about) == 0) committed_ = static_cast<std::uint64_t>(about.st_size);
-    size_ = committed_;
-    if (load_journal() && mode == Mode::change) commit(true);
+    if (::ftruncate(file_, 0) != 0) fail("could not be emptied");
 }
 
 StagedFile::~StagedFile() {
-    if (journal_ >= 0) {
-        ::close(journal_);
-        // An empty journal says nothing; a full one is the rest of a commit that failed half-way.
-        std::error_code ignored;
-        if (std::filesystem::file_size(journal_path_, ignored) == 0 && !ignored)
-            ::unlink(journal_path_.c_str());
-    }
-    ::close(file_);
+    // An empty journal says nothing; a full one is the rest of a commit that failed half-way.
+    if (journal_ >= 0 && !journal_counts_) ::unlink(journal_path_.c_str());
+    close_if_open(journal_);
+    close_if_open(file_);
+}
+
+void StagedFile::fail(std::string_view what) {
+    failure_ = fmt::format("'{}' {}: {}.", path_.string(), what, system_reason());
+    throw FileError(failure_);
+}
+
+void StagedFile::refuse_after_failure() const {
+    if (!failure_.empty()) throw FileError(failure_);
 }
 
 bool StagedFile::load_journal() {
     std::error_code absent;
     if (!std::filesystem::exists(journal_path_, absent)) return false;
-    const std::string bytes = read_whole_file(journal_path_);
+    const std::string bytes = read_regular_file(journal_path_);
     JournalHead head;
     const std::size_t record = sizeof(std::uint64_t) + page_size;
     if (bytes.size() < sizeof head) return false;
@@ -102,14 +133,12 @@ bool StagedFile::load_journal() {
     return true;
 }
 
-void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t size) const {
+void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t size) {
     auto* p = static_cast<unsigned char*>(bytes);
     while (size > 0) {
         const ssize_t got = ::pread(file_, p, size, static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0)
-            throw FileError(
-                fmt::format("'{}' could not be read: {}.", path_.string(), system_reason()));
+        if (got < 0) fail("could not be read");
         if (got == 0) {
             std::memset(p, 0, size);
             return;
@@ -120,7 +149,8 @@ void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t s
     }
 }
 
-void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) const {
+void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
+    refuse_after_failure();
     read_from_disk(offset, bytes, size);
     if (waiting_.empty() || size == 0) return;
     const std::uint64_t end = offset + size;
@@ -134,32 +164,35 @@ void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) const
 }
 
 void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
-    if (!write_at(file_, offset, bytes, size))
-        throw FileError(
-            fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
+    if (!write_at(file_, offset, bytes, size)) fail("could not be written");
 #ifdef __linux__
-    // The disk may begin: a flush at the end then finds little left to do.
+    // The disk may begin: a commit then finds little left to do.
     if ((not_yet_sent_ += size) < 8 * 1024 * 1024) return;
     ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);
     not_yet_sent_ = 0;
 #endif
 }
 
+/// Whole pages wait, so the committed size counts as rounded up to a page.
+bool StagedFile::waits(std::uint64_t offset) const {
+    return new_ || offset < (committed_ + page_size - 1) / page_size * page_size;
+}
+
 void StagedFile::write(std::uint64_t offset, const void* bytes, std::size_t size) {
     if (abandoned_) return;
+    refuse_after_failure();
     size_ = std::max(size_, offset + size);
-    // Whole pages wait, so the committed size counts as rounded up to a page.
-    const std::uint64_t fence = (committed_ + page_size - 1) / page_size * page_size;
     const auto* p = static_cast<const unsigned char*>(bytes);
-    while (size > 0 && offset < fence) {
+    while (size > 0 && waits(offset)) {
         const std::uint64_t number = offset / page_size, begin = number * page_size;
-        auto [it, fresh] = waiting_.try_emplace(number);
-        if (fresh) {
-            it->second.resize(page_size);
-            read_from_disk(begin, it->second.data(), page_size);
+        auto page = waiting_.find(number);
+        if (page == waiting_.end()) {
+            Page there(page_size);
+            read_from_disk(begin, there.data(), page_size);
+            page = waiting_.emplace(number, std::move(there)).first;
         }
         const std::size_t part = std::min<std::uint64_t>(size, begin + page_size - offset);
-        std::memcpy(it->second.data() + (offset - begin), p, part);
+        std::memcpy(page->second.data() + (offset - begin), p, part);
         p += part;
         offset += part;
         size -= part;
@@ -171,55 +204,80 @@ void StagedFile::resize(std::uint64_t size) {
     if (!abandoned_) size_ = size;
 }
 
-void StagedFile::write_journal(bool durable) {
-    if (journal_ < 0) journal_ = ::open(journal_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+void StagedFile::sync() {
+    if (::fdatasync(file_) != 0) fail("could not be brought onto the disk");
+}
+
+void StagedFile::open_journal() {
+    if (journal_ >= 0) return;
+    journal_ =
+        ::open(journal_path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (journal_ < 0) fail("has a journal that could not be opened");
+    // The names of both files have to survive a power cut as well.
+    sync_folder_of(path_);
+}
+
+void StagedFile::write_journal() {
+    open_journal();
     std::vector<unsigned char> bytes(sizeof(JournalHead));
-    Checksum sum;
     for (const auto& [number, page] : waiting_) {
         const auto* n = reinterpret_cast<const unsigned char*>(&number);
         bytes.insert(bytes.end(), n, n + sizeof number);
         bytes.insert(bytes.end(), page.begin(), page.end());
     }
+    Checksum sum;
     sum.add(bytes.data() + sizeof(JournalHead), bytes.size() - sizeof(JournalHead));
     JournalHead head{{}, waiting_.size(), size_, sum.value()};
     std::memcpy(head.magic, journal_magic, 8);
     std::memcpy(bytes.data(), &head, sizeof head);
-    const bool written = journal_ >= 0 && write_at(journal_, 0, bytes.data(), bytes.size()) &&
-                         (!durable || ::fdatasync(journal_) == 0);
-    if (written) return;
-    const std::string reason = system_reason();
-    if (journal_ >= 0 && ::ftruncate(journal_, 0) != 0) ::unlink(journal_path_.c_str());
-    throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(), reason));
+    journal_counts_ = true;
+    if (!write_at(journal_, 0, bytes.data(), bytes.size())) fail("could not be written");
+    if (::fdatasync(journal_) != 0) fail("has a journal that could not be brought onto the disk");
+}
+
+void StagedFile::empty_journal() {
+    if (::ftruncate(journal_, 0) != 0) fail("has a journal that could not be emptied");
+    journal_counts_ = false;
 }
 
 void StagedFile::copy_pages() {
     for (const auto& [number, page] : waiting_)
         write_to_disk(number * page_size, page.data(), page_size);
-    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0)
-        throw FileError(
-            fmt::format("'{}' could not be resized: {}.", path_.string(), system_reason()));
+    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) fail("could not be resized");
 }
 
-void StagedFile::commit(bool durable) {
+void StagedFile::commit() {
     if (abandoned_) return;
-    // What the journal's pages will refer to must be there before them.
-    if (durable && ::fdatasync(file_) != 0)
-        throw FileError(
-            fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
-    write_journal(durable);
-    committed_ = size_;  // from here on the commit has happened, if need be when the file is opened
+    refuse_after_failure();
+    sync();
+    write_journal();
+    committed_ = size_;
     copy_pages();
-    if (durable) ::fdatasync(file_);
-    if (::ftruncate(journal_, 0) != 0) ::unlink(journal_path_.c_str());
+    sync();
+    empty_journal();
     waiting_.clear();
+    new_ = false;
+}
+
+void StagedFile::rename_to(const std::filesystem::path& path) {
+    refuse_after_failure();
+    // A journal that came back after a power cut must not be that of the next file of this name.
+    open_journal();
+    if (::fdatasync(journal_) != 0) fail("has a journal that could not be brought onto the disk");
+    ::unlink(journal_path_.c_str());
+    close_if_open(journal_);
+    give_final_name(path_, path);
+    // Only now may others have it.
+    if (::close(std::exchange(file_, -1)) != 0) fail("could not be closed");
 }
 
 void StagedFile::abandon() {
     if (abandoned_) return;
     abandoned_ = true;
     waiting_.clear();
-    // What lies beyond the last commit belongs to nobody. A failure here leaves only waste.
-    if (::ftruncate(file_, static_cast<off_t>(committed_)) != 0) return;
+    // What lies beyond the last commit belongs to nobody, unless a journal says otherwise. A
+    // failure here leaves only waste.
+    if (journal_counts_ || ::ftruncate(file_, static_cast<off_t>(committed_)) != 0) return;
     size_ = committed_;
 }
 

@@ -45,19 +45,25 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     frames_ = std::min({position_.rows(), velocity_.rows(), angle_.rows(), angular_velocity_.rows(),
                         swirls_.size(), events_.size(), clock_.size(), container_x_.size(),
                         container_y_.size(), container_vx_.size(), container_vy_.size()});
-    fixed_.resize(file_->column(particles + "/radius").rows());
-    fixed_.radius = file_->column(particles + "/radius").read<double>();
-    fixed_.mass = file_->column(particles + "/mass").read<double>();
-    fixed_.inertia = file_->column(particles + "/moment_of_inertia").read<double>();
+    const auto of_discs = [&](const char* name) {
+        return file_->column(particles + "/" + name).read<double>();
+    };
+    const auto radius = of_discs("radius"), mass = of_discs("mass"),
+               inertia = of_discs("moment_of_inertia");
+    const Dimensions row{radius.size()}, row_of_vectors{radius.size(), 3};
+    if (position_.row_shape() != row_of_vectors || velocity_.row_shape() != row_of_vectors ||
+        angle_.row_shape() != row || angular_velocity_.row_shape() != row ||
+        mass.size() != radius.size() || inertia.size() != radius.size())
+        throw FileError(
+            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
+    fixed_.resize(radius.size());
+    fixed_.radius = radius;
+    fixed_.mass = mass;
+    fixed_.inertia = inertia;
     fixed_.period = file_->number_attribute(parameters, "period");
     fixed_.container_radius = file_->number_attribute(parameters, "container_radius");
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
-    block_ = std::max<std::uint64_t>(1, angle_.chunk_shape().at(0));
-    if (position_.row_shape() != Dimensions{discs(), 3} ||
-        velocity_.row_shape() != Dimensions{discs(), 3} ||
-        angle_.row_shape() != Dimensions{discs()})
-        throw FileError(
-            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
+    block_ = angle_.chunk_shape().empty() ? 1 : std::max<std::uint64_t>(1, angle_.chunk_shape()[0]);
 }
 
 void TrajectoryReader::load_block_of(std::uint64_t k) {

@@ -21,8 +21,8 @@
 // own, and those of z are not there at all: HDF5 gives zeros for them.
 //
 // While it is being written the file is called NAME.partial; it gets its name when it is complete.
-// What was written more than a second ago survives a kill: NAME.partial is then a valid file with
-// complete = 0, and --resume carries on with it.
+// What was written more than a second ago survives a kill or a power cut: NAME.partial is then a
+// valid file with complete = 0, and --resume carries on with it.
 //
 // A thread of the writer's own compresses and writes; who calls write() only copies a frame, and
 // waits only when three chunks of frames are on their way already. What goes wrong on that thread
@@ -56,8 +56,9 @@ class TrajectoryWriter {
     TrajectoryWriter(const std::filesystem::path& path, const Snapshot& first,
                      const Provenance& provenance, int compression = default_compression);
     /// Carries on with an unfinished file, of which the first `frames` frames count. Throws
-    /// FileError if it holds fewer.
-    static TrajectoryWriter resume(const std::filesystem::path& path, std::uint64_t frames);
+    /// FileError if it holds fewer, or belongs to another run (recording.hpp).
+    static TrajectoryWriter resume(const std::filesystem::path& path, std::uint64_t frames,
+                                   const std::string& run = "");
 
     /// Unfinished: what was flushed stays.
     ~TrajectoryWriter();
@@ -67,8 +68,8 @@ class TrajectoryWriter {
     /// Adds a frame; `events`: how many had been executed.
     void write(const Snapshot& snapshot, std::uint64_t events);
     std::uint64_t frames() const;
-    /// Everything written so far survives a kill; `durable`: a power cut too.
-    void flush(bool durable = false);
+    /// Everything written so far survives a kill and a power cut.
+    void flush();
     /// Completes the file and gives it its name.
     void finish();
 

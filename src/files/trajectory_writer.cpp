@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/recording.hpp"
 #include "swirl/files/repeat_stream.hpp"
 #include "swirl/files/trajectory.hpp"
-#include "swirl/files/whole_file.hpp"
 #include "swirl/math/wide.hpp"
 
 namespace swirl {
@@ -41,10 +41,6 @@ std::uint64_t frames_per_chunk(std::uint64_t discs) {
 std::uint64_t moments_per_chunk(std::uint64_t discs) {
     const std::uint64_t frames = frames_per_chunk(discs);
     return most_frames_per_chunk / frames * frames;
-}
-
-std::filesystem::path partial_name(const std::filesystem::path& path) {
-    return path.string() + std::string(partial_suffix);
 }
 
 /// The columns with one value for each disc and frame, and where they are in the file.
@@ -301,10 +297,10 @@ class FrameFile {
         }
     }
 
-    void commit(bool durable) {
-        if (!changed_ && !durable) return;
+    void commit() {
+        if (!changed_) return;
         put_moments();
-        file_.flush(durable);
+        file_.flush();
         changed_ = false;
     }
 
@@ -313,8 +309,7 @@ class FrameFile {
         file_.set_attribute(parameters, "complete", std::vector<std::int64_t>{1});
         of_discs_ = {};
         of_frames_ = {};
-        Hdf5File(std::move(file_)).close();
-        give_final_name(partial_name(path_), path_);
+        file_.finish(path_);
     }
 
   private:
@@ -402,7 +397,7 @@ class TrajectoryWriter::Work {
     Work& operator=(const Work&) = delete;
 
     void write(const Snapshot& s, std::uint64_t events_before) {
-        if (failed_.load(std::memory_order_relaxed)) flush(false);  // throws
+        if (failed_.load(std::memory_order_relaxed)) flush();  // throws
         FrameBlock& b = *filling_;
         const std::uint64_t k = b.filled.load(std::memory_order_relaxed), n = file_.discs();
         const auto at = [&](Quantity q) { return b.of_discs[q].data() + k * n; };
@@ -428,23 +423,22 @@ class TrajectoryWriter::Work {
 
     std::uint64_t frames() const { return frames_; }
 
-    void flush(bool durable) {
+    void flush() {
         std::unique_lock lock(mutex_);
-        wanted_ = durable ? Flush::durable : Flush::plain;
+        flush_wanted_ = true;
         to_thread_.notify_one();
-        from_thread_.wait(lock, [&] { return wanted_ == Flush::none || failure_; });
+        from_thread_.wait(lock, [&] { return !flush_wanted_ || failure_; });
         if (failure_) std::rethrow_exception(failure_);
     }
 
     void finish() {
-        flush(false);
+        flush();
         end_thread();
         file_.finish();
     }
 
   private:
     static constexpr int blocks_on_their_way = 3;
-    enum class Flush { none, plain, durable };
 
     void hand_over() {
         std::unique_lock lock(mutex_);
@@ -486,9 +480,8 @@ class TrajectoryWriter::Work {
         auto last_flush = Clock::now();
         std::unique_lock lock(mutex_);
         while (true) {
-            to_thread_.wait_until(lock, last_flush + flush_interval, [&] {
-                return stop_ || !waiting_.empty() || wanted_ != Flush::none;
-            });
+            to_thread_.wait_until(lock, last_flush + flush_interval,
+                                  [&] { return stop_ || !waiting_.empty() || flush_wanted_; });
             if (stop_) return;
             if (!waiting_.empty()) {
                 const FrameBlock& block = *waiting_.front();
@@ -500,18 +493,18 @@ class TrajectoryWriter::Work {
                 from_thread_.notify_one();
             }
             const bool in_time = Clock::now() - last_flush < flush_interval;
-            if (!waiting_.empty() ? in_time : in_time && wanted_ == Flush::none) continue;
+            if (!waiting_.empty() ? in_time : in_time && !flush_wanted_) continue;
             // The block being filled stays where it is, or goes to the end of those that wait.
             const FrameBlock* const block = waiting_.empty() ? filling_.get() : nullptr;
             const std::uint64_t filled = block ? block->filled.load(std::memory_order_acquire) : 0;
-            const Flush wanted = waiting_.empty() ? wanted_ : Flush::none;
+            const bool wanted = waiting_.empty() && flush_wanted_;
             lock.unlock();
             if (block) file_.put(*block, filled);
-            file_.commit(wanted == Flush::durable);
+            file_.commit();
             last_flush = Clock::now();
             lock.lock();
-            if (wanted == Flush::none) continue;
-            wanted_ = Flush::none;
+            if (!wanted) continue;
+            flush_wanted_ = false;
             from_thread_.notify_one();
         }
     }
@@ -523,7 +516,7 @@ class TrajectoryWriter::Work {
     std::mutex mutex_;  // for all that follows
     std::condition_variable to_thread_, from_thread_;
     std::deque<std::unique_ptr<FrameBlock>> waiting_, idle_;
-    Flush wanted_ = Flush::none;
+    bool flush_wanted_ = false;
     bool stop_ = false;
     std::exception_ptr failure_;
     std::atomic<bool> failed_ = false;
@@ -550,10 +543,10 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Snap
     flush();
 }
 
-TrajectoryWriter TrajectoryWriter::resume(const std::filesystem::path& path, std::uint64_t frames) {
-    take_back_name(partial_name(path), path);
-    return TrajectoryWriter(std::make_unique<Work>(
-        FrameFile(path, Hdf5File(partial_name(path), StagedFile::Mode::change)), frames));
+TrajectoryWriter TrajectoryWriter::resume(const std::filesystem::path& path, std::uint64_t frames,
+                                          const std::string& run) {
+    return TrajectoryWriter(
+        std::make_unique<Work>(FrameFile(path, reopen_recording(path, run)), frames));
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;
@@ -564,7 +557,7 @@ void TrajectoryWriter::write(const Snapshot& snapshot, std::uint64_t events_befo
     work_->write(snapshot, events_before);
 }
 std::uint64_t TrajectoryWriter::frames() const { return work_->frames(); }
-void TrajectoryWriter::flush(bool durable) { work_->flush(durable); }
+void TrajectoryWriter::flush() { work_->flush(); }
 void TrajectoryWriter::finish() { work_->finish(); }
 
 }  // namespace swirl

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -15,13 +17,23 @@
 namespace swirl {
 namespace {
 
-/// A number no other writer has: a second file of this process, or one on another machine that
-/// shares the folder, gets another name.
-std::string own_name() {
-    static std::atomic<unsigned> count{0};
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
-    return fmt::format("{}-{}-{}", host, getpid(), count++);
+/// Sixteen characters that nobody else has thought of, whatever the machine, the container and the
+/// number of the process are called.
+std::string random_name() {
+    std::uint64_t bits = 0;
+    if (::getrandom(&bits, sizeof bits, 0) != sizeof bits)
+        throw FileError(fmt::format("The system gave no random number: {}.", system_reason()));
+    return fmt::format("{:016x}", bits);
+}
+
+/// NAME.<sixteen hexadecimal digits>.partial
+bool is_aside_of(std::string_view name, std::string_view target) {
+    const std::size_t size = target.size() + 1 + 16 + partial_suffix.size();
+    if (name.size() != size || !name.starts_with(target) || !name.ends_with(partial_suffix) ||
+        name[target.size()] != '.')
+        return false;
+    const std::string_view digits = name.substr(target.size() + 1, 16);
+    return digits.find_first_not_of("0123456789abcdef") == digits.npos;
 }
 
 bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
@@ -38,17 +50,20 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
 
 constexpr std::size_t buffer_size = 1 << 20;
 
-void sync_folder_of(const std::filesystem::path& path) {
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (handle < 0) return;  // the rename has happened; only its survival of a power cut is open
-    ::fsync(handle);
-    ::close(handle);
-}
-
 }  // namespace
 
 std::string system_reason() { return std::generic_category().message(errno); }
+
+void sync_folder_of(const std::filesystem::path& path) {
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // Some file systems know no such wish, and say so.
+    const bool done = handle >= 0 && (::fsync(handle) == 0 || errno == EINVAL || errno == ENOTSUP);
+    const std::string reason = system_reason();
+    if (handle >= 0) ::close(handle);
+    if (!done)
+        throw FileError(fmt::format("'{}' could not be written to: {}.", folder.string(), reason));
+}
 
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
     if (::rename(partial.c_str(), path.c_str()) != 0)
@@ -57,23 +72,24 @@ void give_final_name(const std::filesystem::path& partial, const std::filesystem
     sync_folder_of(path);
 }
 
-void take_back_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (std::filesystem::exists(partial, ignored) || !std::filesystem::exists(path, ignored))
-        return;
-    give_final_name(path, partial);
-}
-
-WholeFile::WholeFile(const std::filesystem::path& path)
-    : path_(path), aside_(path.string() + "." + own_name() + std::string(partial_suffix)) {
-    file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
+    // Again if the name is taken, or if somebody took the file for a leftover before it was locked.
+    for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
+        aside_ = path.string() + "." + random_name() + std::string(partial_suffix);
+        file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file_ < 0 && errno != EEXIST) fail();
+        struct stat about;
+        if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0 && ::fstat(file_, &about) == 0 &&
+            about.st_nlink == 0)
+            ::close(std::exchange(file_, -1));
+    }
     if (file_ < 0) fail();
 }
 
 WholeFile::~WholeFile() {
     if (file_ < 0) return;
-    ::close(file_);
     ::unlink(aside_.c_str());
+    ::close(file_);
 }
 
 void WholeFile::fail() {
@@ -105,7 +121,7 @@ void WholeFile::finish() {
 
 void WholeFile::give_name() {
     if (::rename(aside_.c_str(), path_.c_str()) != 0) fail();
-    ::close(std::exchange(file_, -1));
+    if (::close(std::exchange(file_, -1)) != 0) fail();
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
@@ -114,11 +130,9 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
     file.finish();
 }
 
-std::string read_whole_file(const std::filesystem::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        throw FileError(
-            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
+namespace {
+
+std::string read_to_the_end(int file, const std::filesystem::path& path) {
     std::string bytes;
     struct stat about;
     if (::fstat(file, &about) == 0 && about.st_size > 0)
@@ -127,15 +141,49 @@ std::string read_whole_file(const std::filesystem::path& path) {
     ssize_t got;
     while ((got = ::read(file, block, sizeof block)) != 0) {
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            const std::string reason = system_reason();
-            ::close(file);
-            throw FileError(fmt::format("'{}' could not be read: {}.", path.string(), reason));
-        }
+        if (got < 0)
+            throw FileError(
+                fmt::format("'{}' could not be read: {}.", path.string(), system_reason()));
         bytes.append(block, static_cast<std::size_t>(got));
     }
-    ::close(file);
     return bytes;
+}
+
+std::string read_file(const std::filesystem::path& path, bool regular_only) {
+    // A pipe that nobody writes to would keep us waiting in open().
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (regular_only ? O_NONBLOCK : 0));
+    if (file < 0)
+        throw FileError(
+            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
+    const auto close = [](const int* open) { ::close(*open); };
+    const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&file, close);
+    struct stat about;
+    if (regular_only && (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)))
+        throw FileError(
+            fmt::format("'{}' is not a regular file, but it must be one.", path.string()));
+    return read_to_the_end(file, path);
+}
+
+}  // namespace
+
+std::string read_whole_file(const std::filesystem::path& path) { return read_file(path, false); }
+std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
+
+void remove_leftovers(const std::filesystem::path& folder, std::string_view name) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, error), end;
+         !error && it != end; it.increment(error)) {
+        const std::string found = it->path().filename().string();
+        const std::size_t tail = 1 + 16 + partial_suffix.size();
+        if (found.size() <= tail) continue;
+        const std::string target = found.substr(0, found.size() - tail);
+        if (!is_aside_of(found, target) || (!name.empty() && target != name)) continue;
+        const int file = ::open(it->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (file < 0) continue;
+        // Whoever still writes it has it locked.
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
+        ::close(file);
+    }
 }
 
 }  // namespace swirl

@@ -1,7 +1,8 @@
 // Files that are there whole or not at all. The bytes go to a file beside the target, onto the
 // disk, and only then under the final name; so a reader, a second writer, a kill or a power cut
 // finds the old file or the new one, never a part. Two writers at once each use a name of their
-// own, and the last rename wins.
+// own, NAME.<random>.partial, locked as long as they write, and the last rename wins. What a kill
+// left behind under such a name has no lock any more: remove_leftovers().
 #pragma once
 
 #include <cstdint>
@@ -44,6 +45,12 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 
 /// Throws FileError when it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
+/// The same, but throws for pipes, devices and the like, which may never end.
+std::string read_regular_file(const std::filesystem::path& path);
+
+/// Removes what writers that were killed left in a folder; `name`: only what was to become that
+/// file.
+void remove_leftovers(const std::filesystem::path& folder, std::string_view name = {});
 
 /// The end of the name under which a file is written until it is complete.
 inline constexpr std::string_view partial_suffix = ".partial";
@@ -51,9 +58,8 @@ inline constexpr std::string_view partial_suffix = ".partial";
 /// Gives a finished file its final name, on the disk too. Throws FileError.
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
 
-/// A kill can come after a file got its name and before the result that belongs to it was written.
-/// Who resumes then goes on with that file: it gets its partial name back.
-void take_back_name(const std::filesystem::path& partial, const std::filesystem::path& path);
+/// Brings the names in the folder of `path` onto the disk. Throws FileError.
+void sync_folder_of(const std::filesystem::path& path);
 
 /// Why the last system call failed, in words.
 std::string system_reason();

@@ -7,11 +7,18 @@ namespace swirl {
 
 Painters::Painters(unsigned count, std::function<void(const Bytes&)> deliver)
     : deliver_(std::move(deliver)), most_under_way_(2 * count + 2) {
-    for (unsigned k = 0; k < count; ++k) threads_.emplace_back([this, k] { work(k); });
-    threads_.emplace_back([this] { write(); });
+    try {
+        for (unsigned k = 0; k < count; ++k) threads_.emplace_back([this, k] { work(k); });
+        threads_.emplace_back([this] { write(); });
+    } catch (...) {  // no memory or no right for another thread: those that run must end
+        end();
+        throw;
+    }
 }
 
-Painters::~Painters() {
+Painters::~Painters() { end(); }
+
+void Painters::end() {
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;

@@ -44,6 +44,7 @@ class Painters {
 
     void work(unsigned painter);
     void write();
+    void end();
     void fail(std::exception_ptr error);
 
     std::function<void(const Bytes&)> deliver_;

@@ -7,9 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "swirl/files/checkpoint.hpp"
+#include "swirl/files/checksum.hpp"
 #include "swirl/files/event_log.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/recording.hpp"
 #include "swirl/files/state_archive.hpp"
+#include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/version.hpp"
@@ -62,11 +65,27 @@ std::string difference(const Json& there, const Json& here) {
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
 
+/// What names the run in its recordings: the same name, the same frames and events.
+std::string run_name(const Json& identity) {
+    return fmt::format("{:016x}", checksum(identity.dump() + version()));
+}
+
+/// An earlier state stays at hand when a run begins anew over it.
+void set_aside(const std::filesystem::path& checkpoint) {
+    std::error_code ignored;
+    if (!checkpoint.empty() && std::filesystem::exists(checkpoint, ignored))
+        give_final_name(checkpoint, checkpoint.string() + ".backup");
+}
+
 class Recorder {
   public:
     Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
              const Observation* observation)
-        : config_(config), files_(files), observation_(observation), last_kept_(Clock::now()) {
+        : config_(config),
+          files_(files),
+          observation_(observation),
+          run_name_(run_name(identity(config, files, observation))),
+          last_kept_(Clock::now()) {
         if (files.resume && std::filesystem::exists(files.checkpoint))
             resume();
         else
@@ -77,8 +96,8 @@ class Recorder {
         add_to(control);
         const RunResult result = run(config_, control);
         if (!result.complete) {
-            if (trajectory_) trajectory_->flush(true);
-            if (event_log_) event_log_->flush(true);
+            if (trajectory_) trajectory_->flush();
+            if (event_log_) event_log_->flush();
             return result;
         }
         if (trajectory_) trajectory_->finish();
@@ -87,7 +106,12 @@ class Recorder {
     }
 
   private:
-    void start(const Provenance& provenance) {
+    void start(Provenance provenance) {
+        if (files_.overwrite) set_aside(files_.checkpoint);
+        provenance.emplace_back(run_entry, run_name_);
+        provenance.emplace_back("frames", frames_json(files_).dump());
+        for (const auto& file : {files_.trajectory, files_.event_log})
+            if (!file.empty() && !files_.overwrite) refuse_foreign_recording(file, run_name_);
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
         const InitialState scene = make_initial_state(config_);
         const Snapshot first = Simulation(scene).snapshot();
@@ -112,10 +136,11 @@ class Recorder {
         resumed_.emplace();
         state(frames, logged, events_, *resumed_);
         state.expect_end();
+        run_name_ = about.value("run", std::string());
         if (!files_.trajectory.empty())
-            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames);
+            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, run_name_);
         if (!files_.event_log.empty())
-            event_log_ = EventLogWriter::resume(files_.event_log, logged);
+            event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
     }
 
     void add_to(RunControl& control) {
@@ -156,8 +181,8 @@ class Recorder {
 
     /// What the checkpoint counts on must be on the disk before it.
     void keep(const std::string& run_state) {
-        if (trajectory_) trajectory_->flush(true);
-        if (event_log_) event_log_->flush(true);
+        if (trajectory_) trajectory_->flush();
+        if (event_log_) event_log_->flush();
         StateWriter state;
         std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
         std::uint64_t logged = event_log_ ? event_log_->events() : 0;
@@ -165,6 +190,7 @@ class Recorder {
         state(run_state);
         const Json about{{"version", version()},
                          {"identity", identity(config_, files_, observation_)},
+                         {"run", run_name_},
                          {"call", files_.call}};
         write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
         last_kept_ = Clock::now();
@@ -173,6 +199,7 @@ class Recorder {
     const RunConfig& config_;
     const RunFiles& files_;
     const Observation* observation_;
+    std::string run_name_;
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;

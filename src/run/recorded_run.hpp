@@ -34,6 +34,9 @@ struct RunFiles {
     bool checkpoint_needed = true;
     std::function<void(const std::string&)> complain;
     bool resume = false;  // from the checkpoint, if it is there
+    /// Begin anew over the unfinished recording of another run; a checkpoint that is there is kept
+    /// as NAME.backup.
+    bool overwrite = false;
     /// Options and what was given, kept in the checkpoint for who resumes with nothing else.
     ParameterTexts call;
 };

@@ -38,7 +38,11 @@ void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& wor
     };
     const std::size_t wanted = threads > 0 ? threads : available_cores();
     std::vector<std::thread> team;
-    for (std::size_t t = 1; t < std::min(wanted, count); ++t) team.emplace_back(loop);
+    try {
+        for (std::size_t t = 1; t < std::min(wanted, count); ++t) team.emplace_back(loop);
+    } catch (const std::exception&) {
+        // No memory or no right for more threads: those that there are do it.
+    }
     loop();
     for (std::thread& thread : team) thread.join();
     if (failure) std::rethrow_exception(failure);

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -177,22 +176,6 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
     return values;
 }
 
-/// Partial files of processes of this machine that are no more.
-void remove_leftovers(const fs::path& folder) {
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
-    const std::string mark = fmt::format(".{}-", host);
-    std::error_code error;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
-        const std::size_t at = name.find(mark);
-        if (at == name.npos || !name.ends_with(partial_suffix)) continue;
-        const int pid = std::atoi(name.c_str() + at + mark.size());
-        std::error_code ignored;
-        if (pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH) fs::remove(it->path(), ignored);
-    }
-}
-
 class SweepWork {
   public:
     SweepWork(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
@@ -259,6 +242,7 @@ class SweepWork {
         RunFiles files;
         files.checkpoint = folder_ / "checkpoints" / (number_of(point) + ".checkpoint");
         files.resume = true;
+        files.overwrite = true;  // all that lies in there is of this very point
         if (plan_.frames > 0)
             files.trajectory = folder_ / "trajectories" / (number_of(point) + ".h5");
         files.frames.per_swirl = std::max(plan_.frames, 1);
@@ -335,15 +319,29 @@ struct PointResult {
 /// Keeps what a table needs of a result; building the rest would take most of the time.
 bool needed(int depth, Json::parse_event_t event, Json& parsed) {
     if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
-    static constexpr std::string_view parts[] = {"format",  "version",    "rotation", "energy",
-                                                 "periods", "state_hash", "measured"};
+    static constexpr std::string_view parts[] = {"format",   "version",    "point",   "replica",
+                                                 "config",   "state_hash", "periods", "energy",
+                                                 "rotation", "measured"};
     const auto& key = parsed.get_ref<const std::string&>();
     if (depth == 3) return key != "effective_samples" && key != "blocks";  // of a rotation
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
-PointResult read_result(const fs::path& file) {
-    const Json json = Json::parse(read_whole_file(file), needed, false);
+/// A result that was copied to another point, or into another sweep, would be believed otherwise.
+void refuse_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
+                                    std::size_t point) {
+    const bool ours = json.at("point") == point && json.at("replica") == plan.replica(point) &&
+                      json.at("config").at("seed") == plan.config(point).seed;
+    if (!ours)
+        throw FileError(fmt::format(
+            "'{}' is the result of another run than point {} of this sweep; remove it and call "
+            "`swirl sweep` again.",
+            file.string(), point));
+}
+
+PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const fs::path file = result_file(folder, point);
+    const Json json = Json::parse(read_regular_file(file), needed, false);
     if (json.is_discarded() || !json.is_object())
         throw FileError(
             fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
@@ -351,7 +349,7 @@ PointResult read_result(const fs::path& file) {
     result.there = true;
     result.quantities.reserve(std::size(estimators));
     const auto number = [](const Json& value) {
-        return value.is_number() ? value.get<double>() : not_known;
+        return value.is_null() ? not_known : value.get<double>();  // throws for a text
     };
     try {
         if (json.value("format", 0) != result_format)
@@ -360,6 +358,7 @@ PointResult read_result(const fs::path& file) {
                 "call `swirl sweep` again, or collect with the program that wrote it.",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
                 result_format));
+        refuse_result_of_another_point(file, json, plan, point);
         for (const char* name : estimators) {
             const Json& found = json.at("rotation").at(name);
             result.quantities.emplace_back(name, Estimate{.mean = number(found.at("mean")),
@@ -373,8 +372,8 @@ PointResult read_result(const fs::path& file) {
         result.state_hash = json.at("state_hash").get<std::string>();
     } catch (const nlohmann::json::exception&) {
         throw FileError(
-            fmt::format("'{}' lacks a part of a result; remove it and call `swirl sweep` "
-                        "again.",
+            fmt::format("'{}' lacks a part of a result, or holds a text where a number belongs; "
+                        "remove it and call `swirl sweep` again.",
                         file.string()));
     }
     return result;
@@ -555,8 +554,7 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
 
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
-    remove_leftovers(folder / "results");
-    remove_leftovers(folder / "checkpoints");
+    for (const char* part : {"results", "failures", "checkpoints"}) remove_leftovers(folder / part);
     return SweepWork(folder, plan, share, control)();
 }
 
@@ -566,7 +564,7 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     constexpr std::size_t batch = 256;
     on_all_cores((results.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
-            if (done[p]) results[p] = read_result(result_file(folder, p));
+            if (done[p]) results[p] = read_result(folder, plan, p);
     });
 
     std::vector<std::string> columns, quantities(std::begin(estimators), std::end(estimators));

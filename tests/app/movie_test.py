@@ -146,6 +146,25 @@ class MovieTest(unittest.TestCase):
         found = re.search(r"PSNR.* min:(\S+)", seen)
         self.assertGreater(float(found.group(1)), 25.0, "make docs/swirl.gif anew, as listed")
 
+    def test_two_on_one_name_do_not_write_into_each_other(self):
+        out = self.path("m.mp4")
+        long = [SWIRL, "movie", "--seconds", "600", "--size", "160x160", "--out", out, "--quiet"]
+        first = subprocess.Popen(long, stderr=subprocess.DEVNULL)
+        self.addCleanup(first.wait)
+        self.addCleanup(first.kill)
+        while not os.path.exists(out + ".partial"):
+            self.assertIsNone(first.poll())
+            time.sleep(0.01)
+        time.sleep(0.2)
+        second = swirl("--seconds", "0.1", "--size", "160x160", "--out", out, "--quiet")
+        self.assertEqual(second.returncode, 1)
+        self.assertIn("is being made by another process", second.stderr)
+        first.kill()
+        first.wait()
+        # What a kill left behind is in nobody's way.
+        again = swirl("--seconds", "0.1", "--size", "160x160", "--out", out, "--quiet")
+        self.assertEqual(again.returncode, 0, again.stderr)
+
     def test_without_ffmpeg_it_says_how_to_get_it(self):
         result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),
                        env={**os.environ, "PATH": self.folder})

@@ -214,6 +214,7 @@ time_t time(time_t* to) {
         self.assertEqual(whole.returncode, 0, whole.stderr)
         calm = without_time(folder + "/r.json")
         # Killed when its first checkpoint is there: they do come, and are good for resuming.
+        arguments.append("--overwrite")
         long = [a if a != "100000" else "2e6" for a in arguments]
         process = subprocess.Popen([SWIRL, *long], env={**os.environ, **environment},
                                    stderr=subprocess.DEVNULL)

@@ -46,12 +46,12 @@ TEST(StagedFile, ReadsBackWhatWasWrittenBeforeAndAfterTheCommit) {
     const Scratch scratch;
     StagedFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
-    file.commit(false);
+    file.commit();
     file.write(4090, "0123456789", 10);
     char bytes[14];
     file.read(4088, bytes, 14);
     EXPECT_EQ(std::string_view(bytes, 14), "aa0123456789aa");
-    file.commit(false);
+    file.commit();
     std::string wanted(10'000, 'a');
     wanted.replace(4090, 10, "0123456789");
     EXPECT_EQ(content(scratch / "f"), wanted);
@@ -62,12 +62,12 @@ TEST(StagedFile, NothingOfAnUncommittedChangeReachesTheOldBytes) {
     const Scratch scratch;
     StagedFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
-    file.commit(false);
+    file.commit();
     write_generation(file, 1, 30'000);
     EXPECT_EQ(read_whole_file(scratch / "f").substr(0, 10'000), std::string(10'000, 'a'));
     file.abandon();
     file.write(0, "zzz", 3);
-    file.commit(false);
+    file.commit();
     EXPECT_EQ(read_whole_file(scratch / "f"), std::string(10'000, 'a'));
 }
 
@@ -79,7 +79,7 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
     {
         StagedFile file(scratch / "old", Mode::create);
         write_generation(file, 0, size);
-        file.commit(false);
+        file.commit();
     }
     // The journal of the step from 'a' to 'b', caught by a child that dies before it is emptied.
     const std::string old_bytes = read_whole_file(scratch / "old");
@@ -109,14 +109,14 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
 TEST(StagedFile, SurvivesKillsAtRandomMoments) {
     const Scratch scratch;
     const auto path = scratch / "f";
-    { StagedFile(path, Mode::create).commit(false); }
+    { StagedFile(path, Mode::create).commit(); }
     for (int round = 0; round < 20; ++round) {
         const pid_t child = ::fork();
         if (child == 0) {
             StagedFile file(path, Mode::change);
             for (int g = 0;; g = (g + 1) % 26) {
                 write_generation(file, g, 50'000 + 5'000 * std::size_t(g));
-                file.commit(false);
+                file.commit();
             }
         }
         ::usleep(unsigned(2000 + 731 * round));

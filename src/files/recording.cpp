@@ -1,0 +1,52 @@
+#include "swirl/files/recording.hpp"
+
+#include <fmt/format.h>
+
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
+
+namespace swirl {
+namespace {
+
+std::string run_of(const std::filesystem::path& file) {
+    const Hdf5File recording(file, StagedFile::Mode::read);
+    const std::string at = std::string("/parameters/") + run_entry;
+    return recording.has(at) ? recording.read_text(at) : "";
+}
+
+}  // namespace
+
+std::filesystem::path partial_name(const std::filesystem::path& path) {
+    return path.string() + std::string(partial_suffix);
+}
+
+void refuse_foreign_recording(const std::filesystem::path& path, const std::string& run) {
+    const auto partial = partial_name(path);
+    std::error_code ignored;
+    if (!std::filesystem::exists(partial, ignored)) return;
+    // Killed before its first commit: nothing was ever in there.
+    if (StagedFile(partial, StagedFile::Mode::read).size() == 0) return;
+    if (run_of(partial) != run)
+        throw FileError(
+            fmt::format("'{}' is the unfinished recording of another run; finish that one with "
+                        "--resume, choose "
+                        "another name, or give --overwrite to lose it.",
+                        partial.string()));
+}
+
+Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run) {
+    const auto partial = partial_name(path);
+    std::error_code ignored;
+    const bool finished =
+        !std::filesystem::exists(partial, ignored) && std::filesystem::exists(path, ignored);
+    const auto& there = finished ? path : partial;
+    if (run_of(there) != run)
+        throw FileError(fmt::format(
+            "'{}' was recorded by another run than the checkpoint, and is left as it is; the run "
+            "cannot go on without its own recording.",
+            there.string()));
+    if (finished) give_final_name(path, partial);
+    return {partial, StagedFile::Mode::change};
+}
+
+}  // namespace swirl

@@ -1,0 +1,142 @@
+"""Names that are there already, files of other runs under them, and what `swirl verify` believes."""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+import unittest
+
+from program import SWIRL, InFolder, swirl
+
+
+def without_time(file):
+    with open(file) as opened:
+        result = json.load(opened)
+    for of_the_call in ("seconds", "events_per_second", "command"):
+        del result[of_the_call]
+    return result
+
+
+class Overwriting(InFolder):
+    in_memory = True
+
+    def run_call(self, *more, seed=1, events="20000"):
+        return ["run", "--discs", "8", "--events", events, "--seed", seed, "--trajectory",
+                self.path("t.h5"), "--log-events", self.path("e.h5"), "--json", self.path("r.json"),
+                "--checkpoint-every", "0.01", "--quiet", *more]
+
+    def killed(self, *more, seed=1):
+        """A run that would take long, killed when its first checkpoint is there."""
+        process = subprocess.Popen([SWIRL, *map(str, self.run_call(*more, seed=seed, events="1e9"))],
+                                   stderr=subprocess.DEVNULL)
+        while not os.path.exists(self.path("r.json.checkpoint")):
+            self.assertIsNone(process.poll(), "over without a checkpoint")
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+
+    def refused(self, *call, says):
+        done = swirl(*call)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(says, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_a_finished_result_is_overwritten_only_when_asked(self):
+        self.assertEqual(swirl(*self.run_call()).returncode, 0)
+        before = without_time(self.path("r.json"))
+        self.refused(*self.run_call(seed=2), says="r.json' is there already")
+        self.refused(*self.run_call("--resume", seed=2), says="r.json' is there already")
+        self.assertEqual(without_time(self.path("r.json")), before)
+        done = swirl(*self.run_call("--resume"))  # nothing left to do
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(swirl(*self.run_call("--overwrite", seed=2)).returncode, 0)
+        self.assertNotEqual(without_time(self.path("r.json")), before)
+        self.assertEqual(self.left_behind(), ["e.h5", "r.json", "t.h5"])
+
+    def test_an_interrupted_run_is_overwritten_only_when_asked_and_its_checkpoint_is_kept(self):
+        self.killed()
+        with open(self.path("r.json.checkpoint"), "rb") as opened:
+            checkpoint = opened.read()
+        self.refused(*self.run_call(seed=2), says="--resume goes on")
+        done = swirl(*self.run_call("--overwrite", seed=2))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("r.json.checkpoint.backup"), "rb") as opened:
+            self.assertEqual(opened.read(), checkpoint)
+
+    def test_another_run_under_the_same_name_is_neither_begun_nor_taken_for_ones_own(self):
+        self.killed()
+        kept = self.path("kept.checkpoint")
+        shutil.copy(self.path("r.json.checkpoint"), kept)
+        os.remove(self.path("r.json.checkpoint"))
+        # B would begin anew over what A has recorded.
+        self.refused(*self.run_call(seed=2), says="unfinished recording of another run")
+        # B did so all the same and is complete; A comes back.
+        self.assertEqual(swirl(*self.run_call("--overwrite", seed=2)).returncode, 0)
+        with open(self.path("t.h5"), "rb") as opened:
+            of_b = opened.read()
+        self.refused("run", "--checkpoint", kept, "--resume", "--quiet",
+                     says="recorded by another run")
+        with open(self.path("t.h5"), "rb") as opened:
+            self.assertEqual(opened.read(), of_b)
+
+    def test_a_run_whose_standard_files_are_closed_writes_into_none_of_its_own(self):
+        done = subprocess.run(["sh", "-c", 'exec "$0" "$@" 0<&- 1>&- 2>&-', SWIRL,
+                               *map(str, self.run_call()[:-1])])
+        self.assertEqual(done.returncode, 0)
+        for name in ("r.json", "t.h5", "e.h5"):
+            done = swirl("verify", self.path(name))
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_pipes_that_nobody_writes_to_are_refused_at_once(self):
+        os.mkfifo(self.path("pipe"))
+        self.refused("verify", self.path("pipe"), says="regular file")
+        self.refused("run", "--checkpoint", self.path("pipe"), "--resume", says="regular file")
+
+    def test_verify_believes_no_recording_that_lacks_something(self):
+        self.assertEqual(swirl(*self.run_call()).returncode, 0)
+        change = """
+import h5py, sys, numpy
+file, what = sys.argv[1:]
+f = h5py.File(file, 'r+')
+t = 'particles/trajectory/'
+def cut(group, part):
+    def shorten(name, x):
+        if isinstance(x, h5py.Dataset) and x.maxshape and x.maxshape[0] is None:
+            x.resize(int(x.shape[0] * part), axis=0)
+    f[group].visititems(shorten)
+if what == 'radius': f[t + 'radius'][3] = numpy.nan
+if what == 'mass': f[t + 'mass'][3] *= 2
+if what == 'container': f['parameters'].attrs['container_radius'] = 0.0
+if what == 'period': f['parameters'].attrs['period'] = 0.0
+if what == 'events': f['observables/events/value'][7] += 1
+if what == 'centre': f['observables/container_x/value'][7] += 1e-9
+if what == 'no frames':
+    for name in ('position', 'velocity', 'angle', 'angular_velocity'):
+        f[t + name + '/value'].resize(0, axis=0)
+if what == 'first': f['initial/radius'][0] = numpy.nan
+if what == 'no events': cut('events', 0)
+if what == 'quarter': cut('events', 0.25)
+"""
+        for name, changes in (("t.h5", ("radius", "mass", "container", "period", "events", "centre",
+                                        "no frames")),
+                              ("e.h5", ("first", "container", "period", "no events", "quarter"))):
+            for what in changes:
+                shutil.copy(self.path(name), self.path("changed.h5"))
+                changed = subprocess.run(["/usr/bin/python3", "-c", change, self.path("changed.h5"),
+                                          what], capture_output=True, text=True)
+                if "No module named 'h5py'" in changed.stderr:
+                    self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
+                self.assertEqual(changed.returncode, 0, changed.stderr)
+                self.refused("verify", self.path("changed.h5"), says="differs from")
+        for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
+            with open(self.path("r.json")) as opened:
+                result = json.load(opened)
+            result[part] = value
+            with open(self.path("changed.json"), "w") as opened:
+                json.dump(result, opened)
+            self.refused("verify", self.path("changed.json"), says=part + " is")
+
+
+if __name__ == "__main__":
+    unittest.main()

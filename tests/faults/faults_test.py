@@ -1,0 +1,325 @@
+"""What a run and a sweep leave behind when the system fails them: the k-th call of each kind fails
+once or for ever, the process is killed before its k-th change of a file, or the power goes. Each
+time the program says so in a sentence and does not end with 0, or what it left is right, to the bit.
+
+    faults_test.py          a sample of all that, for the default suite
+    faults_test.py --all    every k, both errors, and 200 power cuts; ends with a table
+"""
+
+import errno
+import glob
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "app"))
+from program import SWIRL  # noqa: E402
+
+SHIM = os.environ["SWIRL_FAULTS"]
+EVERY = "--all" in sys.argv
+TABLE = []
+
+RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2", "--frames", "60",
+       "--trajectory", "t.h5", "--log-events", "e.h5", "--json", "r.json", "--checkpoint-every",
+       "0.001", "--quiet"]
+SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--frames", "4", "--out",
+         "s", "--quiet"]
+CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
+PAGE = 4096
+
+
+def setting(call, at, error=0, **more):
+    return {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(at), "FAULT_ERRNO": str(error),
+            **more}
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+        self._folder = tempfile.TemporaryDirectory(prefix="swirl-faults-", dir=place)
+        self.addCleanup(self._folder.cleanup)
+        self.folder = self._folder.name
+        self.work = os.path.join(self.folder, "work")
+        self.choose = random.Random(1)
+
+    def swirl(self, *arguments, **environment):
+        return subprocess.run([SWIRL, *arguments], cwd=self.work, capture_output=True, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL,
+                              env={**os.environ, "NO_COLOR": "1", **environment})
+
+    def anew(self):
+        shutil.rmtree(self.work, ignore_errors=True)
+        os.mkdir(self.work)
+
+    def count(self, call, arguments):
+        """How many calls of a kind there are when nothing fails."""
+        self.anew()
+        count = os.path.join(self.folder, "count")
+        done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_COUNT=count,
+                          **setting(call, 0))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(count) as opened:
+            return int(opened.read())
+
+    def some(self, numbers, most):
+        numbers = list(numbers)
+        if len(numbers) <= most:
+            return numbers
+        return sorted(self.choose.sample(numbers, most))
+
+    # --- what is right -----------------------------------------------------------------------------
+
+    def absolute(self, arguments):
+        """Names under the folder that the shim watches."""
+        return [os.path.join(self.work, a) if a in ("t.h5", "e.h5", "r.json", "s") else a
+                for a in arguments]
+
+    def result(self):
+        with open(os.path.join(self.work, "r.json")) as opened:
+            found = json.load(opened)
+        for of_the_call in ("seconds", "events_per_second", "command"):
+            del found[of_the_call]
+        return found
+
+    def assert_right(self, where):
+        """The three files of the run are those of a run that nothing happened to."""
+        self.assertEqual(self.result(), self.wanted, where)
+        for name in ("t.h5", "e.h5"):
+            with open(os.path.join(self.work, name), "rb") as opened:
+                if opened.read() == self.bytes.get(name):
+                    continue  # flushed at the same moments, so to the byte
+            done = self.swirl("verify", name)
+            self.assertEqual(done.returncode, 0, f"{where}: {name}: {done.stderr}")
+            self.assertNotIn("not finished", done.stdout)
+
+    def assert_right_sweep(self, where):
+        table = self.swirl("collect", "s", "--csv", "-")
+        self.assertEqual((table.returncode, table.stdout), (0, self.wanted_table), where)
+        for file in glob.glob(os.path.join(self.work, "s/trajectories/*.h5")):
+            done = self.swirl("verify", file)
+            self.assertEqual(done.returncode, 0, f"{where}: {file}: {done.stderr}")
+
+    def undisturbed(self):
+        self.anew()
+        self.run_call = self.absolute(RUN)
+        done = self.swirl(*self.run_call)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.wanted, self.bytes = self.result(), {}
+        for name in ("t.h5", "e.h5"):
+            with open(os.path.join(self.work, name), "rb") as opened:
+                self.bytes[name] = opened.read()
+
+    def undisturbed_sweep(self):
+        self.anew()
+        self.sweep_call = self.absolute(SWEEP)
+        done = self.swirl(*self.sweep_call)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.wanted_table = self.swirl("collect", "s", "--csv", "-").stdout
+
+    def assert_said(self, done, where):
+        """One sentence, and no crash."""
+        self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
+        self.assertTrue(done.stderr.startswith("swirl: "), f"{where}: {done.stderr}")
+
+    def fail_each(self, arguments, assert_right, most):
+        most = 10**9 if EVERY else most
+        for call in CALLS:
+            calls, said, right = self.count(call, arguments), 0, 0
+            for error, ever in ((errno.ENOSPC, "0"), (errno.EIO, "1"), (errno.EIO, "0"))[
+                    :3 if EVERY else 2]:
+                for k in self.some(range(1, calls + 1), most):
+                    where = f"{call} {k} of {calls}, {errno.errorcode[error]}, for ever: {ever}"
+                    self.anew()
+                    done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_EVER=ever,
+                                      FAULT_LOSE="1", **setting(call, k, error))
+                    if done.returncode == 0:
+                        assert_right(where)
+                        right += 1
+                        continue
+                    self.assert_said(done, where)
+                    said += 1
+            TABLE.append(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
+                         f"{said} said so, {right} right all the same")
+
+    def fail_memory(self, most):
+        calls, said, right, aborted = self.count("new", self.run_call), 0, 0, 0
+        # Before main() nobody is there who could say anything.
+        before = self.count("new", ["--version"])
+        for k in self.some(range(before, calls + 1), most):
+            where = f"new {k} of {calls}"
+            self.anew()
+            done = self.swirl(*self.run_call, **setting("new", k, errno.ENOMEM))
+            if done.returncode == 0:
+                self.assert_right(where)
+                right += 1
+            elif done.returncode == -signal.SIGABRT and "std::bad_alloc" in done.stderr:
+                aborted += 1  # the JSON library needs memory in its destructors
+            else:
+                self.assert_said(done, where)
+                said += 1
+        TABLE.append(f"run, new fails: {calls} places, {said + right + aborted} tried, {said} said "
+                     f"so, {right} right all the same, {aborted} aborted")
+        self.assertLess(aborted, max(4, (said + right) / 4))
+
+    # --- the tests ---------------------------------------------------------------------------------
+
+    def test_a_call_that_fails_in_a_run_is_told_or_does_no_harm(self):
+        self.undisturbed()
+        self.fail_each(self.run_call, self.assert_right, 5)
+
+    def test_memory_that_is_not_given_in_a_run_is_told_or_does_no_harm(self):
+        self.undisturbed()
+        self.fail_memory(600 if EVERY else 15)
+
+    def test_a_call_that_fails_in_a_sweep_is_told_or_does_no_harm(self):
+        self.undisturbed_sweep()
+        self.fail_each(self.sweep_call, self.assert_right_sweep, 3)
+
+    def test_killed_before_a_change_of_a_file_the_run_is_resumed_to_the_same_bits(self):
+        self.undisturbed()
+        calls = self.count("change", self.run_call)
+        tried = self.some(range(1, calls + 1), 10**9 if EVERY else 20)
+        for k in tried:
+            self.anew()
+            self.swirl(*self.run_call, FAULT_UNDER=self.folder, **setting("change", k))
+            done = self.swirl(*self.run_call, "--resume")
+            self.assertEqual(done.returncode, 0, f"killed before change {k}: {done.stderr}")
+            self.assert_right(f"killed before change {k} of {calls}")
+            left = [name for name in os.listdir(self.work) if name not in self.bytes]
+            self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [],
+                             f"killed before change {k} of {calls}")
+        TABLE.append(f"run, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+
+    def test_after_a_power_cut_the_run_is_resumed_to_the_same_bits_or_refused(self):
+        self.undisturbed()
+        self.anew()
+        record = os.path.join(self.folder, "record")
+        done = self.swirl(*self.run_call, FAULT_UNDER=self.work, FAULT_RECORD=record,
+                          **setting("none", 0))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        entries = read_record(record)
+        cuts, refused = 200 if EVERY else 20, 0
+        for cut in range(cuts):
+            at = self.choose.randrange(len(entries))
+            self.anew()
+            disk_after(entries[:at], self.choose).write(self.work)
+            done = self.swirl(*self.run_call, "--resume")
+            where = f"power cut {cut}, after {at} of {len(entries)} entries"
+            if done.returncode != 0:
+                self.assert_said(done, where)
+                refused += 1
+                continue
+            self.assert_right(where)
+        TABLE.append(f"run, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
+        self.assertLess(refused, cuts / 10)
+
+
+# --- what a disk holds after a power cut -----------------------------------------------------------
+
+def read_record(path):
+    """What the shim wrote: (letter, offset or size, path, second path, bytes)."""
+    entries = []
+    with open(path, "rb") as opened:
+        while line := opened.readline():
+            what, a, size, one, two = line.rstrip(b"\n").split(b"\t")
+            content = opened.read(int(size)) if what == b"w" else b""
+            entries.append((what.decode(), int(a), one.decode(), two.decode(), content))
+    return entries
+
+
+class Inode:
+    def __init__(self):
+        self.durable, self.pending = bytearray(), []
+
+    def apply(self, content, change):
+        at, piece = change
+        if piece is None:
+            content[:] = content[:at].ljust(at, b"\0")
+        else:
+            content[len(content):] = bytes(max(0, at + len(piece) - len(content)))
+            content[at:at + len(piece)] = piece
+
+    def sync(self):
+        for change in self.pending:
+            self.apply(self.durable, change)
+        self.pending = []
+
+    def after_the_cut(self, choose, kept):
+        content = bytearray(self.durable)
+        for change in self.pending:
+            if choose.random() < kept:
+                self.apply(content, change)
+        return bytes(content)
+
+
+class Disk:
+    """Names and contents, each as far as they are on the disk, and what has changed since."""
+
+    def __init__(self):
+        self.names, self.durable_names, self.changes = {}, {}, []
+
+    def change_name(self, change):
+        self.changes.append(change)
+        self.rename(self.names, change)
+
+    @staticmethod
+    def rename(names, change):
+        what, one, two, inode = change
+        if what == "c":
+            names[one] = inode
+        elif what == "u":
+            names.pop(one, None)
+        elif one in names:
+            names[two] = names.pop(one)
+
+    def add(self, entry):
+        what, a, one, two, content = entry
+        if what == "c":
+            if one not in self.names:
+                self.change_name(("c", one, "", Inode()))
+        elif what in "ru":
+            self.change_name((what, one, two, None))
+        elif what == "w":
+            for begin in range(0, len(content), PAGE):
+                self.names[one].pending.append((a + begin, content[begin:begin + PAGE]))
+        elif what == "t":
+            self.names[one].pending.append((a, None))
+        elif one in self.names:
+            self.names[one].sync()
+        else:  # a folder: the names in it
+            for change in self.changes:
+                self.rename(self.durable_names, change)
+            self.changes = []
+
+    def cut(self, choose):
+        """Names change in order, so some of the last changes are missing; pages in any order."""
+        for change in self.changes[:choose.randint(0, len(self.changes))]:
+            self.rename(self.durable_names, change)
+        kept = choose.choice((0.0, 0.3, 0.7, 1.0))
+        self.content = {name: inode.after_the_cut(choose, kept)
+                        for name, inode in self.durable_names.items()}
+
+    def write(self, folder):
+        for name, content in self.content.items():
+            with open(os.path.join(folder, os.path.basename(name)), "wb") as opened:
+                opened.write(content)
+
+
+def disk_after(entries, choose):
+    disk = Disk()
+    for entry in entries:
+        disk.add(entry)
+    disk.cut(choose)
+    return disk
+
+
+if __name__ == "__main__":
+    program = unittest.main(argv=[a for a in sys.argv if a != "--all"], exit=False)
+    print(*TABLE, sep="\n")
+    sys.exit(not program.result.wasSuccessful())
