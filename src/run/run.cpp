@@ -108,7 +108,7 @@ class Run {
         auto last_report = begin;
         while (!done()) {
             for (int k = 0; k < patience && !done(); ++k) step();
-            refuse_collapse();
+            refuse_collapse(collapse_window());
             const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
             if (!done()) offer_state(stopped, seconds_before_ + seconds_since(begin));
             if (stopped) break;
@@ -117,6 +117,7 @@ class Run {
             last_report = now;
             control_.progress({fraction(), simulation_.events().total(), periods()});
         }
+        refuse_collapse(least_collapse_window);
         result_.complete = done();
         result_.seconds = seconds_before_ + seconds_since(begin);
         finish();
@@ -141,11 +142,12 @@ class Run {
 
     /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
     /// friction alone (docs/physics.md). A disc of the paper's dish has about 70 events per swirl,
-    /// one that obeys a contact duration at most T/t_c.
-    void refuse_collapse() {
+    /// one that obeys a contact duration at most T/t_c. Asked whenever so many events have passed,
+    /// and of what is left at the end.
+    void refuse_collapse(std::uint64_t window) {
         constexpr double too_fast = 1e8;  // events per disc and swirl
         const std::uint64_t events = simulation_.events().total() - events_at_mark_;
-        if (events < 1'000'000) return;
+        if (events < window) return;
         const double swirls = periods() - periods_at_mark_;
         const double discs = static_cast<double>(simulation_.size());
         if (static_cast<double>(events) > too_fast * discs * swirls)
@@ -155,6 +157,12 @@ class Run {
                 events, swirls, periods(), reason_for_collapse()));
         events_at_mark_ += events;
         periods_at_mark_ += swirls;
+    }
+
+    static constexpr std::uint64_t least_collapse_window = 2000;
+    /// Some two hundred events for each disc: the two that collapse may be among thousands.
+    std::uint64_t collapse_window() const {
+        return std::max<std::uint64_t>(20'000, 200 * simulation_.size());
     }
 
     std::string reason_for_collapse() const {
