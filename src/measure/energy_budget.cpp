@@ -1,5 +1,7 @@
 #include "swirl/measure/energy_budget.hpp"
 
+#include "swirl/physics/collision_law.hpp"
+
 namespace swirl {
 namespace {
 

@@ -22,7 +22,6 @@
 #pragma once
 
 #include "swirl/measure/statistics.hpp"
-#include "swirl/physics/collision_law.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 
