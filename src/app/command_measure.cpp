@@ -179,8 +179,9 @@ void add_measure_command(CLI::App& subcommand) {
     subcommand.callback([call] { measure_file(*call); });
 }
 
-const Command command(41, "measure", "The measurements, on recorded frames or a camera's tracks.",
-                      add_measure_command);
+const Command measure_command(41, "measure",
+                              "The measurements, on recorded frames or a camera's tracks.",
+                              add_measure_command);
 
 }  // namespace
 }  // namespace swirl

@@ -157,8 +157,8 @@ void add_verify_command(CLI::App& subcommand) {
     });
 }
 
-const Command command(42, "verify", "Runs a result again and compares every bit.",
-                      add_verify_command);
+const Command verify_command(42, "verify", "Runs a result again and compares every bit.",
+                             add_verify_command);
 
 }  // namespace
 }  // namespace swirl
