@@ -1,8 +1,13 @@
 # The engine and what an observer sees of it: math, physics, simulation, measure. Nothing but the
 # standard library, and no exceptions.
+#
+# Whoever links to them compiles the functions in our headers. Nothing may be fused there either, or
+# the same text would give other bits than it gives in our own files.
 add_library(swirl_physics INTERFACE)
-target_include_directories(swirl_physics INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/include)
-target_link_libraries(swirl_physics INTERFACE swirl_options)
+target_compile_features(swirl_physics INTERFACE cxx_std_20)
+target_compile_options(swirl_physics INTERFACE -ffp-contract=off)
+target_include_directories(swirl_physics INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 
 # The event loop is compiled once for each vector width, and the widest that the processor has is
 # chosen at run time; so are the plain loop's scan and the averages by event. The files of these
@@ -32,3 +37,7 @@ target_compile_options(swirl_simulation PRIVATE -fno-exceptions)
 add_library(swirl_measure STATIC ${measure_sources})
 target_link_libraries(swirl_measure PUBLIC swirl_physics)
 target_compile_options(swirl_measure PRIVATE -fno-exceptions)
+
+# By these names, installed or as a subdirectory.
+add_library(swirl::engine ALIAS swirl_simulation)
+add_library(swirl::measure ALIAS swirl_measure)

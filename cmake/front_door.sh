@@ -1,5 +1,6 @@
 # What ./swirl and ./check share: install the Debian packages that are missing, and build when the
-# sources are newer than the last build. Sourced by both; expects $home, the root of the tree.
+# sources are newer than the last build. Sourced by both; expects $home, the root of the tree, $me,
+# and $long, what a first build takes on two cores.
 #
 # Everything said here goes to stderr: stdout belongs to the program (`--json -`).
 
@@ -32,34 +33,42 @@ apt_install() {
         --no-install-recommends "$@"
 }
 
-# Installs what is missing of the sections $1 (needed) and $2 (good to have).
+# Installs what is missing of the sections "$@". Without root, or where that fails, it says which
+# command would, and fails.
 install_packages() {
-    command -v dpkg-query >/dev/null || return 0 # not Debian: the build will say what it lacks
-    # shellcheck disable=SC2086
-    needed=$(missing_packages $1)
-    # shellcheck disable=SC2086
-    all=$(missing_packages $1 $2)
-    [ -n "$all" ] || return 0
+    command -v dpkg-query >/dev/null || return 0 # not Debian: who needs it will say what it lacks
+    missing=$(missing_packages "$@" | sort -u)
+    [ -n "$missing" ] || return 0
     # shellcheck disable=SC2116,SC2086
-    all=$(echo $all) # one line
+    missing=$(echo $missing) # one line
     if [ "$(id -u)" -ne 0 ]; then
-        [ -n "$needed" ] || return 0
-        say "some Debian packages are missing; install them and try again:"
-        echo "    sudo apt-get install --no-install-recommends $all" >&2
-        exit 1
+        say "some Debian packages are missing; this installs them:"
+        echo "    sudo apt-get install --no-install-recommends $missing" >&2
+        return 1
     fi
     log=$home/build/packages.log
-    say "installing Debian packages, once: $all"
+    say "installing Debian packages, once: $missing"
     # shellcheck disable=SC2086
-    if ! apt_install $all </dev/null >"$log" 2>&1; then
+    if ! apt_install $missing </dev/null >"$log" 2>&1; then
         # A machine that never asked for them has no lists of packages yet, or old ones.
         if ! apt-get -o DPkg::Lock::Timeout=300 update </dev/null >>"$log" 2>&1 ||
-            ! apt_install $all </dev/null >>"$log" 2>&1; then
+            ! apt_install $missing </dev/null >>"$log" 2>&1; then
             tail -n 15 "$log" >&2
-            give_up "installing the packages failed (see above, all of it in $log); this is the" \
-                "command: apt-get install --no-install-recommends $all"
+            say "installing the packages failed (see above, all of it in $log); this is the command:"
+            echo "    apt-get install --no-install-recommends $missing" >&2
+            return 1
         fi
     fi
+}
+
+# What a call of the program needs besides the program itself: the packages in the sections "$@".
+# Looked for again only when packages were installed or removed since. If they cannot be had, the
+# program does what it can without them.
+packages_for_this_call() {
+    stamp=$home/build/.packages-$(echo "$@" | tr ' ' '-')
+    if [ "$stamp" -nt /var/lib/dpkg/status ] && [ "$stamp" -nt "$home/packages" ]; then return 0; fi
+    mkdir -p "$home/build" 2>/dev/null || return 0
+    if install_packages "$@"; then touch "$stamp" 2>/dev/null || true; fi
 }
 
 # Sources, and the packages they are built with, whose status changed since the stamp; ctime, so
@@ -82,24 +91,37 @@ commit_files() {
     done
 }
 
-# build PRESET SECTIONS_NEEDED SECTIONS_GOOD_TO_HAVE [FOLDERS_WATCHED_BESIDES [TARGETS]]
+# While the build writes its log $1: how far it is, every ten seconds. Ends with this shell.
+report_progress() {
+    waited=0
+    while sleep 1 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
+        waited=$((waited + 1))
+        [ $((waited % 10)) -eq 0 ] || continue
+        # ninja writes "[37/98] Building …".
+        step=$(sed -n 's/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 \2/p' "$1" | tail -n 1)
+        [ -z "$step" ] || say "building: ${step% *} of ${step#* }, $((100 * ${step% *} / ${step#* })) %"
+    done
+}
+
+# build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED_BESIDES [TARGETS]]
 # Returns at once if build/PRESET is newer than everything it was made of.
 build() {
     folder=$home/build/$1
     stamp=$folder/.built
     # shellcheck disable=SC2046,SC2086
-    if [ -e "$stamp" ] && ! changed_since ${4-} $(commit_files); then return 0; fi
+    if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
 
     mkdir -p "$folder" 2>/dev/null || give_up "cannot write to $home/build, where the program is built."
     # One at a time; whoever waited finds the work done.
     exec 9>"$home/build/.lock"
     flock 9
     # shellcheck disable=SC2046,SC2086
-    if [ -e "$stamp" ] && ! changed_since ${4-} $(commit_files); then
+    if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then
         exec 9>&-
         return 0
     fi
-    install_packages "$2" "$3"
+    # shellcheck disable=SC2086
+    install_packages $2 || exit 1
     command -v cmake >/dev/null || give_up "cmake is missing; install it, a C++20 compiler and the libraries listed in $home/packages."
     # A tree that was moved cannot go on with a build made elsewhere.
     if [ -e "$folder/CMakeCache.txt" ] &&
@@ -110,15 +132,21 @@ build() {
     # ninja goes by the date of a file alone; make the date tell.
     if [ -e "$stamp" ]; then
         # shellcheck disable=SC2086
-        (cd "$home" && find src include cmake CMakeLists.txt ${4-} -type f -cnewer "$stamp" ! -newer "$stamp" \
+        (cd "$home" && find src include cmake CMakeLists.txt ${3-} -type f -cnewer "$stamp" ! -newer "$stamp" \
             -exec touch {} + 2>/dev/null) || true
     fi
-    [ -e "$stamp" ] || say "building, once; this takes a minute or two"
+    [ -e "$stamp" ] || say "building, once; on two cores this takes $long"
     touch "$folder/.building"
     log=$folder/build.log
+    : >"$log"
+    report_progress "$log" 9>&- &
+    reporter=$!
+    built=yes
     # shellcheck disable=SC2086
-    if ! (cd "$home" && cmake --preset "$1") >"$log" 2>&1 ||
-        ! cmake --build "$folder" ${5:+--target} ${5-} >>"$log" 2>&1; then
+    (cd "$home" && cmake --preset "$1") >>"$log" 2>&1 &&
+        cmake --build "$folder" ${4:+--target} ${4-} >>"$log" 2>&1 || built=no
+    kill "$reporter" 2>/dev/null || true
+    if [ $built = no ]; then
         tail -n 40 "$log" >&2
         give_up "the build failed (see above, all of it in $log)."
     fi

@@ -1,17 +1,20 @@
-# Compiler flags for everything we ship. No -ffast-math, no -march=native, no fused multiply-add:
-# the same bits on every machine (docs/determinism.md). -fno-math-errno and -fno-trapping-math
-# change no value; they let the compiler use the square-root instruction and masked vectors.
-add_library(swirl_options INTERFACE)
-target_compile_options(swirl_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi -Werror
-  -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# Compiler flags for everything in this tree; none of them reaches who links to it. No -ffast-math,
+# no -march=native: the same bits on every machine (docs/determinism.md). -fno-math-errno and
+# -fno-trapping-math change no value; they let the compiler use the square-root instruction and
+# masked vectors. The one flag that our headers need wherever they are compiled, -ffp-contract=off,
+# belongs to the targets (engine.cmake).
+add_compile_options(
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
+  -fno-math-errno -fno-trapping-math)
+if(PROJECT_IS_TOP_LEVEL)
+  add_compile_options(-Werror)
+endif()
 if(SWIRL_SANITIZE)
-  target_compile_options(swirl_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_link_options(swirl_options INTERFACE -fsanitize=address,undefined)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
 endif()
 if(SWIRL_INTERNAL_CHECKS)
-  target_compile_definitions(swirl_options INTERFACE SWIRL_INTERNAL_CHECKS=1)
+  add_compile_definitions(SWIRL_INTERNAL_CHECKS=1)
 endif()
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
@@ -19,5 +22,9 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 find_program(ccache_program ccache)
 if(ccache_program)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_program})
+  # It takes precompiled headers only when it is told that the macros in them are meant.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_program})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fpch-preprocess)
+  endif()
 endif()

@@ -90,7 +90,8 @@ void add_bench_command(Subcommand& subcommand) {
     subcommand.callback([call] { make_bench(*call); });
 }
 
-const Command command(90, "bench", "How fast the engine is on this machine.", add_bench_command);
+const Command bench_command(90, "bench", "How fast the engine is on this machine.",
+                            add_bench_command);
 
 }  // namespace
 }  // namespace swirl

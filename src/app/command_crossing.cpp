@@ -84,8 +84,9 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.callback([call] { find(*call); });
 }
 
-const Command command(15, "crossing", "The number of discs at which the rotation changes sign.",
-                      add_crossing_command);
+const Command crossing_command(15, "crossing",
+                               "The number of discs at which the rotation changes sign.",
+                               add_crossing_command);
 
 }  // namespace
 }  // namespace swirl

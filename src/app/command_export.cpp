@@ -92,8 +92,9 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.callback([call] { export_file(*call); });
 }
 
-const Command command(40, "export", "A trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD.",
-                      add_export_command);
+const Command export_command(40, "export",
+                             "A trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD.",
+                             add_export_command);
 
 }  // namespace
 }  // namespace swirl

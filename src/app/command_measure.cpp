@@ -168,8 +168,9 @@ void add_measure_command(Subcommand& subcommand) {
     subcommand.callback([call] { measure_file(*call); });
 }
 
-const Command command(41, "measure", "The measurements, on recorded frames or a camera's tracks.",
-                      add_measure_command);
+const Command measure_command(41, "measure",
+                              "The measurements, on recorded frames or a camera's tracks.",
+                              add_measure_command);
 
 }  // namespace
 }  // namespace swirl

@@ -136,8 +136,8 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.callback([call] { make_and_report(*call); });
 }
 
-const Command command(60, "movie", "A movie of the dish, in the lab frame or the M-frame.",
-                      add_movie_command);
+const Command movie_command(60, "movie", "A movie of the dish, in the lab frame or the M-frame.",
+                            add_movie_command);
 
 }  // namespace
 }  // namespace swirl

@@ -137,8 +137,9 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.callback([call] { make_paper(*call); });
 }
 
-const Command command(20, "paper", "The paper's figures: tables and drawings, from simulation.",
-                      add_paper_command);
+const Command paper_command(20, "paper",
+                            "The paper's figures: tables and drawings, from simulation.",
+                            add_paper_command);
 
 }  // namespace
 }  // namespace swirl

@@ -70,7 +70,8 @@ void add_picture_command(Subcommand& subcommand) {
     subcommand.callback([call] { draw_and_report(*call); });
 }
 
-const Command command(61, "picture", "A picture of the dish at one instant.", add_picture_command);
+const Command picture_command(61, "picture", "A picture of the dish at one instant.",
+                              add_picture_command);
 
 }  // namespace
 }  // namespace swirl

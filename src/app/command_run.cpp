@@ -171,7 +171,8 @@ void add_run_command(Subcommand& subcommand) {
     subcommand.callback([call] { run_and_report(*call); });
 }
 
-const Command command(10, "run", "One simulation, from its seed to its averages.", add_run_command);
+const Command run_command(10, "run", "One simulation, from its seed to its averages.",
+                          add_run_command);
 
 }  // namespace
 }  // namespace swirl

@@ -289,8 +289,8 @@ void add_verify_command(Subcommand& subcommand) {
     });
 }
 
-const Command command(42, "verify", "Runs a result again and compares every bit.",
-                      add_verify_command);
+const Command verify_command(42, "verify", "Runs a result again and compares every bit.",
+                             add_verify_command);
 
 }  // namespace
 }  // namespace swirl

@@ -1,6 +1,6 @@
 // The subcommands. Each lives in its own file command_<name>.cpp and adds itself to the program by
 //
-//     namespace { const swirl::Command command(10, "run", "One simulation.", add_run_command); }
+//     namespace { const swirl::Command run_command(10, "run", "One run.", add_run_command); }
 //
 // so that a new one is a new file and nothing else.
 #pragma once

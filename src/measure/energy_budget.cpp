@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "swirl/physics/collision_law.hpp"
+
 namespace swirl {
 namespace {
 

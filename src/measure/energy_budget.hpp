@@ -23,7 +23,6 @@
 
 #include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
-#include "swirl/physics/collision_law.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 

@@ -77,11 +77,14 @@ std::string last_line(std::string text) {
 fs::path figures_folder() {
     if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given) return given;
     std::error_code ignored;
-    for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-         folder.has_relative_path(); folder = folder.parent_path())
+    const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    if (fs::path installed = beside / "../share/swirl/figures";
+        fs::exists(installed / "style.py", ignored))
+        return fs::canonical(installed, ignored);
+    for (fs::path folder = beside; folder.has_relative_path(); folder = folder.parent_path())
         if (fs::exists(folder / "figures" / "style.py", ignored)) return folder / "figures";
     throw Failure(
-        "The folder figures/ with the scripts that draw is not beside this program; set "
+        "The folder with the scripts that draw is not where this program is installed; set "
         "SWIRL_FIGURES to where it is.");
 }
 

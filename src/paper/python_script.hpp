@@ -8,8 +8,8 @@
 
 namespace swirl {
 
-/// The folder figures/ of the source tree: beside the build folder this program runs from, or
-/// where SWIRL_FIGURES says. Throws Failure if it is not there.
+/// Where SWIRL_FIGURES says; or ../share/swirl/figures from an installed program; or figures/ of
+/// the source tree in which it was built. Throws Failure if it is not there.
 std::filesystem::path figures_folder();
 
 /// Throws Failure, with what the script had to say, if it does not succeed.

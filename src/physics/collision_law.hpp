@@ -33,18 +33,10 @@
 
 #include "swirl/math/real.hpp"
 #include "swirl/math/vec2.hpp"
+#include "swirl/physics/contact.hpp"
 #include "swirl/physics/disc.hpp"
 
 namespace swirl {
-
-/// How two surfaces meet: friction μ ≥ 0, normal restitution e ∈ [0, 1], tangential restitution
-/// β ∈ [0, 1], and the duration t_c of a contact, which matters only for e < 1.
-struct Surface {
-    double mu = 1.0;
-    double restitution = 1.0;
-    double tangential_restitution = 0.0;
-    double contact_duration = 0.0;
-};
 
 /// The TC model (Luding, McNamara 1998, doi:10.1007/s100350050017): with e < 1 a cluster of discs
 /// can collide infinitely often in a finite time. Real contacts last a time t_c, and discs that
@@ -78,12 +70,6 @@ SWIRL_INLINE constexpr Body wall_body(const Vec2& velocity) {
 struct Approach {
     double speed, slip;
     double normal_mass, tangential_mass;
-};
-
-/// Impulses on body j, along n and along r; body i receives the opposite.
-struct Impulse {
-    double normal, tangential;
-    bool sticks;  // friction sufficed to stop the slip
 };
 
 SWIRL_INLINE constexpr Impulse impulse(const Approach& approach, const Surface& surface) {
@@ -126,11 +112,6 @@ SWIRL_INLINE Impulse collide(Body& i, Body& j, const Vec2& separation, const Sur
     i.spin = i.spin + i.radius * J.tangential * i.inverse_inertia;
     j.spin = j.spin + j.radius * J.tangential * j.inverse_inertia;
     return J;
-}
-
-/// Kinetic energy of translation and spin, in the frame in which the velocities are given.
-constexpr double kinetic_energy(const Disc& d) {
-    return 0.5 * (d.mass * dot(d.velocity, d.velocity) + d.inertia * d.spin * d.spin);
 }
 
 }  // namespace swirl

@@ -46,4 +46,9 @@ inline constexpr double solid_inertia(double mass, double radius) {
     return 0.5 * mass * radius * radius;
 }
 
+/// Kinetic energy of translation and spin, in the frame in which the velocities are given.
+constexpr double kinetic_energy(const Disc& d) {
+    return 0.5 * (d.mass * dot(d.velocity, d.velocity) + d.inertia * d.spin * d.spin);
+}
+
 }  // namespace swirl

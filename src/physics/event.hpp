@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "swirl/math/vec2.hpp"
-#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/contact.hpp"
 
 namespace swirl {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/contact.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 

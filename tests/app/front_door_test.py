@@ -20,11 +20,12 @@ PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator"
  "binaryDir": "${sourceDir}/build/release"}]}"""
 PROGRAM = """#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <unistd.h>
 int main(int argc, char** argv) {
     std::printf("%s %d\\n", "WORD", int(getpid()));
     std::fflush(stdout);
-    if (argc > 2) pause();
+    if (argc > 2 && std::strcmp(argv[2], "wait") == 0) pause();
     return argc > 1 ? std::atoi(argv[1]) : 0;
 }
 """
@@ -130,17 +131,60 @@ class FrontDoor(InFolder):
         self.assertEqual([out.split()[0] for out, _ in said], ["first", "first"])
         self.assertEqual(sum("building" in complaint for _, complaint in said), 1)
 
+    def stand_in(self, name, script):
+        """A program of that name, first on the PATH of call_with_stand_ins()."""
+        os.makedirs(self.path("bin"), exist_ok=True)
+        self.write("bin/" + name, "#!/bin/sh\n" + script)
+        os.chmod(self.path("bin/" + name), 0o755)
+
+    def call_with_stand_ins(self, *arguments):
+        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
+                              timeout=100,
+                              env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
+
     def test_without_root_a_missing_package_is_named_with_the_command(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
-        # A stand-in for `id` says that we are not root.
-        os.makedirs(self.path("bin"))
-        self.write("bin/id", "#!/bin/sh\necho 1000\n")
-        os.chmod(self.path("bin/id"), os.stat(self.path("bin/id")).st_mode | stat.S_IXUSR)
-        done = subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
-                              env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
+        self.stand_in("id", "echo 1000\n")
+        done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
         self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
                       done.stderr)
+
+    def test_a_subcommand_gets_its_packages_once(self):
+        self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
+                               "[pictures]\ng++\n")
+        self.stand_in("id", "echo 0\n")
+        self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
+        for call, wanted in ((["run"], None), (["picture"], None), (["movie", "--help"], None),
+                             (["movie"], "no-camera"), (["movie"], None), (["paper"], "no-painter"),
+                             (["paper", "--movies"], "no-camera no-painter"),
+                             (["picture", "--over", "p.jpg"], "no-camera")):
+            with self.subTest(call):
+                done = self.call_with_stand_ins(*call)
+                self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
+                asked = []
+                if os.path.exists(self.path("asked")):
+                    with open(self.path("asked")) as file:
+                        asked = file.read().splitlines()
+                    os.remove(self.path("asked"))
+                self.assertEqual([line.split("--no-install-recommends ")[1] for line in asked],
+                                 [wanted] if wanted else [])
+
+    def test_a_subcommand_without_its_packages_says_so_and_does_what_it_can(self):
+        self.write("packages", "[build]\ng++\n[movies]\nno-camera\n")
+        self.stand_in("id", "echo 1000\n")
+        done = self.call_with_stand_ins("movie")
+        self.assertIn("sudo apt-get install --no-install-recommends no-camera\n", done.stderr)
+        self.assertEqual(done.stdout.split()[:1], ["first"])
+
+    def test_a_long_build_says_how_far_it_is(self):
+        self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
+  COMMAND sleep 1 COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
+add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM
+  COMMAND sleep 11 COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
+add_custom_target(slow ALL DEPENDS slower.txt)
+""")
+        self.assertRegex(self.call().stderr, r"building: [1-9] of \d, \d\d %\n")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 
 
 def files():
-    for top in ("src", "tests", "bench"):
+    for top in ("src", "tests", "bench", "examples"):
         for folder, _, names in os.walk(os.path.join(SOURCE, top)):
             for name in names:
                 if name.endswith((".hpp", ".cpp")):

@@ -1,0 +1,66 @@
+# One library per floor of the house; the arrows go down only (docs/design.md, tests/floors).
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(Threads REQUIRED)
+find_package(CLI11 REQUIRED)
+# Debian keeps HDF5's serial build in a folder of its own.
+find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
+
+# Headers that take longer to read than what they are for takes to compile, read once for all floors.
+# Every file still includes what it uses: with ccache alone (SWIRL_PRECOMPILED=OFF) it must.
+option(SWIRL_PRECOMPILED "Precompile the slow headers" ON)
+if(SWIRL_PRECOMPILED)
+  file(CONFIGURE OUTPUT slow_headers.cpp CONTENT "// The home of the precompiled headers.\n")
+  add_library(swirl_slow_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/slow_headers.cpp)
+  target_compile_options(swirl_slow_headers PRIVATE -ffp-contract=off -O2)
+  target_link_libraries(swirl_slow_headers PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
+  target_precompile_headers(swirl_slow_headers PRIVATE
+    <nlohmann/json.hpp> <fmt/format.h> <algorithm> <array> <filesystem> <functional>
+    <map> <memory> <optional> <string> <vector>)
+endif()
+
+# What is not the engine is compiled for less time: -O1 where nothing waits for it, -O2 for what is
+# done at every frame. The level changes no bit.
+function(swirl_settings target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+  if(SWIRL_PRECOMPILED AND NOT target STREQUAL "swirl_draw") # which uses none of them
+    target_precompile_headers(${target} REUSE_FROM swirl_slow_headers)
+  endif()
+endfunction()
+
+function(swirl_floor floor level)
+  file(GLOB sources CONFIGURE_DEPENDS src/${floor}/*.cpp)
+  add_library(swirl_${floor} STATIC ${sources})
+  target_link_libraries(swirl_${floor} ${ARGN})
+  swirl_settings(swirl_${floor} ${level})
+endfunction()
+
+swirl_floor(files -O2
+  PUBLIC swirl_measure swirl_simulation nlohmann_json::nlohmann_json fmt::fmt
+  PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
+target_include_directories(swirl_files SYSTEM PRIVATE ${hdf5_include})
+swirl_floor(draw -O2 PUBLIC swirl_measure PkgConfig::cairo)
+swirl_floor(run -O2 PUBLIC swirl_files)
+swirl_floor(study -O1 PUBLIC swirl_run Threads::Threads)
+swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
+swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
+
+# What goes into every result: the version (version.inc) and what built it.
+add_dependencies(swirl_run swirl_version_stamp)
+target_include_directories(swirl_run PRIVATE ${PROJECT_BINARY_DIR}/generated)
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+set_source_files_properties(src/run/version.cpp PROPERTIES COMPILE_DEFINITIONS
+  "SWIRL_BUILD=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off\"")
+
+# The command line: one file per subcommand, of which the compiler gets a few at once: CLI11 takes six
+# seconds of each time it is read, and cannot be precompiled (it leaves its code in every object).
+file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
+add_executable(swirl ${app_sources})
+target_link_libraries(swirl PRIVATE swirl_paper CLI11::CLI11)
+swirl_settings(swirl -O1)
+set_target_properties(swirl PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
