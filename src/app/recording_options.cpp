@@ -180,7 +180,6 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     files.event_log = text_of(call, "log_events");
     files.compression = compression(call);
     files.resume = call.resume;
-    files.overwrite = call.overwrite;
     if (call.resume && call.overwrite)
         throw WrongCall("--resume goes on, --overwrite begins anew; give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
@@ -188,6 +187,10 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     files.checkpoint = text_of(call, "checkpoint");
     files.checkpoint_needed =
         call.resume || !files.checkpoint.empty() || !text_of(call, "checkpoint_every").empty();
+    const bool nothing_named = files.checkpoint.empty() && (json.empty() || json == "-") &&
+                               files.trajectory.empty() && files.event_log.empty();
+    // The checkpoint of a run that was to leave nothing behind is set aside without a question.
+    files.overwrite = call.overwrite || (nothing_named && !call.resume);
     if (files.checkpoint.empty()) files.checkpoint = default_checkpoint(files, config, json);
     refuse_same_names(files, json);
     if (files.checkpoint_every == 0.0) {

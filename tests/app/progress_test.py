@@ -39,7 +39,7 @@ def on_a_terminal(*arguments, seconds=20, **environment):
     return said.decode()
 
 
-LONG = ("run", "--events", "1e12")
+LONG = ("run", "--events", "1e12", "--checkpoint-every", "0")
 
 
 class Terminal(unittest.TestCase):

@@ -3,7 +3,7 @@ once or for ever, the process is killed before its k-th change of a file, or the
 time the program says so in a sentence and does not end with 0, or what it left is right, to the bit.
 
     faults_test.py          a sample of all that, for the default suite
-    faults_test.py --all    every k, both errors, and 200 power cuts; ends with a table
+    faults_test.py --all    every k, both errors, and 200 power cuts; prints a table
 """
 
 import errno
@@ -23,7 +23,6 @@ from program import SWIRL  # noqa: E402
 
 SHIM = os.environ["SWIRL_FAULTS"]
 EVERY = "--all" in sys.argv
-TABLE = []
 
 RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2", "--frames", "60",
        "--trajectory", "t.h5", "--log-events", "e.h5", "--json", "r.json", "--checkpoint-every",
@@ -32,6 +31,11 @@ SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--fram
          "s", "--quiet"]
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
 PAGE = 4096
+
+
+def tell(line):
+    """A line of the table, at once: the whole of it may take an hour."""
+    print(line, flush=True)
 
 
 def setting(call, at, error=0, **more):
@@ -144,8 +148,8 @@ class Faults(unittest.TestCase):
                         continue
                     self.assert_said(done, where)
                     said += 1
-            TABLE.append(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
-                         f"{said} said so, {right} right all the same")
+            tell(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
+                 f"{said} said so, {right} right all the same")
 
     def fail_memory(self, most):
         calls, said, right, aborted = self.count("new", self.run_call), 0, 0, 0
@@ -158,13 +162,13 @@ class Faults(unittest.TestCase):
             if done.returncode == 0:
                 self.assert_right(where)
                 right += 1
-            elif done.returncode == -signal.SIGABRT and "std::bad_alloc" in done.stderr:
+            elif done.returncode == -signal.SIGABRT and "terminate called" in done.stderr:
                 aborted += 1  # the JSON library needs memory in its destructors
             else:
                 self.assert_said(done, where)
                 said += 1
-        TABLE.append(f"run, new fails: {calls} places, {said + right + aborted} tried, {said} said "
-                     f"so, {right} right all the same, {aborted} aborted")
+        tell(f"run, new fails: {calls} places, {said + right + aborted} tried, {said} said "
+             f"so, {right} right all the same, {aborted} aborted")
         self.assertLess(aborted, max(4, (said + right) / 4))
 
     # --- the tests ---------------------------------------------------------------------------------
@@ -194,7 +198,7 @@ class Faults(unittest.TestCase):
             left = [name for name in os.listdir(self.work) if name not in self.bytes]
             self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [],
                              f"killed before change {k} of {calls}")
-        TABLE.append(f"run, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+        tell(f"run, killed before a change: {calls} places, {len(tried)} tried, all resumed")
 
     def test_after_a_power_cut_the_run_is_resumed_to_the_same_bits_or_refused(self):
         self.undisturbed()
@@ -216,7 +220,7 @@ class Faults(unittest.TestCase):
                 refused += 1
                 continue
             self.assert_right(where)
-        TABLE.append(f"run, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
+        tell(f"run, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
         self.assertLess(refused, cuts / 10)
 
 
@@ -320,6 +324,4 @@ def disk_after(entries, choose):
 
 
 if __name__ == "__main__":
-    program = unittest.main(argv=[a for a in sys.argv if a != "--all"], exit=False)
-    print(*TABLE, sep="\n")
-    sys.exit(not program.result.wasSuccessful())
+    unittest.main(argv=[a for a in sys.argv if a != "--all"])
