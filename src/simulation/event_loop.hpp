@@ -22,105 +22,108 @@ namespace swirl {
 inline namespace SWIRL_TARGET {
 
 /// Whether the disc's card is an event that happens.
-SWIRL_INLINE bool is_due(const Machine& m, const Plan& plan) {
-    return plan.partner < m.size && m.discs[plan.partner].changes == plan.partner_changes;
+SWIRL_INLINE bool is_due(const EngineState& state, const ColdDisc& pending) {
+    return pending.partner < state.size &&
+           state.discs[pending.partner].collisions == pending.partner_collisions;
 }
 
 /// Writes a new card for a disc whose card is no event.
-template <class Whom>
-SWIRL_INLINE void renew_card(Machine& m, const Next& next) {
-    const bool leaves = m.plan(next.disc).partner >= leaves_place;
-    take_out(m, next.disc);
+template <class Search>
+SWIRL_INLINE void renew_card(EngineState& state, const Next& next) {
+    const bool leaves = state.cold(next.disc).partner >= leaves_skin;
+    take_out(state, next.disc);
     if (leaves) {
-        Whom::renew_place(m, next.disc, next.time);
+        Search::renew_place(state, next.disc, next.time);
     } else {
-        ++m.stale;
-        Whom::predict(m, next.disc, next.time);
+        ++state.invalidated;
+        Search::predict(state, next.disc, next.time);
     }
 }
 
 /// Brings the cards in order until the first one is an event that happens, and says when.
-template <class Whom>
-SWIRL_INLINE Next next_event(Machine& m) {
+template <class Search>
+SWIRL_INLINE Next next_event(EngineState& state) {
     for (;;) {
-        const Next next = next_pending(m);
-        if (next.time >= m.legs[m.leg].end) return {m.legs[m.leg].end, m.size};
-        if (is_due(m, m.plan(next.disc))) return next;
-        renew_card<Whom>(m, next);
+        const Next next = next_pending(state);
+        if (next.time >= state.legs[state.leg].end) return {state.legs[state.leg].end, state.size};
+        if (is_due(state, state.cold(next.disc))) return next;
+        renew_card<Search>(state, next);
     }
 }
 
-SWIRL_INLINE void take_out_both(Machine& m, std::uint32_t disc, std::uint32_t partner) {
-    if (partner != disc) take_out(m, partner);
-    take_out(m, disc);
+SWIRL_INLINE void take_out_both(EngineState& state, std::uint32_t disc, std::uint32_t partner) {
+    if (partner != disc) take_out(state, partner);
+    take_out(state, disc);
 }
 
 /// If several events come at the same instant: their first, in order. The discs of the one that was
 /// found have been taken out and are put back; those of the first are taken out.
-template <class Whom>
-[[gnu::noinline]] static Next first_of_simultaneous(Machine& m, const Next& found,
+template <class Search>
+[[gnu::noinline]] static Next first_of_simultaneous(EngineState& state, const Next& found,
                                                     double partner_pending) {
-    put_in(m, m.plan(found.disc).partner, partner_pending);
-    put_in(m, found.disc, found.time);
+    put_in(state, state.cold(found.disc).partner, partner_pending);
+    put_in(state, found.disc, found.time);
     for (;;) {
-        const Next next{found.time, first_of_equals(m, found.time, m.levels - 1, 0, m.size)};
-        if (is_due(m, m.plan(next.disc))) {
-            take_out_both(m, next.disc, m.plan(next.disc).partner);
+        const Next next{found.time,
+                        first_of_equals(state, found.time, state.levels - 1, 0, state.size)};
+        if (is_due(state, state.cold(next.disc))) {
+            take_out_both(state, next.disc, state.cold(next.disc).partner);
             return next;
         }
-        renew_card<Whom>(m, next);
+        renew_card<Search>(state, next);
     }
 }
 
 /// Takes the discs of an event out of the queue.
-template <class Whom>
-SWIRL_INLINE Next take_event(Machine& m, const Next& next) {
-    const std::uint32_t partner = m.plan(next.disc).partner;
-    const double partner_pending = pending_time(m, partner);
-    take_out_both(m, next.disc, partner);
-    if (next_pending(m).time == next.time) [[unlikely]]
-        return first_of_simultaneous<Whom>(m, next, partner_pending);
+template <class Search>
+SWIRL_INLINE Next take_event(EngineState& state, const Next& next) {
+    const std::uint32_t partner = state.cold(next.disc).partner;
+    const double partner_pending = pending_time(state, partner);
+    take_out_both(state, next.disc, partner);
+    if (next_pending(state).time == next.time) [[unlikely]]
+        return first_of_simultaneous<Search>(state, next, partner_pending);
     return next;
 }
 
-template <class Whom>
-SWIRL_INLINE Event execute(Machine& m, const Next& due) {
-    if (due.disc == m.size) return Whom::end_leg(m);
-    m.clock = due.time;
-    const Next next = take_event<Whom>(m, due);
-    const std::uint32_t partner = m.plan(next.disc).partner;
+template <class Search>
+SWIRL_INLINE Event execute(EngineState& state, const Next& due) {
+    if (due.disc == state.size) return Search::end_leg(state);
+    state.clock = due.time;
+    const Next next = take_event<Search>(state, due);
+    const std::uint32_t partner = state.cold(next.disc).partner;
     if (partner == next.disc) {
-        const Event event = collide_with_wall(m, partner, next.time);
-        Whom::template predict_changed<1>(m, {partner}, next.time);
+        const Event event = collide_with_wall(state, partner, next.time);
+        Search::template predict_changed<1>(state, {partner}, next.time);
         return event;
     }
-    if (m.prefetches) prefetch_neighbours(m, partner);
+    if (state.prefetches) prefetch_neighbours(state, partner);
     const std::uint32_t i = next.disc < partner ? next.disc : partner;
     const std::uint32_t j = next.disc < partner ? partner : next.disc;
-    const Event event = collide_discs(m, i, j, next.time);
-    Whom::template predict_changed<2>(m, {i, j}, next.time);
+    const Event event = collide_discs(state, i, j, next.time);
+    Search::template predict_changed<2>(state, {i, j}, next.time);
     return event;
 }
 
-template <class Whom>
-static Event step(Machine& m) {
-    return execute<Whom>(m, next_event<Whom>(m));
+template <class Search>
+static Event step(EngineState& state) {
+    return execute<Search>(state, next_event<Search>(state));
 }
 
-template <class Whom>
-static std::uint64_t run(Machine& m, std::uint64_t count, std::int64_t swirls, double clock) {
+template <class Search>
+static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t swirls,
+                         double clock) {
     for (std::uint64_t done = 0; done < count; ++done) {
-        const Next next = next_event<Whom>(m);
-        if (m.swirls > swirls || (m.swirls == swirls && next.time > clock)) return done;
-        execute<Whom>(m, next);
+        const Next next = next_event<Search>(state);
+        if (state.swirls > swirls || (state.swirls == swirls && next.time > clock)) return done;
+        execute<Search>(state, next);
     }
     return count;
 }
 
-/// `Whom` says who may meet whom: Lists (verlet_lists.hpp) or Cells (linked_cells.hpp).
-template <class Whom>
-constexpr EventLoop event_loop(const char* width, void (*start)(Machine&)) {
-    return {width, start, step<Whom>, run<Whom>};
+/// `Search` says who may meet whom: Lists (verlet_lists.hpp) or Cells (linked_cells.hpp).
+template <class Search>
+constexpr EventLoop event_loop(const char* width, void (*start)(EngineState&)) {
+    return {width, start, step<Search>, run<Search>};
 }
 
 }  // namespace SWIRL_TARGET

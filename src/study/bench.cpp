@@ -205,8 +205,8 @@ BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings)
         row.ratio_target = plan.ratio_target;
     }
     row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(plan.discs);
-    row.stale = static_cast<double>(loop.stale - loop_before.stale) / events;
-    row.relists = static_cast<double>(loop.relists - loop_before.relists) / events;
+    row.stale = static_cast<double>(loop.invalidated - loop_before.invalidated) / events;
+    row.relists = static_cast<double>(loop.list_rebuilds - loop_before.list_rebuilds) / events;
     row.path_vertices = static_cast<double>(after.path_vertex - before.path_vertex) / events;
 
     if (plan.kind == Kind::large_dish && settings.full)

@@ -24,10 +24,10 @@ struct Others {
     Lanes<W> radius;
 };
 template <int W>
-SWIRL_INLINE Others<W> load_others(const Machine& m, const std::uint32_t* neighbours) {
+SWIRL_INLINE Others<W> load_others(const EngineState& state, const std::uint32_t* neighbours) {
     const double *flights[W], *times[W];
     for (int k = 0; k < W; ++k) {
-        const HotDisc& other = m.discs[neighbours[k]];
+        const HotDisc& other = state.discs[neighbours[k]];
         flights[k] = &other.position.x;
         times[k] = &other.time;
     }
@@ -59,9 +59,9 @@ SWIRL_INLINE Prediction earlier(const std::uint32_t* neighbours, const Lanes<W>&
 
 /// When `disc` meets W discs of its list.
 template <int W>
-SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
+SWIRL_INLINE Prediction earliest_contact(const EngineState& state, const HotDisc& disc,
                                          const std::uint32_t* neighbours, Prediction soonest) {
-    const Others<W> others = load_others<W>(m, neighbours);
+    const Others<W> others = load_others<W>(state, neighbours);
     const Flight<Lanes<W>> mine{{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)},
                                 {Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)},
                                 Lanes<W>(disc.time)};
@@ -83,26 +83,27 @@ SWIRL_INLINE Lanes<W> contacts_from_now(const HotDisc& disc, const Others<W>& ot
 }
 
 /// When a disc touches the wall, and when it leaves the place where those it may meet were looked
-/// up, its neighbourhood or its cell. The first follows from the state the disc holds alone; the
+/// up, its skin or its cell. The first follows from the state the disc holds alone; the
 /// second, which decides nothing but when to look again, is counted from the moment of asking.
 struct Leaving {
-    double wall, place;
-    std::uint32_t mark = leaves_place;  // or by which edge a cell
+    double wall, skin;
+    std::uint32_t mark = leaves_skin;  // or by which edge a cell
 };
 /// Added to the time of the wall, by HotDisc::far_from_wall: a branch would often be mispredicted.
 static constexpr double far_wait[2] = {0.0, never};
 
 /// Writes disc i's earliest event on its card. At equal times a disc comes before the wall exactly
 /// if its number is smaller, as in comes_first().
-SWIRL_INLINE void write_card(Machine& m, std::uint32_t i, Prediction soonest,
+SWIRL_INLINE void write_card(EngineState& state, std::uint32_t i, Prediction soonest,
                              const Leaving& leaving) {
     if (leaving.wall < soonest.time || (leaving.wall == soonest.time && i < soonest.partner))
         soonest = {leaving.wall, i};
-    if (leaving.place < soonest.time) soonest = {leaving.place, leaving.mark};
-    Plan& plan = m.plan(i);
-    plan.partner = soonest.partner;
-    plan.partner_changes = soonest.partner < m.size ? m.discs[soonest.partner].changes : 0;
-    put_in(m, i, soonest.time);
+    if (leaving.skin < soonest.time) soonest = {leaving.skin, leaving.mark};
+    ColdDisc& pending = state.cold(i);
+    pending.partner = soonest.partner;
+    pending.partner_collisions =
+        soonest.partner < state.size ? state.discs[soonest.partner].collisions : 0;
+    put_in(state, i, soonest.time);
 }
 
 }  // namespace SWIRL_TARGET
