@@ -25,7 +25,7 @@ swirl_floor(files
 target_include_directories(swirl_files SYSTEM PRIVATE ${hdf5_include})
 swirl_floor(draw PUBLIC swirl_measure PkgConfig::cairo)
 swirl_floor(run PUBLIC swirl_files fmt::fmt)
-swirl_floor(study PUBLIC swirl_run Threads::Threads)
+swirl_floor(study PUBLIC swirl_run swirl_rival Threads::Threads)
 swirl_floor(film PUBLIC swirl_run swirl_draw)
 swirl_floor(paper PUBLIC swirl_study swirl_film)
 

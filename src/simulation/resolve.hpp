@@ -1,5 +1,5 @@
-// What an event does to the discs. When the next one comes, and between whom, is for the loops to
-// find (event_loop.hpp, all_pairs.hpp).
+// What an event does to the discs. When the next one comes, and between whom, is for the loop to
+// find (event_loop.hpp).
 #pragma once
 
 #include "swirl/math/lanes.hpp"

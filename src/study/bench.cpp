@@ -14,7 +14,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/simulation/placement.hpp"
-#include "swirl/simulation/reference_loop.hpp"
+#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
@@ -110,7 +110,7 @@ double rate_over(double seconds, const Run& run, const Count& count) {
 /// The plain loop with vectors of one width.
 struct PlainRunner {
     std::string name;  // of the width
-    ReferenceLoop loop;
+    PlainLoop loop;
     bool collisions_only;
     int batch;  // events between two looks at the clock
     double events = 0.0;
@@ -140,7 +140,7 @@ std::vector<PlainRunner> plain_runners(const InitialState& scene, Simulation& en
     for (const auto& [name, width] :
          {std::pair{"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}})
         if (has_width(width))
-            runners.push_back({name, ReferenceLoop(settled, width), plan.kind == Kind::gas,
+            runners.push_back({name, PlainLoop(settled, width), plan.kind == Kind::gas,
                                plan.discs > 100 ? 1 : 500});
     return runners;
 }

@@ -1,4 +1,4 @@
-#include "swirl/simulation/reference_loop.hpp"
+#include "swirl/simulation/reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "simulation/plain_grid.hpp"
 #include "simulation/scenes.hpp"
+#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 }
 
 /// Runs both and compares every event's time, partners and impulse, and all discs at the end.
-template <class Plain = ReferenceLoop>
+template <class Plain = Reference>
 void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
     Plain plain(scene);
     Simulation engine(scene, {}, tuning);
@@ -141,12 +142,14 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
         }
 }
 
-TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
+// The rival of the benchmark.
+TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
     for (const InitialState& scene :
          {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(), gas_at_rest(101, 0.3)}) {
-        ReferenceLoop narrow(scene), wide(scene, GetParam());
+        Reference plain(scene);
+        PlainLoop rival(scene, GetParam());
         for (int k = 0; k < 5000; ++k) {
-            const Event expected = narrow.step(), found = wide.step();
+            const Event expected = plain.step(), found = rival.step();
             ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
             ASSERT_EQ(expected.i, found.i) << "event " << k;
             ASSERT_EQ(expected.j, found.j) << "event " << k;
@@ -158,7 +161,7 @@ TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
 // against the first, where that is possible.
 TEST(PlainGrid, IsTheReferenceBitForBit) {
     const InitialState scene = paper_dish(48);
-    ReferenceLoop all_pairs(scene);
+    Reference all_pairs(scene);
     PlainGrid grid(scene);
     for (int k = 0; k < 20000; ++k) {
         const Event expected = all_pairs.step(), found = grid.step();

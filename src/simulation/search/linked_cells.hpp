@@ -1,5 +1,6 @@
-// Search a disc may meet: those in its cell and in the eight around it. For a thin gas, where a
-// disc flies through any skin in a collision or two and its list would not be worth its making.
+// Speed only, changes no bit: the search through linked cells. A disc may meet those in its cell
+// and in the eight around it. For a thin gas, where a disc flies through any skin in a collision or
+// two and its list would not be worth its making.
 //
 // The cells are squares at rest in the frame of the container, wider than two discs, so that discs
 // in cells that do not touch cannot meet; and so narrow that no more discs than a cell has room for
@@ -13,12 +14,12 @@
 #include <cstring>
 
 #include "swirl/math/lanes.hpp"
-#include "swirl/physics/contact_time.hpp"
-#include "swirl/simulation/resolve.hpp"
+#include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/tournament.hpp"
 #include "swirl/simulation/search/verlet_skin.hpp"
+#include "swirl/simulation/search/wall_times.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -63,43 +64,29 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
     const Lanes<2> wait = larger(way, Lanes<2>(1e-9) * half) / rate;
     const double x = lane(wait, 0), y = lane(wait, 1);
     const std::uint32_t across = v.x > 0.0 ? 0 : 1, up = v.y > 0.0 ? 2 : 3;
-    const double wall =
-        disc.far_from_wall
-            ? never
-            : time_of_wall_contact(flight_of(disc), container_flight(state.legs[state.leg]),
-                                   state.container_radius - disc.radius);
-    return {wall, t + smaller(x, y), leaves_skin + (x < y ? across : up)};
+    return {disc.far_from_wall ? never : wall_time(state, i), t + smaller(x, y),
+            leaves_skin + (x < y ? across : up)};
 }
 
-/// Everything that may happen to disc i, which may have held its state for a while.
-SWIRL_INLINE void predict(EngineState& state, std::uint32_t i, double t) {
-    Candidates candidates;
-    collect_candidates(state, i, candidates);
-    Prediction soonest{never, leaves_skin};
-    for (std::uint32_t k = 0; k < candidates.count; k += 8)
-        soonest = earliest_contact<8>(state, state.discs[i], candidates.disc + k, soonest);
-    write_card(state, i, soonest, leaving_times(state, i, t));
-}
-
-/// The same for D discs that have just changed, at time t.
-template <int D>
-SWIRL_INLINE void predict_changed(EngineState& state, const std::uint32_t (&who)[D], double t) {
+/// Everything that may happen to D discs, asked at time t.
+template <Held held, int D>
+SWIRL_INLINE void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
     Candidates candidates[D];
     Lanes<8> contacts[D];
     for (int d = 0; d < D; ++d) collect_candidates(state, who[d], candidates[d]);
     for (int d = 0; d < D; ++d)
         contacts[d] =
-            contacts_from_now(state.discs[who[d]], load_others<8>(state, candidates[d].disc), t);
+            contact_times<held>(state.discs[who[d]], load_others<8>(state, candidates[d].disc), t);
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
-        Prediction soonest = earlier<8>(candidates[d].disc, contacts[d], {never, leaves_skin});
+        PendingEvent meeting = earlier<8>(candidates[d].disc, contacts[d], no_meeting(who[d]));
         for (std::uint32_t k = 8; k < candidates[d].count; k += 8) {
-            const std::uint32_t* const next = candidates[d].disc + k;
-            soonest = earlier<8>(
-                next, contacts_from_now(state.discs[who[d]], load_others<8>(state, next), t),
-                soonest);
+            const std::uint32_t* const more = candidates[d].disc + k;
+            const Others<8> others = load_others<8>(state, more);
+            meeting =
+                earlier<8>(more, contact_times<held>(state.discs[who[d]], others, t), meeting);
         }
-        write_card(state, who[d], soonest, leaving_times(state, who[d], t));
+        put_in(state, first_of(meeting, leaving_times(state, who[d], t)));
     }
 }
 
@@ -132,14 +119,14 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
 }
 
 /// Disc i has come to an edge and enters the cell beyond.
-[[gnu::noinline]] static void renew_place(EngineState& state, std::uint32_t i, double t) {
+[[gnu::noinline]] static void enter_next_cell(EngineState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
     const std::uint32_t side = state.cells_per_side;
     const std::uint32_t step[4] = {1u, 0u - 1u, side, 0u - side};
     const std::uint32_t to = state.skins[i].cell + step[state.cold(i).partner - leaves_skin];
     leave(state, i);
     enter(state, i, to);
-    predict(state, i, t);
+    predict<Held::for_a_while, 1>(state, {i}, t);
 }
 
 /// Whether disc i lies deeper in another than rounding errors explain.
@@ -159,7 +146,7 @@ static bool overlaps(const EngineState& state, std::uint32_t i) {
 
 static void predict_all(EngineState& state, double t) {
     empty_queue(state);
-    for (std::uint32_t i = 0; i < state.size; ++i) predict(state, i, t);
+    for (std::uint32_t i = 0; i < state.size; ++i) predict<Held::for_a_while, 1>(state, {i}, t);
 }
 
 static void start(EngineState& state) {
@@ -177,29 +164,34 @@ static void start(EngineState& state) {
 }
 
 /// The container, and the cells with it, take another course.
-static Event end_leg(EngineState& state) {
-    const Event event = take_next_leg(state);
+static void leg_ended(EngineState& state) {
     state.comoving_frame = container_flight(state.legs[state.leg]);
     predict_all(state, state.clock);
-    return event;
 }
 
 }  // namespace cells
 
-/// For event_loop.hpp.
-struct Cells {
-    SWIRL_INLINE static Event end_leg(EngineState& state) { return cells::end_leg(state); }
-    SWIRL_INLINE static void predict(EngineState& state, std::uint32_t i, double t) {
-        cells::predict(state, i, t);
+struct LinkedCells {
+    SWIRL_INLINE static void start(EngineState& state) { cells::start(state); }
+    SWIRL_INLINE static PendingEvent next(const EngineState& state) { return next_pending(state); }
+    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+        swirl::take_out(state, event.disc);
+        if (event.partner >= leaves_skin) {
+            cells::enter_next_cell(state, event.disc, event.time);
+        } else {
+            ++state.invalidated;
+            cells::predict<Held::for_a_while, 1>(state, {event.disc}, event.time);
+        }
+    }
+    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
+        return take_first<LinkedCells>(state, event);
     }
     template <int D>
     SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
                                              double t) {
-        cells::predict_changed<D>(state, who, t);
+        cells::predict<Held::since_now, D>(state, who, t);
     }
-    SWIRL_INLINE static void renew_place(EngineState& state, std::uint32_t i, double t) {
-        cells::renew_place(state, i, t);
-    }
+    SWIRL_INLINE static void leg_ended(EngineState& state, double) { cells::leg_ended(state); }
 };
 
 }  // namespace SWIRL_TARGET

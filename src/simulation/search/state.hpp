@@ -9,6 +9,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
+#include "swirl/simulation/pending_event.hpp"
 
 namespace swirl {
 
@@ -72,13 +73,6 @@ static_assert(sizeof(Cell) == 32);  // read and written as one piece of eight nu
 
 inline constexpr std::uint32_t longest_list = 64;
 
-/// What comes next: i < j meet, or i = j meets the wall, or, i = j = N, the leg ends. `owner` has
-/// it on its card.
-struct Due {
-    double time;
-    std::uint32_t i, j, owner;
-};
-
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
 struct alignas(64) SideBySide {
@@ -86,7 +80,7 @@ struct alignas(64) SideBySide {
     double x[most], y[most], vx[most], vy[most], time[most], radius[most];
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
-    Due due;
+    PendingEvent next;    // the first of all
 };
 
 struct EngineState {
@@ -130,9 +124,16 @@ struct EngineState {
     std::uint64_t invalidated, list_rebuilds, overflows,
         full_rebuilds;  // bookkeeping of the loop, for docs/performance.md
 
-    ColdDisc& cold(std::uint32_t i) const {
+    SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
+    }
+    /// Whether a pending event happens: its partner has not collided since it was predicted. The
+    /// wall's always does; that of a disc which leaves its skin is none.
+    SWIRL_INLINE bool is_valid(const PendingEvent& event) const {
+        if (event.is_with_wall()) return true;
+        return event.partner < size &&
+               discs[event.partner].collisions == cold(event.disc).partner_collisions;
     }
 };
 

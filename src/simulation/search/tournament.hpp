@@ -1,6 +1,6 @@
-// Whose event comes first: a tournament of eight. Level 0 holds each disc's pending time, in rows
-// of eight; each level above holds the winner of each row below. A row is one vector, so the winner
-// of eight takes one pass of `smaller`.
+// Speed only, changes no bit: whose event comes first. A tournament of eight: level 0 holds each
+// disc's pending time, in rows of eight; each level above holds the winner of each row below. A row
+// is one vector, so the winner of eight takes one pass of `smaller`.
 //
 // The discs of an event are taken out before it is executed and put in again, with what they do
 // next, when that has been predicted. What remains is known meanwhile; and since what was predicted
@@ -10,21 +10,17 @@
 // The rows are read and written whole: eight bytes written into a row that is then read as a vector
 // would wait for the store to leave the processor's store buffer.
 //
-// Two equal times: mostly both partners of one collision, each with the event on its own card. If
-// they are different events, the one with the smaller first disc comes first (then the smaller
-// second), so that the order of events does not depend on who found which.
+// Two equal times are mostly both partners of one collision, each with it as its pending event. If
+// they are different events, their order decides (pending_event.hpp).
 #pragma once
 
 #include "swirl/math/lanes.hpp"
+#include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
-
-struct Next {
-    double time;
-    std::uint32_t disc;
-};
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
@@ -112,36 +108,73 @@ SWIRL_INLINE double pending_time(const EngineState& state, std::uint32_t disc) {
     return state.level_times[0][disc];
 }
 
-/// Whether the event on i's card comes before the one on k's, both at the same time.
-SWIRL_INLINE bool comes_first(const EngineState& state, std::uint32_t i, std::uint32_t k) {
-    const std::uint32_t pi = state.cold(i).partner, pk = state.cold(k).partner;
-    const std::uint32_t i_low = i < pi ? i : pi, k_low = k < pk ? k : pk;
-    if (i_low != k_low) return i_low < k_low;
-    return (i < pi ? pi : i) < (k < pk ? pk : k);
-}
-
-/// Among all cards with the winning time, the first in order; the slow way, for the rare case.
-[[gnu::noinline]] static std::uint32_t first_of_equals(const EngineState& state, double time,
-                                                       std::uint32_t level, std::uint32_t row,
-                                                       std::uint32_t best) {
-    const unsigned equal = lanes_equal(Lanes<8>::load(state.level_times[level] + 8 * row), time);
-    for (unsigned left = equal; left != 0; left &= left - 1) {
-        const std::uint32_t child = 8 * row + __builtin_ctz(left);
-        if (level > 0)
-            best = first_of_equals(state, time, level - 1, child, best);
-        else if (best == state.size || comes_first(state, child, best))
-            best = child;
-    }
-    return best;
-}
-
-/// The card that comes first, or one of those that come first.
-SWIRL_INLINE Next next_pending(const EngineState& state) {
+/// The pending event that comes first, or one of those that do.
+SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
     const std::uint32_t top = state.levels - 1;
     const Lanes<8> row = Lanes<8>::load(state.level_times[top]);
     const double time = smallest(row);
     const std::uint32_t lane = __builtin_ctz(lanes_equal(row, time));
-    return {time, top == 0 ? lane : state.level_winners[top][lane]};
+    const std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
+    return {time, disc, state.cold(disc).partner};
+}
+
+/// Among all pending events that come at the same time as `first`, the first in order; the slow
+/// way, for the rare case.
+[[gnu::noinline]] static PendingEvent first_of_equals(const EngineState& state, std::uint32_t level,
+                                                      std::uint32_t row, PendingEvent first) {
+    const Lanes<8> times = Lanes<8>::load(state.level_times[level] + 8 * row);
+    for (unsigned equal = lanes_equal(times, first.time); equal != 0; equal &= equal - 1) {
+        const std::uint32_t child = 8 * row + __builtin_ctz(equal);
+        if (level > 0) {
+            first = first_of_equals(state, level - 1, child, first);
+            continue;
+        }
+        const PendingEvent other{first.time, child, state.cold(child).partner};
+        if (precedes(other, first)) first = other;
+    }
+    return first;
+}
+
+SWIRL_INLINE void take_out_both(EngineState& state, const PendingEvent& event) {
+    if (!event.is_with_wall()) take_out(state, event.partner);
+    take_out(state, event.disc);
+}
+
+/// If several events come at the same instant: their first, in order. The discs of the one that was
+/// found have been taken out and are put back; those of the first are taken out.
+template <class Search>
+[[gnu::noinline]] static PendingEvent first_of_simultaneous(EngineState& state,
+                                                            const PendingEvent& found,
+                                                            double partner_pending) {
+    put_in(state, found.partner, partner_pending);
+    put_in(state, found.disc, found.time);
+    for (;;) {
+        const PendingEvent first =
+            first_of_equals(state, state.levels - 1, 0, {found.time, state.size, state.size});
+        if (state.is_valid(first)) {
+            take_out_both(state, first);
+            return first;
+        }
+        Search::predict_again(state, first);
+    }
+}
+
+/// Leaves the discs of the first event, which has been found, without any; says which is the first
+/// in order, if several come at the same instant.
+template <class Search>
+SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& found) {
+    const double partner_pending = pending_time(state, found.partner);
+    take_out_both(state, found);
+    if (next_pending(state).time == found.time) [[unlikely]]
+        return first_of_simultaneous<Search>(state, found, partner_pending);
+    if (state.prefetches && !found.is_with_wall()) prefetch_neighbours(state, found.partner);
+    return found;
+}
+
+/// Gives a disc that has none a pending event.
+SWIRL_INLINE void put_in(EngineState& state, const PendingEvent& event) {
+    note_partner(state, event);
+    put_in(state, event.disc, event.time);
 }
 
 }  // namespace SWIRL_TARGET

@@ -27,9 +27,9 @@ inline constexpr std::uint32_t wanted_neighbours = 7;
 /// Rounding errors of positions are 10⁻¹³; this keeps them out of the argument above.
 inline constexpr double skin_margin = 1e-9;
 
-/// Where the centre of the container is, on a straight leg.
-SWIRL_INLINE Flight<double> container_flight(const Leg& leg) {
-    return {leg.start, leg.velocity, leg.begin};
+/// How far a disc may go from the centre of its skin.
+SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
+    return static_cast<double>(skin.skin_radius) * (1.0 - skin_margin);
 }
 
 /// From time t on the co-moving frame has the discs' mean velocity. The pack circles in the dish
