@@ -18,7 +18,7 @@ Json counts_json(const EventCounts& counts) {
             {"disc_disc", counts.disc_disc},
             {"disc_wall", counts.disc_wall},
             {"path_vertex", counts.path_vertex},
-            {"lasting_contacts", counts.elastic_by_tc}};
+            {"elastic_by_tc_model", counts.elastic_by_tc}};
 }
 
 const char* word(SteadyState::Verdict verdict) {

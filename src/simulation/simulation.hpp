@@ -1,4 +1,4 @@
-// The event machine: which event comes next, and what it does.
+// The engine as its users see it: which event comes next, and what it does.
 #pragma once
 
 #include <cstddef>

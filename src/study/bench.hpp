@@ -39,7 +39,7 @@ struct BenchRow {
     std::optional<double> ratio_target;  // rate over plain_rate
     double bytes_per_disc;               // memory of the loop
     // The loop's own counts, per event.
-    double stale, relists, path_vertices;
+    double invalidated, list_rebuilds, path_vertices;
     std::optional<double> vertex_share;  // of the time, spent at path vertices (large dish)
 };
 
