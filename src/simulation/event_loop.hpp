@@ -11,14 +11,14 @@
 //
 // `Search` is a neighbour search: who may meet whom. It changes the speed, never a bit.
 //
-//     start(state)             makes all predictions
-//     next(state)              the pending event that comes first
-//     predict_again(state, e)  the disc of e, whose pending event is invalidated, is predicted anew
-//     take_out(state, e)       nothing is pending any more for the discs of e, the first event;
-//                              if several come at the same instant, returns the first in order
-//     predict_changed(state, discs, t)  one or two discs that have just collided are predicted
-//     leg_ended(state, t)      the container has changed course; so have all predictions of the
-//     wall
+//     start(state)                       makes all predictions
+//     next(state)                        the pending event that comes first
+//     predict_again(state, event)        its disc is predicted anew: the event was invalidated
+//     take_out(state, event)             nothing is pending any more for the discs of the first
+//                                        event; of several at one instant, says the first in order
+//     predict_changed(state, discs, t)   predicts one or two discs that have just collided
+//     leg_ended(state, t)                predicts what depends on the container's course anew
+//     check(state, t)                    asks what the search promises (internal_check.hpp)
 //
 // Included by one file per vector width, and compiled with that width's instructions. So that the
 // linker cannot mix them up, nothing in here may leave a symbol of its own: functions are inlined
@@ -28,6 +28,7 @@
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/resolve.hpp"
 #include "swirl/simulation/search/state.hpp"
+#include "swirl/simulation/search/state_checks.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -44,15 +45,34 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
     }
 }
 
+/// In the build that checks invariants, and only there.
+template <class Search>
+SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
+    if constexpr (internal_checks) {
+        check_order(state, next);
+        if (!is_time_to_check(state)) return;
+        check_discs(state, next.time);
+        Search::check(state, next.time);
+    }
+}
+
+/// Not inlined: the collisions, which are most events, have the registers to themselves.
+template <class Search>
+[[gnu::noinline]] static Event end_leg(EngineState& state) {
+    const Event event = take_next_leg(state);
+    Search::leg_ended(state, event.clock);
+    return event;
+}
+
 template <class Search>
 SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
     if (next.disc == state.size) {
-        const Event event = take_next_leg(state);
-        Search::leg_ended(state, event.clock);
-        return event;
+        check<Search>(state, next);
+        return end_leg<Search>(state);
     }
-    state.clock = next.time;
     const PendingEvent due = Search::take_out(state, next);
+    check<Search>(state, due);
+    state.clock = due.time;
     if (due.is_with_wall()) {
         const Event event = collide_with_wall(state, due.disc, due.time);
         Search::predict_changed(state, {due.disc}, due.time);
@@ -65,6 +85,8 @@ SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
 
 template <class Search>
 static void start(EngineState& state) {
+    if constexpr (internal_checks)
+        state.overlapped_at_start = !all_discs_are_apart(state, state.clock);
     Search::start(state);
 }
 

@@ -23,10 +23,12 @@ struct PendingEvent {
     SWIRL_INLINE constexpr std::uint32_t second() const { return disc < partner ? partner : disc; }
 };
 
+/// Of two events at the same instant.
+SWIRL_INLINE constexpr bool is_first_in_order(const PendingEvent& a, const PendingEvent& b) {
+    return a.first() < b.first() || (a.first() == b.first() && a.second() < b.second());
+}
 SWIRL_INLINE constexpr bool precedes(const PendingEvent& a, const PendingEvent& b) {
-    if (a.time != b.time) return a.time < b.time;
-    if (a.first() != b.first()) return a.first() < b.first();
-    return a.second() < b.second();
+    return a.time < b.time || (a.time == b.time && is_first_in_order(a, b));
 }
 
 }  // namespace swirl

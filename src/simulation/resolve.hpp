@@ -4,13 +4,12 @@
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/collision_law.hpp"
-#include "swirl/physics/contact_time.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/simulation/collision_checks.hpp"
 #include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
-
-SWIRL_INLINE Flight<double> flight_of(const HotDisc& d) { return {d.position, d.velocity, d.time}; }
 
 SWIRL_INLINE Body body_of(const EngineState& state, const HotDisc& d) {
     const DiscKind& kind = state.kinds[d.kind];
@@ -30,13 +29,18 @@ SWIRL_INLINE void write_back(EngineState& state, std::uint32_t i, const Vec2& po
 
 /// Discs i < j meet at time t.
 SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint32_t j, double t) {
-    const Vec2 at_i = flight_of(state.discs[i]).position_at(t);
-    const Vec2 at_j = flight_of(state.discs[j]).position_at(t);
-    Body body_i = body_of(state, state.discs[i]), body_j = body_of(state, state.discs[j]);
+    const Vec2 at_i = state.discs[i].flight().position_at(t);
+    const Vec2 at_j = state.discs[j].flight().position_at(t);
+    const Body before_i = body_of(state, state.discs[i]), before_j = body_of(state, state.discs[j]);
+    Body body_i = before_i, body_j = before_j;
     const Vec2 s = at_j - at_i;
     const double since_last = t - larger(state.discs[i].time, state.discs[j].time);
     state.elastic_by_tc += is_elastic_by_tc_model(state.disc_surface, since_last);
     const Impulse impulse = collide(body_i, body_j, s, at_contact(state.disc_surface, since_last));
+    if constexpr (internal_checks)
+        check_disc_collision({before_i, body_i, before_i.velocity},
+                             {before_j, body_j, before_i.velocity}, s, state.disc_surface, impulse,
+                             state.overlapped_at_start);
     write_back(state, i, at_i, t, body_i);
     write_back(state, j, at_j, t, body_j);
     ++state.disc_disc;
@@ -53,12 +57,17 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
 
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
     const Leg& leg = state.legs[state.leg];
-    const Vec2 at = flight_of(state.discs[i]).position_at(t);
-    Body body = body_of(state, state.discs[i]), wall = wall_body(leg.velocity_at(t));
+    const Vec2 at = state.discs[i].flight().position_at(t);
+    const Body before = body_of(state, state.discs[i]);
+    Body body = before, wall = wall_body(leg.velocity_at(t));
     const Vec2 s = at - leg.position_at(t);
     const double since_last = t - state.discs[i].time;
     state.elastic_by_tc += is_elastic_by_tc_model(state.wall_surface, since_last);
     const Impulse impulse = collide(body, wall, s, at_contact(state.wall_surface, since_last));
+    if constexpr (internal_checks)
+        check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
+                             state.container_radius - body.radius, state.wall_surface, impulse,
+                             state.overlapped_at_start);
     write_back(state, i, at, t, body);
     ++state.disc_wall;
     const double distance = square_root(dot(s, s));
@@ -83,7 +92,7 @@ SWIRL_INLINE Event take_next_leg(EngineState& state) {
     for (std::uint32_t i = 0; i < state.size; ++i) {
         HotDisc& disc = state.discs[i];
         state.cold(i).angle = state.cold(i).angle + (state.clock - disc.time) * disc.spin;
-        disc.position = flight_of(disc).position_at(state.clock);
+        disc.position = disc.flight().position_at(state.clock);
         disc.time = 0.0;
         ++disc.collisions;
     }

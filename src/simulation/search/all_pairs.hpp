@@ -15,6 +15,7 @@
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
+#include "swirl/simulation/search/state_checks.hpp"
 #include "swirl/simulation/search/wall_times.hpp"
 
 namespace swirl {
@@ -107,7 +108,7 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
     for (; meetings != 0; meetings &= meetings - 1) {
         const auto i = static_cast<std::uint32_t>(__builtin_ctzll(meetings));
         const PendingEvent meeting{time, i, state.cold(i).partner};
-        if (precedes(meeting, first)) first = meeting;
+        if (is_first_in_order(meeting, first)) first = meeting;
     }
     return first;
 }
@@ -124,9 +125,11 @@ SWIRL_INLINE void find_next(EngineState& state) {
     Eight least = smaller(meeting[0], wall[0]);
     for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
     const double time = smallest(least);
-    all.next = time == never ? PendingEvent{never, state.size, state.size}
-                             : first_in_order(state, time, lanes_equal(meeting, time),
-                                              lanes_equal(wall, time));
+    // Who comes after the leg's end need not be known.
+    all.next =
+        time < state.legs[state.leg].end
+            ? first_in_order(state, time, lanes_equal(meeting, time), lanes_equal(wall, time))
+            : PendingEvent{time, state.size, state.size};
 }
 
 template <int G>
@@ -139,7 +142,7 @@ template <int G>
 }
 
 template <int G>
-[[gnu::noinline]] static void leg_ended(EngineState& state) {
+SWIRL_INLINE void leg_ended(EngineState& state) {
     if (state.leg == 0) return predict_all<G>(state);
     predict_all_walls<G>(state);
     find_next<G>(state);
@@ -165,8 +168,8 @@ struct AllPairs {
         all_pairs::predict_meetings<G, Held::for_a_while, 1>(state, {event.disc}, event.time);
         all_pairs::find_next<G>(state);
     }
-    /// What comes next is mostly known before the discs that now collide have been predicted: the
-    /// first of all others' events.
+    /// What comes next is mostly known before the discs that now
+    /// collide have been predicted: the first of all others' events.
     SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
         all_pairs::take_out(*state.side_by_side, event.disc);
         if (!event.is_with_wall()) all_pairs::take_out(*state.side_by_side, event.partner);
@@ -177,11 +180,12 @@ struct AllPairs {
     SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
                                              double t) {
         for (int d = 0; d < D; ++d) all_pairs::copy(state, who[d]);
-        const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
         const double wall = all_pairs::predict_wall(state, who, t);
+        const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
         if (smaller(meeting, wall) <= state.side_by_side->next.time) [[unlikely]]
             all_pairs::find_next<G>(state);
     }
+    SWIRL_INLINE static void check(const EngineState& state, double) { check_columns(state); }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) {
         all_pairs::leg_ended<G>(state);
     }

@@ -17,6 +17,7 @@
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
+#include "swirl/simulation/search/state_checks.hpp"
 #include "swirl/simulation/search/tournament.hpp"
 #include "swirl/simulation/search/verlet_skin.hpp"
 #include "swirl/simulation/search/wall_times.hpp"
@@ -54,7 +55,7 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
     const HotDisc& disc = state.discs[i];
     const Skin& mine = state.skins[i];
     const Vec2 offset =
-        flight_of(disc).position_at(t) - state.comoving_frame.position_at(t) - Vec2{mine.X, mine.Y};
+        disc.flight().position_at(t) - state.comoving_frame.position_at(t) - Vec2{mine.X, mine.Y};
     const Vec2 v = disc.velocity - state.comoving_frame.velocity;
     const Lanes<2> speed = two_lanes(v.x, v.y), from = two_lanes(offset.x, offset.y);
     const Lanes<2> zero(0.0), half(0.5 / state.cells_per_length);
@@ -137,7 +138,7 @@ static bool overlaps(const EngineState& state, std::uint32_t i) {
     for (std::uint32_t n = 0; n < candidates.count; ++n) {
         const HotDisc& other = state.discs[candidates.disc[n]];
         const Vec2 s =
-            flight_of(other).position_at(state.clock) - flight_of(disc).position_at(state.clock);
+            other.flight().position_at(state.clock) - disc.flight().position_at(state.clock);
         const double contact = disc.radius + other.radius;
         if (candidates.disc[n] != i && dot(s, s) < contact * contact * (1.0 - 1e-9)) return true;
     }
@@ -154,7 +155,7 @@ static void start(EngineState& state) {
     for (std::uint32_t c = 0; c < state.cells_per_side * state.cells_per_side; ++c)
         state.cells[c].count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        const Vec2 at = flight_of(state.discs[i]).position_at(state.clock) -
+        const Vec2 at = state.discs[i].flight().position_at(state.clock) -
                         state.comoving_frame.position_at(state.clock);
         enter(state, i, cell_row(state, at.y) * state.cells_per_side + cell_row(state, at.x));
     }
@@ -164,7 +165,7 @@ static void start(EngineState& state) {
 }
 
 /// The container, and the cells with it, take another course.
-static void leg_ended(EngineState& state) {
+SWIRL_INLINE void leg_ended(EngineState& state) {
     state.comoving_frame = container_flight(state.legs[state.leg]);
     predict_all(state, state.clock);
 }
@@ -190,6 +191,10 @@ struct LinkedCells {
     SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
                                              double t) {
         cells::predict<Held::since_now, D>(state, who, t);
+    }
+    SWIRL_INLINE static void check(const EngineState& state, double t) {
+        check_cells(state, t);
+        check_tournament(state);
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) { cells::leg_ended(state); }
 };

@@ -39,7 +39,7 @@ SWIRL_INLINE Others<W> load_others(const EngineState& state, const std::uint32_t
 /// When `disc` meets W others, asked at time t.
 template <Held held, int W>
 SWIRL_INLINE Lanes<W> contact_times(const HotDisc& disc, const Others<W>& others, double t) {
-    const Flight<Lanes<W>> mine = in_lanes<W>(flight_of(disc));
+    const Flight<Lanes<W>> mine = in_lanes<W>(disc.flight());
     const Lanes<W> sum_of_radii = Lanes<W>(disc.radius) + others.radius;
     if constexpr (held == Held::for_a_while) {
         return time_of_contact(mine, others.flight, sum_of_radii);

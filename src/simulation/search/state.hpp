@@ -23,6 +23,8 @@ struct alignas(64) HotDisc {
     std::uint32_t kind : 24;          // row of EngineState::kinds
     std::uint32_t neighbours : 7;     // length of its list
     std::uint32_t far_from_wall : 1;  // its skin does not reach the wall
+
+    SWIRL_INLINE Flight<double> flight() const { return {position, velocity, time}; }
 };
 static_assert(sizeof(HotDisc) == 64);
 
@@ -107,7 +109,8 @@ struct EngineState {
     double cells_per_length, cell_origin;
     std::uint32_t* cell_heads;
     Cell* cells;
-    bool discs_overlap;  // at the start: then cells may be too small (linked_cells.hpp)
+    bool discs_overlap;        // at the start: then cells may be too small (linked_cells.hpp)
+    bool overlapped_at_start;  // anybody, or with the wall; asked where invariants are checked
     double smallest_radius;
     bool equal_radii;
     double largest_skin_radius;  // the cells next door must hold everybody within reach

@@ -92,7 +92,7 @@ SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
     }
 }
 
-/// Gives a disc that has none, or a later one, an event.
+/// Gives a disc that has none, or a later one, an event at the given time.
 SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
     for (std::uint32_t level = 0;; ++level) {
@@ -130,7 +130,7 @@ SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
             continue;
         }
         const PendingEvent other{first.time, child, state.cold(child).partner};
-        if (precedes(other, first)) first = other;
+        if (is_first_in_order(other, first)) first = other;
     }
     return first;
 }

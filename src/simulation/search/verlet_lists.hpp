@@ -8,6 +8,7 @@
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
+#include "swirl/simulation/search/state_checks.hpp"
 #include "swirl/simulation/search/tournament.hpp"
 #include "swirl/simulation/search/verlet_skin.hpp"
 #include "swirl/simulation/search/wall_times.hpp"
@@ -176,7 +177,7 @@ static void renew_all(EngineState& state, const Vec2& origin) {
     predict_all(state, 0.0);
 }
 
-[[gnu::noinline]] static void leg_ended(EngineState& state, double t) {
+SWIRL_INLINE void leg_ended(EngineState& state, double t) {
     const Vec2 origin = state.comoving_frame.position_at(t);
     if (state.leg == 0) return renew_all(state, origin);
     renew_comoving_frame(state, origin, t);
@@ -204,6 +205,10 @@ struct VerletLists {
     SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
                                              double t) {
         lists::predict<Held::since_now, D>(state, who, t);
+    }
+    SWIRL_INLINE static void check(const EngineState& state, double t) {
+        check_lists(state, t);
+        check_tournament(state);
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double t) { lists::leg_ended(state, t); }
 };

@@ -7,7 +7,6 @@
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/contact_time.hpp"
-#include "swirl/simulation/resolve.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/verlet_skin.hpp"
 
@@ -36,7 +35,7 @@ SWIRL_INLINE Flight<Lanes<W>> in_lanes(const Flight<double>& flight) {
 /// When disc i reaches the wall, on whatever leg.
 SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
     const HotDisc& disc = state.discs[i];
-    return time_of_wall_contact(flight_of(disc), state.legs[state.leg],
+    return time_of_wall_contact(disc.flight(), state.legs[state.leg],
                                 state.container_radius - disc.radius);
 }
 
@@ -87,8 +86,8 @@ SWIRL_INLINE void find_leaving(const EngineState& state, const std::uint32_t (&w
         const Skin& skin = state.skins[who[d]];
         const bool just_now = held == Held::since_now;
         const double wall_now = just_now ? t : larger(disc.time, container.time);
-        const Vec2 at_wall_now = just_now ? disc.position : flight_of(disc).position_at(wall_now);
-        const Vec2 at = just_now ? disc.position : flight_of(disc).position_at(t);
+        const Vec2 at_wall_now = just_now ? disc.position : disc.flight().position_at(wall_now);
+        const Vec2 at = just_now ? disc.position : disc.flight().position_at(t);
         const Vec2 centre = container.position_at(wall_now);
         const Vec2 origin = state.comoving_frame.position_at(t);
         now[d] = Double2{wall_now, t};
