@@ -10,11 +10,12 @@ target_include_directories(swirl_physics INTERFACE
   $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 
 # The event loop is compiled once for each vector width, and the widest that the processor has is
-# chosen at run time; so are the plain loop's scan and the averages by event. The files of these
+# chosen at run time; so are the search of its rival and the averages by event. The files of these
 # names get wider instructions; everything else is baseline x86-64.
 file(GLOB_RECURSE simulation_sources CONFIGURE_DEPENDS src/simulation/*.cpp)
 file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/measure/*.cpp)
-set(avx2_sources ${simulation_sources} ${measure_sources})
+file(GLOB_RECURSE rival_sources CONFIGURE_DEPENDS src/study/rival/*.cpp)
+set(avx2_sources ${simulation_sources} ${measure_sources} ${rival_sources})
 set(avx512_sources ${avx2_sources})
 list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
 list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
@@ -29,6 +30,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 else()
   list(FILTER simulation_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
   list(FILTER measure_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+  list(FILTER rival_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
 endif()
 
 add_library(swirl_simulation STATIC ${simulation_sources})
@@ -37,6 +39,9 @@ target_compile_options(swirl_simulation PRIVATE -fno-exceptions)
 add_library(swirl_measure STATIC ${measure_sources})
 target_link_libraries(swirl_measure PUBLIC swirl_physics)
 target_compile_options(swirl_measure PRIVATE -fno-exceptions)
+# The plain loop that the benchmark and the tests hold the engine against.
+add_library(swirl_rival STATIC ${rival_sources})
+target_link_libraries(swirl_rival PUBLIC swirl_simulation)
 
 # By these names, installed or as a subdirectory.
 add_library(swirl::engine ALIAS swirl_simulation)

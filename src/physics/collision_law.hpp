@@ -44,11 +44,11 @@ namespace swirl {
 /// after the last one of either partner is elastic. `since_last` is the shorter of their two times
 /// (a disc's time is also reset when the clocks restart, once per swirl; the share of collisions
 /// concerned is t_c/T).
-SWIRL_INLINE constexpr bool is_lasting_contact(const Surface& surface, double since_last) {
+SWIRL_INLINE constexpr bool is_elastic_by_tc_model(const Surface& surface, double since_last) {
     return surface.restitution < 1.0 && since_last < surface.contact_duration;
 }
 SWIRL_INLINE constexpr Surface at_contact(Surface surface, double since_last) {
-    if (is_lasting_contact(surface, since_last)) surface.restitution = 1.0;
+    if (is_elastic_by_tc_model(surface, since_last)) surface.restitution = 1.0;
     return surface;
 }
 

@@ -112,11 +112,15 @@ inline double time_of_contact(const Disc& i, const Disc& j) {
 }
 
 /// On a straight leg the answer may lie beyond the end of the leg; the leg's end comes first.
-inline double time_of_wall_contact(const Disc& disc, const Leg& leg, double container_radius) {
-    const double clearance = container_radius - disc.radius;
-    if (leg.turning != 0.0) return time_of_turning_wall_contact(disc.flight(), leg, clearance);
-    return time_of_wall_contact(disc.flight(), Flight<double>{leg.start, leg.velocity, leg.begin},
+SWIRL_INLINE double time_of_wall_contact(const Flight<double>& disc, const Leg& leg,
+                                         double clearance) {
+    if (leg.turning != 0.0) [[unlikely]]
+        return time_of_turning_wall_contact(disc, leg, clearance);
+    return time_of_wall_contact(disc, Flight<double>{leg.start, leg.velocity, leg.begin},
                                 clearance);
+}
+inline double time_of_wall_contact(const Disc& disc, const Leg& leg, double container_radius) {
+    return time_of_wall_contact(disc.flight(), leg, container_radius - disc.radius);
 }
 
 }  // namespace swirl

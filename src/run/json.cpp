@@ -19,7 +19,7 @@ Json counts_json(const EventCounts& counts) {
             {"disc_disc", counts.disc_disc},
             {"disc_wall", counts.disc_wall},
             {"path_vertex", counts.path_vertex},
-            {"lasting_contacts", counts.lasting}};
+            {"elastic_by_tc_model", counts.elastic_by_tc}};
 }
 
 Json rotation_json(const RotationEstimates& rotation) {

@@ -29,7 +29,7 @@ const EventLoops& event_loops(Width width) {
 }
 
 /// Memory for columns, aligned to cache lines; large ones to huge pages.
-class Columns {
+class AlignedMemory {
   public:
     template <class T>
     T* add(std::size_t count) {
@@ -98,23 +98,24 @@ bool is_thin_gas(const InitialState& scene) {
            });
 }
 
-Neighbours neighbours_for(const InitialState& scene, const Radii& radii, const Tuning& tuning,
-                          std::uint32_t few) {
+NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, const Tuning& tuning,
+                               std::uint32_t few) {
     const bool few_enough = scene.discs.size() <= few;
     switch (tuning.neighbours) {
-        case Neighbours::all_pairs:
-            return few_enough ? Neighbours::all_pairs : Neighbours::lists;
-        case Neighbours::cells:
-            return cells_can_be_laid(scene, radii) ? Neighbours::cells : Neighbours::lists;
-        case Neighbours::lists:
-            return Neighbours::lists;
-        case Neighbours::best:
+        case NeighbourSearch::all_pairs:
+            return few_enough ? NeighbourSearch::all_pairs : NeighbourSearch::lists;
+        case NeighbourSearch::cells:
+            return cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
+                                                   : NeighbourSearch::lists;
+        case NeighbourSearch::lists:
+            return NeighbourSearch::lists;
+        case NeighbourSearch::best:
             break;
     }
-    if (tuning.cells_per_side != 0) return Neighbours::lists;
-    if (few_enough) return Neighbours::all_pairs;
-    return is_thin_gas(scene) && cells_can_be_laid(scene, radii) ? Neighbours::cells
-                                                                 : Neighbours::lists;
+    if (tuning.cells_per_side != 0) return NeighbourSearch::lists;
+    if (few_enough) return NeighbourSearch::all_pairs;
+    return is_thin_gas(scene) && cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
+                                                                 : NeighbourSearch::lists;
 }
 
 }  // namespace
@@ -123,11 +124,11 @@ struct Simulation::Storage {
     const EventLoop* loop;
     std::vector<Leg> legs;
     std::vector<DiscKind> kinds;
-    Columns columns;
-    Machine machine{};
+    AlignedMemory memory;
+    EngineState state{};
 
     Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
-    void allocate(std::size_t size, Neighbours neighbours);
+    void allocate(std::size_t size, NeighbourSearch neighbours);
     void lay_grid(const InitialState& scene, double largest, int cells_per_side);
     void lay_cells(const InitialState& scene);
     void place(const InitialState& scene);
@@ -137,115 +138,112 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
                              const Tuning& tuning)
     : legs(scene.path.legs) {
     const EventLoops& loops = event_loops(tuning.width);
-    Machine& m = machine;
-    m.size = static_cast<std::uint32_t>(scene.discs.size());
+    state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
-    const Neighbours neighbours = neighbours_for(scene, radii, tuning, loops.few);
-    loop = neighbours == Neighbours::all_pairs ? &loops.all_pairs[(m.size - 1) / 8]
-           : neighbours == Neighbours::cells   ? &loops.cells
-                                               : &loops.lists;
-    m.legs = legs.data();
-    m.leg_count = static_cast<std::uint32_t>(legs.size());
-    m.leg = progress.leg;
-    m.period = scene.path.period;
-    m.container_radius = scene.container_radius;
-    m.disc_surface = scene.disc_surface;
-    m.wall_surface = scene.wall_surface;
-    m.swirls = progress.swirls;
-    m.clock = progress.clock;
-    m.disc_disc = progress.events.disc_disc;
-    m.disc_wall = progress.events.disc_wall;
-    m.path_vertex = progress.events.path_vertex;
-    m.lasting = progress.events.lasting;
+    const NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
+    loop = neighbours == NeighbourSearch::all_pairs ? &loops.all_pairs[(state.size - 1) / 8]
+           : neighbours == NeighbourSearch::cells   ? &loops.cells
+                                                    : &loops.lists;
+    state.legs = legs.data();
+    state.leg_count = static_cast<std::uint32_t>(legs.size());
+    state.leg = progress.leg;
+    state.period = scene.path.period;
+    state.container_radius = scene.container_radius;
+    state.disc_surface = scene.disc_surface;
+    state.wall_surface = scene.wall_surface;
+    state.swirls = progress.swirls;
+    state.clock = progress.clock;
+    state.disc_disc = progress.events.disc_disc;
+    state.disc_wall = progress.events.disc_wall;
+    state.path_vertex = progress.events.path_vertex;
+    state.elastic_by_tc = progress.events.elastic_by_tc;
 
-    m.smallest_radius = radii.smallest;
-    m.equal_radii = radii.smallest == radii.largest;
-    m.capacity =
-        neighbours == Neighbours::lists ? list_capacity(radii.largest / radii.smallest) : 0;
-    m.plan_bytes = static_cast<std::uint32_t>(sizeof(Plan)) + 4 * m.capacity;
-    m.prefetches = m.size > 4000;
+    state.smallest_radius = radii.smallest;
+    state.equal_radii = radii.smallest == radii.largest;
+    state.capacity =
+        neighbours == NeighbourSearch::lists ? list_capacity(radii.largest / radii.smallest) : 0;
+    state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
+    state.prefetches = state.size > 4000;
     allocate(scene.discs.size(), neighbours);
-    if (neighbours == Neighbours::lists) lay_grid(scene, radii.largest, tuning.cells_per_side);
-    if (neighbours == Neighbours::cells) lay_cells(scene);
+    if (neighbours == NeighbourSearch::lists) lay_grid(scene, radii.largest, tuning.cells_per_side);
+    if (neighbours == NeighbourSearch::cells) lay_cells(scene);
     place(scene);
-    loop->start(m);
+    loop->start(state);
 }
 
-void Simulation::Storage::allocate(std::size_t size, Neighbours neighbours) {
-    Machine& m = machine;
-    m.discs = columns.add<HotDisc>(size + 1);
-    m.plans = columns.add<unsigned char>((size + 1) * m.plan_bytes);
-    if (neighbours == Neighbours::all_pairs) {
-        m.side_by_side = columns.add<SideBySide>(1);
+void Simulation::Storage::allocate(std::size_t size, NeighbourSearch neighbours) {
+    state.discs = memory.add<HotDisc>(size + 1);
+    state.cold_discs = memory.add<unsigned char>((size + 1) * state.cold_bytes);
+    if (neighbours == NeighbourSearch::all_pairs) {
+        state.side_by_side = memory.add<SideBySide>(1);
         return;
     }
-    m.neighbourhoods = columns.add<Neighbourhood>(size);
+    state.skins = memory.add<Skin>(size);
     std::size_t entries = size;
     do {
         const std::size_t padded = (entries + 7) / 8 * 8;
-        m.level_times[m.levels] = columns.add<double>(padded);
-        if (m.levels > 0) m.level_winners[m.levels] = columns.add<std::uint32_t>(padded);
-        ++m.levels;
+        state.level_times[state.levels] = memory.add<double>(padded);
+        if (state.levels > 0) state.level_winners[state.levels] = memory.add<std::uint32_t>(padded);
+        ++state.levels;
         entries = padded / 8;
     } while (entries > 1);
 }
 
-/// Cells wide enough that the neighbourhoods of discs in cells that do not touch never overlap:
-/// |X_i − X_k| < 2 (largest radius + longest freedom) = the width. On average a cell's worth of
+/// Cells wide enough that the skins of discs in cells that do not touch never overlap:
+/// |X_i − X_k| < 2 (largest radius + largest skin radius) = the width. On average a cell's worth of
 /// area holds three discs; a small dish is one cell, all pairs.
 void Simulation::Storage::lay_grid(const InitialState& scene, double largest, int cells_per_side) {
-    Machine& m = machine;
     double reach = scene.container_radius;
     for (const Leg& leg : legs)
         if (leg.turning != 0.0)
             reach = scene.container_radius + square_root(dot(leg.start, leg.start));
     const double side = 2.0 * reach;
-    const double density = static_cast<double>(m.size) / (pi * reach * reach);
+    const double density = static_cast<double>(state.size) / (pi * reach * reach);
     double width = larger(2.6 * largest, square_root(3.0 / density));
     if (cells_per_side > 0) width = side / cells_per_side;
     width = larger(width, 2.1 * largest);
-    m.cells_per_side = static_cast<std::uint32_t>(larger(1.0, smaller(side / width, 30000.0)));
-    if (cells_per_side == 0 && m.size <= 100) m.cells_per_side = 1;
-    width = side / m.cells_per_side;
-    m.cells_per_length = 1.0 / width;
-    m.cell_origin = -reach;
+    state.cells_per_side = static_cast<std::uint32_t>(larger(1.0, smaller(side / width, 30000.0)));
+    if (cells_per_side == 0 && state.size <= 100) state.cells_per_side = 1;
+    width = side / state.cells_per_side;
+    state.cells_per_length = 1.0 / width;
+    state.cell_origin = -reach;
     // A hair less than the cells allow, for the rounding of positions into cells.
-    m.longest_freedom = m.cells_per_side == 1 ? 4.0 * side : (0.5 * width - largest) * (1.0 - 1e-6);
-    m.cell_heads = columns.add<std::uint32_t>(m.cells_per_side * m.cells_per_side);
+    state.largest_skin_radius =
+        state.cells_per_side == 1 ? 4.0 * side : (0.5 * width - largest) * (1.0 - 1e-6);
+    state.cell_heads = memory.add<std::uint32_t>(state.cells_per_side * state.cells_per_side);
 }
 
 /// Two cells more than the dish needs on each side, so that a disc in a cell always has eight
 /// around.
 void Simulation::Storage::lay_cells(const InitialState& scene) {
-    Machine& m = machine;
-    const double width = cell_width * m.smallest_radius;
-    m.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
-    m.cells_per_length = 1.0 / width;
-    m.cell_origin = -0.5 * width * m.cells_per_side;
-    m.cells = columns.add<Cell>(static_cast<std::size_t>(m.cells_per_side) * m.cells_per_side);
+    const double width = cell_width * state.smallest_radius;
+    state.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
+    state.cells_per_length = 1.0 / width;
+    state.cell_origin = -0.5 * width * state.cells_per_side;
+    state.cells =
+        memory.add<Cell>(static_cast<std::size_t>(state.cells_per_side) * state.cells_per_side);
 }
 
 void Simulation::Storage::place(const InitialState& scene) {
-    Machine& m = machine;
     std::map<std::array<double, 3>, std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < m.size; ++i) {
+    for (std::uint32_t i = 0; i < state.size; ++i) {
         const Disc& d = scene.discs[i];
         const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
                                                     static_cast<std::uint32_t>(kinds.size()));
         if (is_new) kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
-        m.discs[i] = {d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second & 0xffffffu,
-                      0,          0};
-        m.plan(i).angle = d.angle;
+        state.discs[i] = {
+            d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second & 0xffffffu, 0, 0};
+        state.cold(i).angle = d.angle;
     }
-    m.kinds = kinds.data();
+    state.kinds = kinds.data();
     const double nowhere = std::numeric_limits<double>::quiet_NaN();
-    m.discs[m.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0, 0, 0};
-    if (m.side_by_side == nullptr) return;
+    state.discs[state.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0, 0, 0};
+    if (state.side_by_side == nullptr) return;
     for (std::uint32_t k = 0; k < SideBySide::most; ++k) {
-        SideBySide& all = *m.side_by_side;
-        const bool somebody = k < m.size;
+        SideBySide& all = *state.side_by_side;
+        const bool somebody = k < state.size;
         all.x[k] = all.y[k] = somebody ? 0.0 : nowhere;
-        all.radius[k] = somebody ? m.discs[k].radius : 0.0;
+        all.radius[k] = somebody ? state.discs[k].radius : 0.0;
         all.nobody[k] = somebody ? 0.0 : never;
         all.meeting[k] = all.wall[k] = never;
     }
@@ -253,53 +251,49 @@ void Simulation::Storage::place(const InitialState& scene) {
 
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
-    if (!storage_->machine.discs_overlap) return;
+    if (!storage_->state.discs_overlap) return;
     // The cells of a thin gas are made for discs that do not; lists take any.
-    const Tuning lists{tuning.cells_per_side, tuning.width, Neighbours::lists};
+    const Tuning lists{tuning.cells_per_side, tuning.width, NeighbourSearch::lists};
     storage_ = std::make_unique<Storage>(scene, progress, lists);
 }
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Event Simulation::step() { return storage_->loop->step(storage_->machine); }
+Event Simulation::step() { return storage_->loop->step(storage_->state); }
 
 void Simulation::run(std::uint64_t count) {
-    storage_->loop->run(storage_->machine, count, std::numeric_limits<std::int64_t>::max(), never);
+    storage_->loop->run(storage_->state, count, std::numeric_limits<std::int64_t>::max(), never);
 }
 
 void Simulation::advance_to(std::int64_t swirls, double clock) {
-    Machine& m = storage_->machine;
-    storage_->loop->run(m, std::numeric_limits<std::uint64_t>::max(), swirls, clock);
-    if (m.swirls == swirls && m.clock < clock) m.clock = clock;
+    EngineState& state = storage_->state;
+    storage_->loop->run(state, std::numeric_limits<std::uint64_t>::max(), swirls, clock);
+    if (state.swirls == swirls && state.clock < clock) state.clock = clock;
 }
 
-std::int64_t Simulation::swirls() const { return storage_->machine.swirls; }
-double Simulation::clock() const { return storage_->machine.clock; }
-std::size_t Simulation::size() const { return storage_->machine.size; }
+std::int64_t Simulation::swirls() const { return storage_->state.swirls; }
+double Simulation::clock() const { return storage_->state.clock; }
+std::size_t Simulation::size() const { return storage_->state.size; }
 EventCounts Simulation::events() const {
-    const Machine& m = storage_->machine;
-    return {m.disc_disc, m.disc_wall, m.path_vertex, m.lasting};
+    const EngineState& state = storage_->state;
+    return {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc};
 }
 Progress Simulation::progress() const {
-    const Machine& m = storage_->machine;
-    return {m.swirls, m.clock, m.leg, events()};
+    const EngineState& state = storage_->state;
+    return {state.swirls, state.clock, state.leg, events()};
 }
 LoopCounts Simulation::loop_counts() const {
-    const Machine& m = storage_->machine;
-    return {m.stale,
-            m.relists,
-            m.crowded,
-            m.overcrowded,
-            storage_->columns.bytes(),
-            storage_->loop->width};
+    const EngineState& state = storage_->state;
+    return {state.invalidated,   state.list_rebuilds,      state.overflows,
+            state.full_rebuilds, storage_->memory.bytes(), storage_->loop->width};
 }
 
 Disc Simulation::disc(std::size_t i) const {
-    const Machine& m = storage_->machine;
-    const HotDisc& d = m.discs[i];
-    const DiscKind& kind = m.kinds[d.kind];
-    return {d.position, d.velocity,  m.plan(static_cast<std::uint32_t>(i)).angle,
+    const EngineState& state = storage_->state;
+    const HotDisc& d = state.discs[i];
+    const DiscKind& kind = state.kinds[d.kind];
+    return {d.position, d.velocity,  state.cold(static_cast<std::uint32_t>(i)).angle,
             d.spin,     d.time,      kind.radius,
             kind.mass,  kind.inertia};
 }
@@ -307,29 +301,29 @@ Disc Simulation::disc(std::size_t i) const {
 Snapshot Simulation::snapshot() const {
     Snapshot s;
     s.resize(size());
-    s.period = storage_->machine.period;
-    s.container_radius = storage_->machine.container_radius;
+    s.period = storage_->state.period;
+    s.container_radius = storage_->state.container_radius;
     for (std::size_t i = 0; i < s.size(); ++i) s.set(i, disc(i));
     refresh(s, Event{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0});
     return s;
 }
 
 void Simulation::refresh(Snapshot& s, const Event& event) const {
-    const Machine& m = storage_->machine;
-    const Leg& leg = m.legs[m.leg];
-    s.swirls = m.swirls;
-    s.clock = m.clock;
-    s.container_centre = leg.position_at(m.clock);
-    s.container_velocity = leg.velocity_at(m.clock);
+    const EngineState& state = storage_->state;
+    const Leg& leg = state.legs[state.leg];
+    s.swirls = state.swirls;
+    s.clock = state.clock;
+    s.container_centre = leg.position_at(state.clock);
+    s.container_velocity = leg.velocity_at(state.clock);
     const auto hand_over = [&](std::uint32_t i) {
-        const HotDisc& d = m.discs[i];
-        s.set_motion(i, {d.position, d.velocity, d.time}, m.plan(i).angle, d.spin);
+        const HotDisc& d = state.discs[i];
+        s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
     };
     if (event.kind != EventKind::path_vertex) {
         hand_over(event.i);
         if (event.j != event.i) hand_over(event.j);
-    } else if (m.leg == 0) {
-        for (std::uint32_t i = 0; i < m.size; ++i) hand_over(i);
+    } else if (state.leg == 0) {
+        for (std::uint32_t i = 0; i < state.size; ++i) hand_over(i);
     }
 }
 
@@ -344,9 +338,9 @@ std::uint64_t Simulation::state_hash() const {
         std::memcpy(&bits, &x, sizeof bits);
         mix(bits);
     };
-    const Machine& m = storage_->machine;
-    mix(static_cast<std::uint64_t>(m.swirls));
-    mix(m.leg);
+    const EngineState& state = storage_->state;
+    mix(static_cast<std::uint64_t>(state.swirls));
+    mix(state.leg);
     mix(events().total());
     for (std::size_t i = 0; i < size(); ++i) {
         const Disc d = disc(i);

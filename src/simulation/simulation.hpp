@@ -1,4 +1,4 @@
-// The event machine: which event comes next, and what it does.
+// The engine as its users see it: which event comes next, and what it does.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace swirl {
 
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
-    std::uint64_t lasting = 0;  // of the collisions, those made elastic by the TC model
+    std::uint64_t elastic_by_tc = 0;  // of the collisions, those made elastic by the TC model
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex; }
 };
 
@@ -31,7 +31,7 @@ struct Progress {
 
 /// How the discs are found that a disc may meet: all of them; those on its list; those in its cell
 /// and in the cells around. `best` is what is fastest for the scene.
-enum class Neighbours : std::uint8_t { best, all_pairs, lists, cells };
+enum class NeighbourSearch : std::uint8_t { best, all_pairs, lists, cells };
 
 /// Changes the speed, never a bit.
 struct Tuning {
@@ -40,16 +40,16 @@ struct Tuning {
     Width width = Width::best;
     /// A search that the scene does not allow (all pairs for many, cells for very unequal discs or
     /// on a turning path) gives way to lists.
-    Neighbours neighbours = Neighbours::best;
+    NeighbourSearch neighbours = NeighbourSearch::best;
 };
 
 /// Work of the loop besides the events themselves.
 struct LoopCounts {
-    std::uint64_t stale = 0;        // cards whose partner had changed, predicted again
-    std::uint64_t relists = 0;      // neighbour lists renewed
-    std::uint64_t crowded = 0;      // of these, with room to be made on the lists around
-    std::uint64_t overcrowded = 0;  // times all lists were renewed for lack of room
-    std::uint64_t bytes = 0;        // memory of the loop
+    std::uint64_t invalidated = 0;    // events whose partner had collided, predicted again
+    std::uint64_t list_rebuilds = 0;  // neighbour lists rebuilt, or cells entered
+    std::uint64_t overflows = 0;      // of these, with lists around rebuilt to make room
+    std::uint64_t full_rebuilds = 0;  // times all lists were rebuilt for lack of room
+    std::uint64_t bytes = 0;          // memory of the loop
     const char* width = "";
 };
 

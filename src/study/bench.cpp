@@ -14,7 +14,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/simulation/placement.hpp"
-#include "swirl/simulation/reference_loop.hpp"
+#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
 
 enum class Kind { dish, gas, large_dish };
 
-struct Plan {
+struct BenchScene {
     const char* name;
     Kind kind;
     std::int64_t discs;
@@ -49,8 +49,8 @@ constexpr double paper_packing = 48.0 / (paper_container_radius * paper_containe
 
 constexpr const char* dense_gas = "gas, packing 0.7";
 
-const std::vector<Plan>& plans() {
-    static const std::vector<Plan> all = {
+const std::vector<BenchScene>& bench_scenes() {
+    static const std::vector<BenchScene> all = {
         {"dish, mu = 1", Kind::dish, 48, 0, 7e6, 13.0, true, false},
         {"dish, mu = 1", Kind::dish, 28, 0, 8e6, 6.5, true, false},
         {"dish, mu = 1", Kind::dish, 5, 0, 16e6, 2.0, true, false},
@@ -64,30 +64,31 @@ const std::vector<Plan>& plans() {
     return all;
 }
 
-InitialState state_of(const Plan& plan) {
-    const auto n = static_cast<double>(plan.discs);
-    const double mu = plan.kind == Kind::gas ? 0.0 : 1.0;
-    InitialState scene{{}, {}, 0.0, {mu}, {mu}};
-    scene.path = plan.kind == Kind::gas ? still_path(10.0)
-                                        : polygon_path(paper_amplitude, paper_period, paper_sides);
-    scene.container_radius =
-        plan.kind == Kind::dish ? paper_container_radius : square_root(n / plan.packing);
-    const std::vector<double> radii(static_cast<std::size_t>(plan.discs), 1.0);
-    const auto centres = place_discs(radii, scene.container_radius, 1);
+InitialState state_of(const BenchScene& scene) {
+    const auto n = static_cast<double>(scene.discs);
+    const double mu = scene.kind == Kind::gas ? 0.0 : 1.0;
+    InitialState initial{{}, {}, 0.0, {mu}, {mu}};
+    initial.path = scene.kind == Kind::gas
+                       ? still_path(10.0)
+                       : polygon_path(paper_amplitude, paper_period, paper_sides);
+    initial.container_radius =
+        scene.kind == Kind::dish ? paper_container_radius : square_root(n / scene.packing);
+    const std::vector<double> radii(static_cast<std::size_t>(scene.discs), 1.0);
+    const auto centres = place_discs(radii, initial.container_radius, 1);
     if (!centres) throw Failure("The discs of a benchmark did not fit into their dish.");
     Random random(2);
-    const Leg& leg = scene.path.legs.front();
-    const double speed = plan.kind == Kind::gas ? 1.0 : 0.1;
+    const Leg& leg = initial.path.legs.front();
+    const double speed = scene.kind == Kind::gas ? 1.0 : 0.1;
     for (const Vec2& centre : *centres)
-        scene.discs.push_back({leg.start + centre, leg.velocity + random.in_disc(speed), 0.0, 0.0,
-                               0.0, 1.0, 1.0, paper_inertia});
-    return scene;
+        initial.discs.push_back({leg.start + centre, leg.velocity + random.in_disc(speed), 0.0, 0.0,
+                                 0.0, 1.0, 1.0, paper_inertia});
+    return initial;
 }
 
 /// How many events until the start is forgotten: ten collisions a disc, or a few swirls.
-std::uint64_t settling(const Plan& plan) {
-    if (plan.kind == Kind::dish) return plan.discs < 10 ? 5000 : 100000;
-    return static_cast<std::uint64_t>(5 * plan.discs);
+std::uint64_t settling(const BenchScene& scene) {
+    if (scene.kind == Kind::dish) return scene.discs < 10 ? 5000 : 100000;
+    return static_cast<std::uint64_t>(5 * scene.discs);
 }
 
 void check(const std::atomic<bool>* stop) {
@@ -110,7 +111,7 @@ double rate_over(double seconds, const Run& run, const Count& count) {
 /// The plain loop with vectors of one width.
 struct PlainRunner {
     std::string name;  // of the width
-    ReferenceLoop loop;
+    PlainLoop loop;
     bool collisions_only;
     int batch;  // events between two looks at the clock
     double events = 0.0;
@@ -130,18 +131,18 @@ struct PlainRunner {
 /// With every width that the processor has, from the engine's state. The plain loop has no way to
 /// save and resume, so it starts from the discs of the moment, at the beginning of a swirl, where
 /// everybody's clock stands at 0.
-std::vector<PlainRunner> plain_runners(const InitialState& scene, Simulation& engine,
-                                       const Plan& plan) {
+std::vector<PlainRunner> plain_runners(const InitialState& initial, Simulation& engine,
+                                       const BenchScene& scene) {
     Event last = engine.step();
     while (last.kind != EventKind::path_vertex || engine.progress().leg != 0) last = engine.step();
-    InitialState settled = scene;
+    InitialState settled = initial;
     for (std::size_t i = 0; i < settled.discs.size(); ++i) settled.discs[i] = engine.disc(i);
     std::vector<PlainRunner> runners;
     for (const auto& [name, width] :
          {std::pair{"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}})
         if (has_width(width))
-            runners.push_back({name, ReferenceLoop(settled, width), plan.kind == Kind::gas,
-                               plan.discs > 100 ? 1 : 500});
+            runners.push_back({name, PlainLoop(settled, width), scene.kind == Kind::gas,
+                               scene.discs > 100 ? 1 : 500});
     return runners;
 }
 
@@ -162,18 +163,18 @@ double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSe
     return at_vertices / (now() - begin);
 }
 
-BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings) {
-    const InitialState scene = state_of(plan);
-    Simulation engine(scene, {}, {0, width});
-    engine.run(settling(plan));
-    const bool collisions_only = plan.kind == Kind::gas;
+BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& settings) {
+    const InitialState initial = state_of(scene);
+    Simulation engine(initial, {}, {0, width});
+    engine.run(settling(scene));
+    const bool collisions_only = scene.kind == Kind::gas;
     const auto counted = [&] {
         const EventCounts e = engine.events();
         return static_cast<double>(collisions_only ? e.disc_disc + e.disc_wall : e.total());
     };
 
     std::vector<PlainRunner> plain;
-    if (plan.plain) plain = plain_runners(scene, engine, plan);
+    if (scene.plain) plain = plain_runners(initial, engine, scene);
 
     const EventCounts before = engine.events();
     const LoopCounts loop_before = engine.loop_counts();
@@ -191,34 +192,35 @@ BenchRow bench_row(const Plan& plan, Width width, const BenchSettings& settings)
     const LoopCounts loop = engine.loop_counts();
     const auto events = static_cast<double>(after.total() - before.total());
     BenchRow row{};
-    row.scene = plan.name;
-    row.discs = plan.discs;
+    row.scene = scene.name;
+    row.discs = scene.discs;
     row.width = loop.width;
     row.counts = collisions_only ? "collisions" : "events";
     row.rate = median(rates);
-    row.target = plan.target;
+    row.target = scene.target;
     for (const PlainRunner& runner : plain) {
         const double rate = median(runner.rates);
         if (rate <= row.plain_rate.value_or(0.0)) continue;
         row.plain_rate = rate;
         row.plain_width = runner.name;
-        row.ratio_target = plan.ratio_target;
+        row.ratio_target = scene.ratio_target;
     }
-    row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(plan.discs);
-    row.stale = static_cast<double>(loop.stale - loop_before.stale) / events;
-    row.relists = static_cast<double>(loop.relists - loop_before.relists) / events;
+    row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(scene.discs);
+    row.invalidated = static_cast<double>(loop.invalidated - loop_before.invalidated) / events;
+    row.list_rebuilds =
+        static_cast<double>(loop.list_rebuilds - loop_before.list_rebuilds) / events;
     row.path_vertices = static_cast<double>(after.path_vertex - before.path_vertex) / events;
 
-    if (plan.kind == Kind::large_dish && settings.full)
-        row.vertex_share = vertex_share(engine, scene.path, settings);
+    if (scene.kind == Kind::large_dish && settings.full)
+        row.vertex_share = vertex_share(engine, initial.path, settings);
     return row;
 }
 
 /// What it costs to look after every event at N = 48: time of step, refresh and look, over that of
 /// the run alone, less one.
 double by_event_cost(const BenchSettings& settings) {
-    const InitialState scene = state_of(plans().front());
-    Simulation alone(scene), watched(scene);
+    const InitialState initial = state_of(bench_scenes().front());
+    Simulation alone(initial), watched(initial);
     alone.run(100000);
     watched.run(100000);
     Snapshot snapshot = watched.snapshot();
@@ -270,11 +272,11 @@ const char* words(BenchTarget::Sense sense) {
 
 std::string row_line(const BenchRow& row) {
     return fmt::format(
-        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6.0f}{:>7.3f}{:>7.3f}\n",
+        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6.0f}{:>7.3f}{:>8.3f}\n",
         row.scene, row.discs, row.width, millions(row.rate), millions(row.target),
         verdict(row.rate, row.target), millions(row.plain_rate), row.plain_width, times(ratio(row)),
         times(row.ratio_target), verdict(ratio(row), row.ratio_target), row.bytes_per_disc,
-        row.stale, row.relists);
+        row.invalidated, row.list_rebuilds);
 }
 
 std::string target_line(const BenchTarget& target) {
@@ -308,8 +310,8 @@ nlohmann::ordered_json row_json(const BenchRow& row) {
     r["ratio"] = or_null(ratio(row));
     r["ratio_target"] = or_null(row.ratio_target);
     r["bytes_per_disc"] = row.bytes_per_disc;
-    r["stale_per_event"] = row.stale;
-    r["relists_per_event"] = row.relists;
+    r["invalidated_per_event"] = row.invalidated;
+    r["list_rebuilds_per_event"] = row.list_rebuilds;
     r["path_vertices_per_event"] = row.path_vertices;
     r["vertex_share"] = or_null(row.vertex_share);
     return r;
@@ -326,17 +328,18 @@ nlohmann::ordered_json target_json(const BenchTarget& target) {
 BenchResult bench(const BenchSettings& settings) {
     BenchResult result;
     result.machine = processor();
-    std::vector<Plan> chosen;
-    for (const Plan& plan : plans())
-        if (settings.full || !plan.only_full) chosen.push_back(plan);
+    std::vector<BenchScene> chosen;
+    for (const BenchScene& scene : bench_scenes())
+        if (settings.full || !scene.only_full) chosen.push_back(scene);
     const double pieces = static_cast<double>(chosen.size() * settings.widths.size() + 1);
     double done = 0.0;
-    for (const Plan& plan : chosen) {
+    for (const BenchScene& scene : chosen) {
         for (const Width width : settings.widths) {
             check(settings.stop);
             if (settings.progress)
-                settings.progress(done / pieces, fmt::format("{}, N = {}", plan.name, plan.discs));
-            result.rows.push_back(bench_row(plan, width, settings));
+                settings.progress(done / pieces,
+                                  fmt::format("{}, N = {}", scene.name, scene.discs));
+            result.rows.push_back(bench_row(scene, width, settings));
             done += 1.0;
         }
     }
@@ -388,16 +391,17 @@ std::string bench_report(const BenchResult& result) {
         "for every event.\n\n",
         version(), result.machine);
     text += fmt::format(
-        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6}{:>7}{:>7}\n", "scene",
+        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6}{:>7}{:>8}\n", "scene",
         "N", "width", "M/s", "target", "", "plain", "width", "ratio", "target", "", "B/disc",
-        "stale", "relist");
+        "inval.", "rebuilt");
     for (const BenchRow& row : result.rows) text += row_line(row);
     text += fmt::format("\n{:<62}{:>8} {:<7}{}\n", "besides rates", "value", "", "target");
     for (const BenchTarget& target : targets_beyond_rates(result)) text += target_line(target);
     text +=
         "\nM/s: million events a second in a dish, million collisions in a gas; plain: the plain "
         "loop's, with\nthe vectors that suit it best; ratio: how many times as fast the engine is; "
-        "stale, relist:\npredictions made again and neighbour lists renewed, per event.\n";
+        "inval.,\nrebuilt: pending events that were invalidated and neighbour lists rebuilt, per "
+        "event.\n";
     return text;
 }
 
@@ -418,12 +422,12 @@ std::string bench_json(const BenchResult& result, const std::string& command) {
 
 std::string bench_csv(const BenchResult& result, const std::string& command) {
     Table table({"machine", "version", "command", "scene", "discs", "width", "counts", "rate",
-                 "plain_rate", "plain_width", "bytes_per_disc", "stale_per_event",
-                 "relists_per_event"});
+                 "plain_rate", "plain_width", "bytes_per_disc", "invalidated_per_event",
+                 "list_rebuilds_per_event"});
     for (const BenchRow& row : result.rows)
         table.add({result.machine, version(), command, row.scene, row.discs, row.width, row.counts,
                    row.rate, row.plain_rate.value_or(std::nan("")), row.plain_width,
-                   row.bytes_per_disc, row.stale, row.relists});
+                   row.bytes_per_disc, row.invalidated, row.list_rebuilds});
     return table.csv();
 }
 

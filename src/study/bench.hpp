@@ -1,5 +1,5 @@
 // How fast the engine is here: the same scenes as in docs/performance.md, on the user's own
-// machine, beside the paper's method programmed plainly (simulation/reference_loop.hpp: all pairs,
+// machine, beside the paper's method programmed plainly (rival/plain_loop.hpp: all pairs,
 // all times, the soonest), whose rate says what the machine is worth. Compare ratios, not rates:
 // rates depend on the processor, on what else it does, and on the weather.
 //
@@ -39,7 +39,7 @@ struct BenchRow {
     std::optional<double> ratio_target;  // rate over plain_rate
     double bytes_per_disc;               // memory of the loop
     // The loop's own counts, per event.
-    double stale, relists, path_vertices;
+    double invalidated, list_rebuilds, path_vertices;
     std::optional<double> vertex_share;  // of the time, spent at path vertices (large dish)
 };
 

@@ -17,7 +17,7 @@ class Json(InFolder):
         for key in ("config", "events", "periods", "rotation", "max_overlap", "energy",
                     "state_hash", "seconds", "events_per_second", "version", "complete", "warmup"):
             self.assertIn(key, result)
-        self.assertEqual(set(result["events"]), {"total", "disc_disc", "disc_wall", "path_vertex", "lasting_contacts"})
+        self.assertEqual(set(result["events"]), {"total", "disc_disc", "disc_wall", "path_vertex", "elastic_by_tc_model"})
         for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
             self.assertTrue(math.isfinite(result["rotation"][average]["mean"]))
             self.assertGreater(result["rotation"][average]["error"], 0)

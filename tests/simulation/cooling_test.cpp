@@ -73,7 +73,7 @@ TEST(InelasticGas, LosesNothingWhileContactsLastForEver) {
     simulation.run(20000);
     // 20 000 changes of relative size 10⁻¹⁶ · 1/300 each; 10⁻¹² is beyond all of them in a row.
     EXPECT_NEAR(energy(simulation) / E0, 1.0, 1e-12);
-    EXPECT_EQ(simulation.events().lasting,
+    EXPECT_EQ(simulation.events().elastic_by_tc,
               simulation.events().disc_disc + simulation.events().disc_wall);
 }
 

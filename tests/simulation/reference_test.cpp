@@ -1,4 +1,4 @@
-#include "swirl/simulation/reference_loop.hpp"
+#include "swirl/simulation/reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "simulation/plain_grid.hpp"
 #include "simulation/scenes.hpp"
+#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 }
 
 /// Runs both and compares every event's time, partners and impulse, and all discs at the end.
-template <class Plain = ReferenceLoop>
+template <class Plain = Reference>
 void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
     Plain plain(scene);
     Simulation engine(scene, {}, tuning);
@@ -49,7 +50,7 @@ class EveryWidth : public ::testing::TestWithParam<Width> {
         if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
     }
     Tuning tuning(int cells = 0) const { return {cells, GetParam()}; }
-    Tuning tuning(Neighbours neighbours) const { return {0, GetParam(), neighbours}; }
+    Tuning tuning(NeighbourSearch neighbours) const { return {0, GetParam(), neighbours}; }
 };
 
 // Without a grid (0 cells), a few discs go by all pairs; one cell has neighbour lists.
@@ -90,7 +91,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
     expect_same_trajectory(sticky, 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGas) {
-    for (const Neighbours neighbours : {Neighbours::lists, Neighbours::cells}) {
+    for (const NeighbourSearch neighbours : {NeighbourSearch::lists, NeighbourSearch::cells}) {
         expect_same_trajectory(gas_at_rest(200, 0.6), 8000, tuning(neighbours));
         expect_same_trajectory(gas_at_rest(200, 0.05), 4000, tuning(neighbours));
     }
@@ -98,10 +99,10 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGas) {
 // The cells move with the container, here over several swirls.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInThePaperDish) {
     for (const std::size_t n : {1u, 5u, 48u})
-        expect_same_trajectory(paper_dish(n), 20000, tuning(Neighbours::cells));
+        expect_same_trajectory(paper_dish(n), 20000, tuning(NeighbourSearch::cells));
     InitialState dissipative = paper_dish(40);
     dissipative.disc_surface = {0.5, 0.9, 0.4, 1e-3};
-    expect_same_trajectory(dissipative, 20000, tuning(Neighbours::cells));
+    expect_same_trajectory(dissipative, 20000, tuning(NeighbourSearch::cells));
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
     Disc large = unit_disc();
@@ -109,23 +110,23 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
     const InitialState two_sizes =
         state_of({unit_disc(), large}, 60, 20.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
-    expect_same_trajectory(two_sizes, 20000, tuning(Neighbours::cells));
+    expect_same_trajectory(two_sizes, 20000, tuning(NeighbourSearch::cells));
     // Too unequal for cells: lists take their place.
-    expect_same_trajectory(mixture_dish(), 5000, tuning(Neighbours::cells));
+    expect_same_trajectory(mixture_dish(), 5000, tuning(NeighbourSearch::cells));
 }
 // More discs on one spot than a cell has room for, flying apart.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
     InitialState scene = gas_at_rest(60, 0.2);
     for (std::size_t i = 0; i < 12; ++i) scene.discs[i].position = 0.01 * scene.discs[i].velocity;
-    expect_same_trajectory(scene, 500, tuning(Neighbours::cells));
-    EXPECT_EQ(Simulation(scene, {}, tuning(Neighbours::cells)).loop_counts().bytes,
-              Simulation(scene, {}, tuning(Neighbours::lists)).loop_counts().bytes);
+    expect_same_trajectory(scene, 500, tuning(NeighbourSearch::cells));
+    EXPECT_EQ(Simulation(scene, {}, tuning(NeighbourSearch::cells)).loop_counts().bytes,
+              Simulation(scene, {}, tuning(NeighbourSearch::lists)).loop_counts().bytes);
     // Two are enough for lists to take over.
     InitialState pair = gas_at_rest(60, 0.2);
     pair.discs[0].position = pair.discs[1].position + Vec2{1.9, 0.0};
-    expect_same_trajectory(pair, 500, tuning(Neighbours::cells));
-    EXPECT_EQ(Simulation(pair, {}, tuning(Neighbours::cells)).loop_counts().bytes,
-              Simulation(pair, {}, tuning(Neighbours::lists)).loop_counts().bytes);
+    expect_same_trajectory(pair, 500, tuning(NeighbourSearch::cells));
+    EXPECT_EQ(Simulation(pair, {}, tuning(NeighbourSearch::cells)).loop_counts().bytes,
+              Simulation(pair, {}, tuning(NeighbourSearch::lists)).loop_counts().bytes);
 }
 // A disc that flies along the edges of cells, or through their corners: fourteen cells of
 // 3.6 lie across this dish, so there are edges at 0, 3.6, 7.2 and so on.
@@ -137,16 +138,18 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
              {Vec2{1.0, 0.0}, Vec2{0.0, -1.0}, Vec2{1.0, 1.0}, Vec2{-1.0, 1.0}}) {
             scene.discs[0].position = position;
             scene.discs[0].velocity = velocity;
-            expect_same_trajectory(scene, 500, tuning(Neighbours::cells));
+            expect_same_trajectory(scene, 500, tuning(NeighbourSearch::cells));
         }
 }
 
-TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
+// The rival of the benchmark.
+TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
     for (const InitialState& scene :
          {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(), gas_at_rest(101, 0.3)}) {
-        ReferenceLoop narrow(scene), wide(scene, GetParam());
+        Reference plain(scene);
+        PlainLoop rival(scene, GetParam());
         for (int k = 0; k < 5000; ++k) {
-            const Event expected = narrow.step(), found = wide.step();
+            const Event expected = plain.step(), found = rival.step();
             ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
             ASSERT_EQ(expected.i, found.i) << "event " << k;
             ASSERT_EQ(expected.j, found.j) << "event " << k;
@@ -158,7 +161,7 @@ TEST_P(EveryWidth, ReferenceIsItselfBitForBit) {
 // against the first, where that is possible.
 TEST(PlainGrid, IsTheReferenceBitForBit) {
     const InitialState scene = paper_dish(48);
-    ReferenceLoop all_pairs(scene);
+    Reference all_pairs(scene);
     PlainGrid grid(scene);
     for (int k = 0; k < 20000; ++k) {
         const Event expected = all_pairs.step(), found = grid.step();
@@ -178,7 +181,7 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInADenseGas) {
     expect_same_trajectory<PlainGrid>(gas_at_rest(10000, 0.7), 200000, tuning());
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinGas) {
-    for (const Neighbours neighbours : {Neighbours::lists, Neighbours::cells})
+    for (const NeighbourSearch neighbours : {NeighbourSearch::lists, NeighbourSearch::cells})
         expect_same_trajectory<PlainGrid>(gas_at_rest(2000, 0.2), 20000, tuning(neighbours));
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {

@@ -1,11 +1,10 @@
-// The loop for a few discs: no lists, no cells, everybody's contact with everybody.
+// Speed only, changes no bit: the search for a few discs. No lists, no cells, everybody's contact
+// with everybody.
 //
 // Up to `SideBySide::most` discs stand side by side in columns, eight to a vector. When two have
 // collided, one pass over the columns finds whom each of them meets next; that costs less than
-// keeping a list up to date where the discs are few and wander far. The rest is as in
-// event_loop.hpp: each disc has one pending meeting, and one that has gone stale is predicted
-// again when its time comes. The wall is kept apart from the meetings, so a corner of the path
-// renews one column and nothing else.
+// keeping a list up to date where the discs are few and wander far. The wall is kept apart from the
+// meetings, so a corner of the path renews one column and nothing else.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule. Columns are
 // read and written by whole vectors only: a number written into a vector that is then read whole
@@ -13,25 +12,24 @@
 #pragma once
 
 #include "swirl/math/lanes.hpp"
-#include "swirl/physics/contact_time.hpp"
-#include "swirl/simulation/resolve.hpp"
+#include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
-#include "swirl/simulation/search/verlet_skin.hpp"
+#include "swirl/simulation/search/state_checks.hpp"
+#include "swirl/simulation/search/wall_times.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace all_pairs {
 
 using Eight = Lanes<8>;
-using EightVectors = BasicVec2<Eight>;
 
-SWIRL_INLINE EightVectors eight(const Vec2& a) { return {Eight(a.x), Eight(a.y)}; }
-
-SWIRL_INLINE Flight<Eight> eight_flights(const SideBySide& all, int group) {
+SWIRL_INLINE Others<8> load_eight(const SideBySide& all, int group) {
     const int k = 8 * group;
-    return {{Eight::load(all.x + k), Eight::load(all.y + k)},
-            {Eight::load(all.vx + k), Eight::load(all.vy + k)},
-            Eight::load(all.time + k)};
+    return {{{Eight::load(all.x + k), Eight::load(all.y + k)},
+             {Eight::load(all.vx + k), Eight::load(all.vy + k)},
+             Eight::load(all.time + k)},
+            Eight::load(all.radius + k)};
 }
 
 SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
@@ -39,9 +37,9 @@ SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
     with_lane(Eight::load(group), i & 7u, x).store(group);
 }
 
-SWIRL_INLINE void copy(Machine& m, std::uint32_t i) {
-    const HotDisc& disc = m.discs[i];
-    SideBySide& all = *m.side_by_side;
+SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
+    const HotDisc& disc = state.discs[i];
+    SideBySide& all = *state.side_by_side;
     set(all.x, i, disc.position.x);
     set(all.y, i, disc.position.y);
     set(all.vx, i, disc.velocity.x);
@@ -49,131 +47,76 @@ SWIRL_INLINE void copy(Machine& m, std::uint32_t i) {
     set(all.time, i, disc.time);
 }
 
-/// Writes down disc i's first meeting, and says when; of several at the same instant, with the
-/// smallest number.
-template <int G>
-SWIRL_INLINE double note_meeting(Machine& m, std::uint32_t i, const Eight (&contact)[G]) {
-    Eight least = contact[0];
-    for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
-    const double time = smallest(least);
-    // Where nobody is met all lanes are equal, and the first will do.
-    const auto partner = static_cast<std::uint32_t>(__builtin_ctzll(lanes_equal(contact, time)));
-    Plan& plan = m.plan(i);
-    plan.partner = partner;
-    plan.partner_changes = m.discs[partner].changes;
-    set(m.side_by_side->meeting, i, time);
-    return time;
-}
-
-/// Whom disc i meets, which may have held its state for a while.
-template <int G>
-SWIRL_INLINE void predict(Machine& m, std::uint32_t i) {
-    const SideBySide& all = *m.side_by_side;
-    const HotDisc& disc = m.discs[i];
-    const Flight<Eight> mine{eight(disc.position), eight(disc.velocity), Eight(disc.time)};
-    Eight contact[G];
-    for (int g = 0; g < G; ++g)
-        contact[g] = time_of_contact(mine, eight_flights(all, g),
-                                     Eight(disc.radius) + Eight::load(all.radius + 8 * g));
-    note_meeting(m, i, contact);
-}
-
-/// Whom D discs meet that have just changed, at time t; none of the others holds a later state. The
-/// general formula with a term that is zero left out, and the same bits. Says when the first meets.
-template <int G, int D>
-SWIRL_INLINE double predict_changed(Machine& m, const std::uint32_t (&who)[D], double t) {
-    const SideBySide& all = *m.side_by_side;
-    const Eight now(t);
+/// Whom D discs meet first, asked at time t. Says when the first of them does.
+template <int G, Held held, int D>
+SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&who)[D], double t) {
     Eight contact[D][G];
     for (int g = 0; g < G; ++g) {
-        const Flight<Eight> others = eight_flights(all, g);
-        const EightVectors at = others.position_at(now);
-        const Eight radius = Eight::load(all.radius + 8 * g);
-        for (int d = 0; d < D; ++d) {
-            const HotDisc& disc = m.discs[who[d]];
-            contact[d][g] = now + time_until_contact(at - eight(disc.position),
-                                                     others.velocity - eight(disc.velocity),
-                                                     Eight(disc.radius) + radius);
-        }
+        const Others<8> others = load_eight(*state.side_by_side, g);
+        for (int d = 0; d < D; ++d)
+            contact[d][g] = contact_times<held>(state.discs[who[d]], others, t);
     }
     double first = never;
-    for (int d = 0; d < D; ++d) first = smaller(first, note_meeting(m, who[d], contact[d]));
+    for (int d = 0; d < D; ++d) {
+        Eight least = contact[d][0];
+        for (int g = 1; g < G; ++g) least = smaller(least, contact[d][g]);
+        const double time = smallest(least);
+        // Where nobody is met all lanes are equal, and the first will do.
+        const std::uint64_t equal = lanes_equal(contact[d], time);
+        note_partner(state, {time, who[d], static_cast<std::uint32_t>(__builtin_ctzll(equal))});
+        set(state.side_by_side->meeting, who[d], time);
+        first = smaller(first, time);
+    }
     return first;
 }
 
-/// When disc i meets the wall.
-SWIRL_INLINE double predict_wall(Machine& m, std::uint32_t i) {
-    const HotDisc& disc = m.discs[i];
-    const Leg& leg = m.legs[m.leg];
-    const double clearance = m.container_radius - disc.radius;
-    const double time =
-        leg.turning != 0.0
-            ? time_of_turning_wall_contact(flight_of(disc), leg, clearance)
-            : time_of_wall_contact(flight_of(disc), container_flight(leg), clearance);
-    set(m.side_by_side->wall, i, time);
+/// When a disc that has just collided, at time t, meets the wall.
+SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double) {
+    const double time = wall_time(state, who[0]);
+    set(state.side_by_side->wall, who[0], time);
     return time;
 }
-
-/// When the first of two discs, which have just changed at time t, meets the wall.
-SWIRL_INLINE double predict_walls(Machine& m, std::uint32_t i, std::uint32_t j, double t) {
-    const Leg& leg = m.legs[m.leg];
-    if (leg.turning != 0.0) [[unlikely]]
-        return smaller(predict_wall(m, i), predict_wall(m, j));
-    const HotDisc &a = m.discs[i], &b = m.discs[j];
-    const Flight<double> container = container_flight(leg);
-    const Vec2 centre = container.position_at(t);
-    const auto from = [](const Vec2& p, const Vec2& q, const Vec2& origin) {
-        return BasicVec2<Lanes<2>>{two_lanes(p.x, q.x) - Lanes<2>(origin.x),
-                                   two_lanes(p.y, q.y) - Lanes<2>(origin.y)};
-    };
-    const Lanes<2> wait = time_to_leave(
-        from(a.position, b.position, centre), from(a.velocity, b.velocity, container.velocity),
-        Lanes<2>(m.container_radius) - two_lanes(a.radius, b.radius));
-    const Lanes<2> time = Lanes<2>(t) + wait;
-    set(m.side_by_side->wall, i, lane(time, 0));
-    set(m.side_by_side->wall, j, lane(time, 1));
+/// When the first of two does.
+SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[2], double t) {
+    if (state.legs[state.leg].turning != 0.0) [[unlikely]]
+        return smaller(predict_wall(state, {who[0]}, t), predict_wall(state, {who[1]}, t));
+    const Lanes<2> time = wall_times_from_now(state, state.discs[who[0]], state.discs[who[1]], t);
+    set(state.side_by_side->wall, who[0], lane(time, 0));
+    set(state.side_by_side->wall, who[1], lane(time, 1));
     return smaller(lane(time, 0), lane(time, 1));
 }
 
 template <int G>
-SWIRL_INLINE void predict_all_walls(Machine& m) {
-    SideBySide& all = *m.side_by_side;
-    if (m.legs[m.leg].turning != 0.0) {
-        for (std::uint32_t i = 0; i < m.size; ++i) predict_wall(m, i);
+SWIRL_INLINE void predict_all_walls(EngineState& state) {
+    SideBySide& all = *state.side_by_side;
+    if (state.legs[state.leg].turning != 0.0) {
+        for (std::uint32_t i = 0; i < state.size; ++i) predict_wall(state, {i}, state.clock);
         return;
     }
-    const Flight<double> container = container_flight(m.legs[m.leg]);
-    const Flight<Eight> centre{eight(container.position), eight(container.velocity),
-                               Eight(container.time)};
     for (int g = 0; g < G; ++g) {
-        const Eight clearance = Eight(m.container_radius) - Eight::load(all.radius + 8 * g);
-        const Eight time = time_of_wall_contact(eight_flights(all, g), centre, clearance);
+        const Others<8> discs = load_eight(all, g);
+        const Eight time = wall_times<8>(state, discs.flight, discs.radius);
         larger(time, Eight::load(all.nobody + 8 * g)).store(all.wall + 8 * g);
     }
 }
 
-/// Of the events at one instant, on whose cards the bits are set, the one with the smaller first
-/// disc; then the smaller second, the wall counting as the disc itself.
-SWIRL_INLINE Due first_in_order(const Machine& m, double time, std::uint64_t meetings,
-                                std::uint64_t walls) {
-    Due due{time, m.size, m.size, m.size};
-    if (walls != 0) {
-        const auto i = static_cast<std::uint32_t>(__builtin_ctzll(walls));
-        due = {time, i, i, i};
-    }
+/// Of the events at one instant, that of the discs whose bits are set, the first.
+SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
+                                         std::uint64_t meetings, std::uint64_t walls) {
+    PendingEvent first{time, state.size, state.size};
+    if (walls != 0) first.disc = first.partner = static_cast<std::uint32_t>(__builtin_ctzll(walls));
     for (; meetings != 0; meetings &= meetings - 1) {
         const auto i = static_cast<std::uint32_t>(__builtin_ctzll(meetings));
-        const std::uint32_t k = m.plan(i).partner;
-        const std::uint32_t low = i < k ? i : k, high = i < k ? k : i;
-        if (low < due.i || (low == due.i && high < due.j)) due = {time, low, high, i};
+        const PendingEvent meeting{time, i, state.cold(i).partner};
+        if (is_first_in_order(meeting, first)) first = meeting;
     }
-    return due;
+    return first;
 }
 
-/// Looks at all cards and writes down which comes first.
+/// Looks at everybody's pending meeting and wall contact and writes down which comes first.
 template <int G>
-SWIRL_INLINE void find_due(Machine& m) {
-    SideBySide& all = *m.side_by_side;
+SWIRL_INLINE void find_next(EngineState& state) {
+    SideBySide& all = *state.side_by_side;
     Eight meeting[G], wall[G];
     for (int g = 0; g < G; ++g) {
         meeting[g] = Eight::load(all.meeting + 8 * g);
@@ -182,105 +125,71 @@ SWIRL_INLINE void find_due(Machine& m) {
     Eight least = smaller(meeting[0], wall[0]);
     for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
     const double time = smallest(least);
-    const double end = m.legs[m.leg].end;
-    all.due = time >= end
-                  ? Due{end, m.size, m.size, m.size}
-                  : first_in_order(m, time, lanes_equal(meeting, time), lanes_equal(wall, time));
+    // Who comes after the leg's end need not be known.
+    all.next =
+        time < state.legs[state.leg].end
+            ? first_in_order(state, time, lanes_equal(meeting, time), lanes_equal(wall, time))
+            : PendingEvent{time, state.size, state.size};
 }
 
 template <int G>
-[[gnu::noinline]] static void renew_all(Machine& m) {
-    for (std::uint32_t i = 0; i < m.size; ++i) copy(m, i);
-    for (std::uint32_t i = 0; i < m.size; ++i) predict<G>(m, i);
-    predict_all_walls<G>(m);
-    find_due<G>(m);
+[[gnu::noinline]] static void predict_all(EngineState& state) {
+    for (std::uint32_t i = 0; i < state.size; ++i) copy(state, i);
+    for (std::uint32_t i = 0; i < state.size; ++i)
+        predict_meetings<G, Held::for_a_while, 1>(state, {i}, state.clock);
+    predict_all_walls<G>(state);
+    find_next<G>(state);
 }
 
 template <int G>
-[[gnu::noinline]] static Event end_leg(Machine& m) {
-    const Event event = take_next_leg(m);
-    if (m.leg == 0) {
-        renew_all<G>(m);
-    } else {
-        predict_all_walls<G>(m);
-        find_due<G>(m);
-    }
-    return event;
+SWIRL_INLINE void leg_ended(EngineState& state) {
+    if (state.leg == 0) return predict_all<G>(state);
+    predict_all_walls<G>(state);
+    find_next<G>(state);
 }
 
-/// The card that comes first and is not stale.
-template <int G>
-SWIRL_INLINE Due next_due(Machine& m) {
-    for (;;) {
-        const Due due = m.side_by_side->due;
-        if (due.i == due.j) return due;
-        const Plan& plan = m.plan(due.owner);
-        if (m.discs[plan.partner].changes == plan.partner_changes) return due;
-        ++m.stale;
-        predict<G>(m, due.owner);
-        find_due<G>(m);
-    }
-}
-
-/// What comes next is mostly known before the discs that now collide have been predicted: the first
-/// of all others' cards.
-template <int G>
-SWIRL_INLINE void find_due_but_for(Machine& m, std::uint32_t i, std::uint32_t j) {
-    SideBySide& all = *m.side_by_side;
+SWIRL_INLINE void take_out(SideBySide& all, std::uint32_t i) {
     set(all.meeting, i, never);
     set(all.wall, i, never);
-    if (i != j) {
-        set(all.meeting, j, never);
-        set(all.wall, j, never);
-    }
-    find_due<G>(m);
-}
-
-template <int G>
-SWIRL_INLINE Event execute(Machine& m, const Due& due) {
-    if (due.i == m.size) return end_leg<G>(m);
-    m.clock = due.time;
-    find_due_but_for<G>(m, due.i, due.j);
-    Event event;
-    double first;
-    if (due.i == due.j) {
-        event = collide_with_wall(m, due.i, due.time);
-        copy(m, due.i);
-        first = smaller(predict_changed<G, 1>(m, {due.i}, due.time), predict_wall(m, due.i));
-    } else {
-        event = collide_discs(m, due.i, due.j, due.time);
-        copy(m, due.i);
-        copy(m, due.j);
-        first = smaller(predict_changed<G, 2>(m, {due.i, due.j}, due.time),
-                        predict_walls(m, due.i, due.j, due.time));
-    }
-    if (first <= m.side_by_side->due.time) [[unlikely]]
-        find_due<G>(m);
-    return event;
-}
-
-template <int G>
-static Event step_groups(Machine& m) {
-    return execute<G>(m, next_due<G>(m));
-}
-template <int G>
-static std::uint64_t run_groups(Machine& m, std::uint64_t count, std::int64_t swirls,
-                                double clock) {
-    for (std::uint64_t done = 0; done < count; ++done) {
-        const Due due = next_due<G>(m);
-        if (m.swirls > swirls || (m.swirls == swirls && due.time > clock)) return done;
-        execute<G>(m, due);
-    }
-    return count;
-}
-
-/// The loop for up to 8 G discs.
-template <int G>
-constexpr EventLoop loop(const char* width) {
-    return {width, renew_all<G>, step_groups<G>, run_groups<G>};
 }
 
 }  // namespace all_pairs
+
+/// For up to 8 G discs.
+template <int G>
+struct AllPairs {
+    SWIRL_INLINE static void start(EngineState& state) { all_pairs::predict_all<G>(state); }
+
+    SWIRL_INLINE static PendingEvent next(const EngineState& state) {
+        return state.side_by_side->next;
+    }
+    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+        ++state.invalidated;
+        all_pairs::predict_meetings<G, Held::for_a_while, 1>(state, {event.disc}, event.time);
+        all_pairs::find_next<G>(state);
+    }
+    /// What comes next is mostly known before the discs that now
+    /// collide have been predicted: the first of all others' events.
+    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
+        all_pairs::take_out(*state.side_by_side, event.disc);
+        if (!event.is_with_wall()) all_pairs::take_out(*state.side_by_side, event.partner);
+        all_pairs::find_next<G>(state);
+        return event;
+    }
+    template <int D>
+    SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
+                                             double t) {
+        for (int d = 0; d < D; ++d) all_pairs::copy(state, who[d]);
+        const double wall = all_pairs::predict_wall(state, who, t);
+        const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
+        if (smaller(meeting, wall) <= state.side_by_side->next.time) [[unlikely]]
+            all_pairs::find_next<G>(state);
+    }
+    SWIRL_INLINE static void check(const EngineState& state, double) { check_columns(state); }
+    SWIRL_INLINE static void leg_ended(EngineState& state, double) {
+        all_pairs::leg_ended<G>(state);
+    }
+};
 
 }  // namespace SWIRL_TARGET
 }  // namespace swirl

@@ -1,33 +1,29 @@
-// What a disc does next: whom it meets first, of those it may meet, when it reaches the wall, and
-// when it leaves the place where those it may meet were looked up.
+// Speed only, changes no bit: what a disc does next. When it meets those it may meet, W of them
+// side by side, and which of that, the wall and the end of its skin comes first.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
 #pragma once
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/contact_time.hpp"
+#include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/state.hpp"
-#include "swirl/simulation/search/tournament.hpp"
+#include "swirl/simulation/search/wall_times.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-struct Prediction {
-    double time;
-    std::uint32_t partner;
-};
-
-/// W discs of a list, side by side.
+/// W discs side by side.
 template <int W>
 struct Others {
     Flight<Lanes<W>> flight;
     Lanes<W> radius;
 };
 template <int W>
-SWIRL_INLINE Others<W> load_others(const Machine& m, const std::uint32_t* neighbours) {
+SWIRL_INLINE Others<W> load_others(const EngineState& state, const std::uint32_t* neighbours) {
     const double *flights[W], *times[W];
     for (int k = 0; k < W; ++k) {
-        const HotDisc& other = m.discs[neighbours[k]];
+        const HotDisc& other = state.discs[neighbours[k]];
         flights[k] = &other.position.x;
         times[k] = &other.time;
     }
@@ -40,69 +36,54 @@ SWIRL_INLINE Others<W> load_others(const Machine& m, const std::uint32_t* neighb
     return others;
 }
 
-/// The earliest of W contacts, or `soonest` if that is earlier. Of several at the same instant, the
-/// one with the smallest number.
+/// When `disc` meets W others, asked at time t.
+template <Held held, int W>
+SWIRL_INLINE Lanes<W> contact_times(const HotDisc& disc, const Others<W>& others, double t) {
+    const Flight<Lanes<W>> mine = in_lanes<W>(disc.flight());
+    const Lanes<W> sum_of_radii = Lanes<W>(disc.radius) + others.radius;
+    if constexpr (held == Held::for_a_while) {
+        return time_of_contact(mine, others.flight, sum_of_radii);
+    } else {
+        const Lanes<W> now(t);
+        return now + time_until_contact(others.flight.position_at(now) - mine.position,
+                                        others.flight.velocity - mine.velocity, sum_of_radii);
+    }
+}
+
+/// Disc i has met nobody yet.
+SWIRL_INLINE PendingEvent no_meeting(std::uint32_t i) { return {never, i, no_event}; }
+
+/// The first of W contacts, or `first` if that comes before them (pending_event.hpp: the smaller
+/// partner comes before).
 template <int W>
-SWIRL_INLINE Prediction earlier(const std::uint32_t* neighbours, const Lanes<W>& contact,
-                                Prediction soonest) {
+SWIRL_INLINE PendingEvent earlier(const std::uint32_t* neighbours, const Lanes<W>& contact,
+                                  const PendingEvent& first) {
     const double time = smallest(contact);
-    if (time > soonest.time || time == never) return soonest;
+    if (time > first.time || time == never) return first;
     unsigned equal = lanes_equal(contact, time);
     std::uint32_t partner = neighbours[__builtin_ctz(equal)];
     while (equal &= equal - 1) {
         const std::uint32_t other = neighbours[__builtin_ctz(equal)];
         if (other < partner) partner = other;
     }
-    if (time == soonest.time && soonest.partner < partner) return soonest;
-    return {time, partner};
+    if (time == first.time && first.partner < partner) return first;
+    return {time, first.disc, partner};
 }
 
-/// When `disc` meets W discs of its list.
-template <int W>
-SWIRL_INLINE Prediction earliest_contact(const Machine& m, const HotDisc& disc,
-                                         const std::uint32_t* neighbours, Prediction soonest) {
-    const Others<W> others = load_others<W>(m, neighbours);
-    const Flight<Lanes<W>> mine{{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)},
-                                {Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)},
-                                Lanes<W>(disc.time)};
-    return earlier<W>(neighbours,
-                      time_of_contact(mine, others.flight, Lanes<W>(disc.radius) + others.radius),
-                      soonest);
+/// The first of a disc's first meeting, the wall and the end of its skin.
+SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& leaving) {
+    const PendingEvent wall{leaving.wall, meeting.disc, meeting.disc};
+    const PendingEvent first = precedes(wall, meeting) ? wall : meeting;
+    return leaving.skin < first.time ? PendingEvent{leaving.skin, first.disc, leaving.mark} : first;
 }
 
-/// The same for a disc that holds its state at the very moment t, as none of the others holds a
-/// later one: the general formula with a term that is zero left out, and the same bits.
-template <int W>
-SWIRL_INLINE Lanes<W> contacts_from_now(const HotDisc& disc, const Others<W>& others, double t) {
-    const Lanes<W> now(t);
-    const BasicVec2<Lanes<W>> at{Lanes<W>(disc.position.x), Lanes<W>(disc.position.y)};
-    const BasicVec2<Lanes<W>> velocity{Lanes<W>(disc.velocity.x), Lanes<W>(disc.velocity.y)};
-    return now + time_until_contact(others.flight.position_at(now) - at,
-                                    others.flight.velocity - velocity,
-                                    Lanes<W>(disc.radius) + others.radius);
-}
-
-/// When a disc touches the wall, and when it leaves the place where those it may meet were looked
-/// up, its neighbourhood or its cell. The first follows from the state the disc holds alone; the
-/// second, which decides nothing but when to look again, is counted from the moment of asking.
-struct Leaving {
-    double wall, place;
-    std::uint32_t mark = leaves_place;  // or by which edge a cell
-};
-/// Added to the time of the wall, by HotDisc::far_from_wall: a branch would often be mispredicted.
-static constexpr double far_wait[2] = {0.0, never};
-
-/// Writes disc i's earliest event on its card. At equal times a disc comes before the wall exactly
-/// if its number is smaller, as in comes_first().
-SWIRL_INLINE void write_card(Machine& m, std::uint32_t i, Prediction soonest,
-                             const Leaving& leaving) {
-    if (leaving.wall < soonest.time || (leaving.wall == soonest.time && i < soonest.partner))
-        soonest = {leaving.wall, i};
-    if (leaving.place < soonest.time) soonest = {leaving.place, leaving.mark};
-    Plan& plan = m.plan(i);
-    plan.partner = soonest.partner;
-    plan.partner_changes = soonest.partner < m.size ? m.discs[soonest.partner].changes : 0;
-    put_in(m, i, soonest.time);
+/// Writes down a disc's pending event, with its partner's collision counter. When it comes is
+/// written where the search looks for the first of all.
+SWIRL_INLINE void note_partner(EngineState& state, const PendingEvent& event) {
+    ColdDisc& cold = state.cold(event.disc);
+    cold.partner = event.partner;
+    cold.partner_collisions =
+        event.partner < state.size ? state.discs[event.partner].collisions : 0;
 }
 
 }  // namespace SWIRL_TARGET

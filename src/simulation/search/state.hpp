@@ -1,6 +1,6 @@
-// All the state the event loop works on, as plain columns. The types a reader meets are Disc, Leg
-// and Event; this is how they are stored while the loop runs, in the order in which it touches
-// them.
+// Speed only, changes no bit: all the state the event loop works on, as plain columns. The types a
+// reader meets are Disc, Leg and Event; this is how they are stored while the loop runs, in the
+// order in which it touches them.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
+#include "swirl/simulation/pending_event.hpp"
 
 namespace swirl {
 
@@ -18,10 +19,12 @@ struct alignas(64) HotDisc {
     Vec2 velocity;
     double time, radius;
     double spin;
-    std::uint32_t changes;  // collisions so far, mod 2³²: tells that a prediction has gone stale
-    std::uint32_t kind : 24;          // row of Machine::kinds
+    std::uint32_t collisions;         // counter, mod 2³²: tells that a prediction is invalidated
+    std::uint32_t kind : 24;          // row of EngineState::kinds
     std::uint32_t neighbours : 7;     // length of its list
-    std::uint32_t far_from_wall : 1;  // its neighbourhood does not reach the wall
+    std::uint32_t far_from_wall : 1;  // its skin does not reach the wall
+
+    SWIRL_INLINE Flight<double> flight() const { return {position, velocity, time}; }
 };
 static_assert(sizeof(HotDisc) == 64);
 
@@ -31,35 +34,33 @@ struct DiscKind {
     double inverse_mass, inverse_inertia;
 };
 
-/// A disc's pending event and the discs it may meet. The list holds every disc k with
-/// |X_i − X_k| < r_i + r_k + h_i + h_k, where X is the centre of a disc's neighbourhood and h how
-/// far the disc may stray from it (verlet_skin.hpp). While both are within theirs, discs that are
-/// not on each other's list cannot touch. There are no lists where all pairs are looked at, or
-/// cells.
-struct Plan {
-    std::uint32_t partner;          // a disc; itself for the wall; or one of the marks below
-    std::uint32_t partner_changes;  // HotDisc::changes of the partner when this was predicted
-    double angle;                   // at HotDisc::time
-    // followed by `capacity` disc numbers, unused ones being `Machine::size`
+/// What only a disc's own events read: the partner of its pending event, its angle, and its
+/// neighbour list, every disc k with |X_i − X_k| < r_i + r_k + h_i + h_k (verlet_skin.hpp). There
+/// are no lists where all pairs are looked at, or cells.
+struct ColdDisc {
+    std::uint32_t partner;             // a disc; itself for the wall; or one of the marks below
+    std::uint32_t partner_collisions;  // HotDisc::collisions of the partner when this was predicted
+    double angle;                      // at HotDisc::time
+    // followed by `capacity` disc numbers, unused ones being `EngineState::size`
     std::uint32_t* neighbours() { return reinterpret_cast<std::uint32_t*>(this + 1); }
     const std::uint32_t* neighbours() const {
         return reinterpret_cast<const std::uint32_t*>(this + 1);
     }
 };
-static_assert(sizeof(Plan) == 16);
+static_assert(sizeof(ColdDisc) == 16);
 
-/// Marks in Plan::partner, larger than any disc's number. None changes a disc.
-inline constexpr std::uint32_t predict_again = 0xffffff00u;  // the wall event that was here is void
-/// Its neighbourhood; or its cell, and then by which edge: + 0 to 3 is right, left, up, down.
-inline constexpr std::uint32_t leaves_place = 0xffffff01u;
+/// Marks in ColdDisc::partner, larger than any disc's number. None changes a disc.
+inline constexpr std::uint32_t no_event = 0xffffff00u;  // the wall event that was here is void
+/// Its skin; or its cell, and then by which edge: + 0 to 3 is right, left, up, down.
+inline constexpr std::uint32_t leaves_skin = 0xffffff01u;
 
 /// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell
 /// (linked_cells.hpp).
-struct Neighbourhood {
-    float X, Y;     // its centre, in the carried frame
-    float freedom;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell
+struct Skin {
+    float X, Y;         // its centre, in the co-moving frame
+    float skin_radius;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell
     union {
-        std::uint32_t next_in_cell;  // the number of a disc, or Machine::size
+        std::uint32_t next_in_cell;  // the number of a disc, or EngineState::size
         std::uint32_t cell;          // its number
     };
 };
@@ -74,13 +75,6 @@ static_assert(sizeof(Cell) == 32);  // read and written as one piece of eight nu
 
 inline constexpr std::uint32_t longest_list = 64;
 
-/// What comes next: i < j meet, or i = j meets the wall, or, i = j = N, the leg ends. `owner` has
-/// it on its card.
-struct Due {
-    double time;
-    std::uint32_t i, j, owner;
-};
-
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
 struct alignas(64) SideBySide {
@@ -88,16 +82,16 @@ struct alignas(64) SideBySide {
     double x[most], y[most], vx[most], vy[most], time[most], radius[most];
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
-    Due due;
+    PendingEvent next;    // the first of all
 };
 
-struct Machine {
+struct EngineState {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
     std::uint32_t capacity;  // of a neighbour list; a multiple of 4
-    std::uint32_t plan_bytes;
+    std::uint32_t cold_bytes;
     HotDisc* discs;
-    unsigned char* plans;
-    Neighbourhood* neighbourhoods;
+    unsigned char* cold_discs;
+    Skin* skins;
     SideBySide* side_by_side;
     const DiscKind* kinds;
 
@@ -107,18 +101,19 @@ struct Machine {
     double* level_times[12];
     std::uint32_t* level_winners[12];
 
-    // What carries the neighbourhoods: the mean motion of the discs, renewed with every leg.
-    Flight<double> carrier;
+    // The frame in which the skins rest: the mean motion of the discs, renewed with every leg.
+    Flight<double> comoving_frame;
 
-    // Square cells over the dish, in the carried frame (verlet_skin.hpp).
+    // Square cells over the dish, in the co-moving frame (verlet_skin.hpp).
     std::uint32_t cells_per_side;
     double cells_per_length, cell_origin;
     std::uint32_t* cell_heads;
     Cell* cells;
-    bool discs_overlap;  // at the start: then cells may be too small (linked_cells.hpp)
+    bool discs_overlap;        // at the start: then cells may be too small (linked_cells.hpp)
+    bool overlapped_at_start;  // anybody, or with the wall; asked where invariants are checked
     double smallest_radius;
     bool equal_radii;
-    double longest_freedom;  // the cells next door must hold everybody within reach
+    double largest_skin_radius;  // the cells next door must hold everybody within reach
 
     const Leg* legs;
     std::uint32_t leg, leg_count;
@@ -128,12 +123,20 @@ struct Machine {
     std::int64_t swirls;
     double clock;
     std::uint64_t disc_disc, disc_wall, path_vertex;
-    std::uint64_t lasting;  // collisions made elastic by the TC model
-    std::uint64_t stale, relists, crowded,
-        overcrowded;  // bookkeeping of the loop, for docs/performance.md
+    std::uint64_t elastic_by_tc;  // collisions made elastic by the TC model
+    std::uint64_t invalidated, list_rebuilds, overflows,
+        full_rebuilds;  // bookkeeping of the loop, for docs/performance.md
 
-    Plan& plan(std::uint32_t i) const {
-        return *reinterpret_cast<Plan*>(plans + static_cast<std::uint64_t>(i) * plan_bytes);
+    SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
+        return *reinterpret_cast<ColdDisc*>(cold_discs +
+                                            static_cast<std::uint64_t>(i) * cold_bytes);
+    }
+    /// Whether a pending event happens: its partner has not collided since it was predicted. The
+    /// wall's always does; that of a disc which leaves its skin is none.
+    SWIRL_INLINE bool is_valid(const PendingEvent& event) const {
+        if (event.is_with_wall()) return true;
+        return event.partner < size &&
+               discs[event.partner].collisions == cold(event.disc).partner_collisions;
     }
 };
 
@@ -141,11 +144,11 @@ struct Machine {
 struct EventLoop {
     const char* width;
     /// Makes all lists and all predictions from the discs as they stand.
-    void (*start)(Machine&);
+    void (*start)(EngineState&);
     /// Executes the next event.
-    Event (*step)(Machine&);
+    Event (*step)(EngineState&);
     /// Executes `count` events, or as many as come before (swirls, clock]; says how many.
-    std::uint64_t (*run)(Machine&, std::uint64_t count, std::int64_t swirls, double clock);
+    std::uint64_t (*run)(EngineState&, std::uint64_t count, std::int64_t swirls, double clock);
 };
 
 /// The loops for one vector width: with neighbour lists, with cells, and all pairs for up to

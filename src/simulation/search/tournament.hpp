@@ -1,6 +1,6 @@
-// Whose event comes first: a tournament of eight. Level 0 holds each disc's pending time, in rows
-// of eight; each level above holds the winner of each row below. A row is one vector, so the winner
-// of eight takes one pass of `smaller`.
+// Speed only, changes no bit: whose event comes first. A tournament of eight: level 0 holds each
+// disc's pending time, in rows of eight; each level above holds the winner of each row below. A row
+// is one vector, so the winner of eight takes one pass of `smaller`.
 //
 // The discs of an event are taken out before it is executed and put in again, with what they do
 // next, when that has been predicted. What remains is known meanwhile; and since what was predicted
@@ -10,137 +10,171 @@
 // The rows are read and written whole: eight bytes written into a row that is then read as a vector
 // would wait for the store to leave the processor's store buffer.
 //
-// Two equal times: mostly both partners of one collision, each with the event on its own card. If
-// they are different events, the one with the smaller first disc comes first (then the smaller
-// second), so that the order of events does not depend on who found which.
+// Two equal times are mostly both partners of one collision, each with it as its pending event. If
+// they are different events, their order decides (pending_event.hpp).
 #pragma once
 
 #include "swirl/math/lanes.hpp"
+#include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-struct Next {
-    double time;
-    std::uint32_t disc;
-};
-
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
 /// Fetches what a prediction for disc i will read, or, in a thin gas, the first of each cell.
-SWIRL_INLINE void prefetch_neighbours(const Machine& m, std::uint32_t i) {
-    if (m.cells) {
-        const Cell* row = m.cells + m.neighbourhoods[i].cell - m.cells_per_side - 1;
-        for (int y = 0; y < 3; ++y, row += m.cells_per_side)
-            for (int x = 0; x < 3; ++x) prefetch(&m.discs[row[x].disc[0]]);
+SWIRL_INLINE void prefetch_neighbours(const EngineState& state, std::uint32_t i) {
+    if (state.cells) {
+        const Cell* row = state.cells + state.skins[i].cell - state.cells_per_side - 1;
+        for (int y = 0; y < 3; ++y, row += state.cells_per_side)
+            for (int x = 0; x < 3; ++x) prefetch(&state.discs[row[x].disc[0]]);
         return;
     }
-    const std::uint32_t* const list = m.plan(i).neighbours();
-    for (int k = 0; k < 8; ++k) prefetch(&m.discs[list[k]]);
+    const std::uint32_t* const list = state.cold(i).neighbours();
+    for (int k = 0; k < 8; ++k) prefetch(&state.discs[list[k]]);
 }
 
 /// Fetches what an event of disc i will read and write, and its places in the queue.
-SWIRL_INLINE void prefetch_disc(const Machine& m, std::uint32_t i) {
-    prefetch(&m.discs[i]);
-    prefetch(&m.plan(i));
-    prefetch(&m.neighbourhoods[i]);
-    prefetch(m.level_times[0] + i);
-    prefetch(m.level_times[1] + (i >> 3));
-    prefetch(m.level_winners[1] + (i >> 3));
+SWIRL_INLINE void prefetch_disc(const EngineState& state, std::uint32_t i) {
+    prefetch(&state.discs[i]);
+    prefetch(&state.cold(i));
+    prefetch(&state.skins[i]);
+    prefetch(state.level_times[0] + i);
+    prefetch(state.level_times[1] + (i >> 3));
+    prefetch(state.level_winners[1] + (i >> 3));
 }
 
 /// In a large dish most of what an event needs is far away in memory. Who has won all rows but the
 /// last is soon to come: its own lines are fetched then, and its partner's and its neighbours' when
 /// it is among the last eight.
-SWIRL_INLINE void prefetch_winner(const Machine& m, std::uint32_t level, std::uint32_t winner) {
-    if (level + 2 == m.levels) {
-        prefetch_disc(m, winner);
-    } else if (level + 1 == m.levels) {
-        prefetch_neighbours(m, winner);
-        const std::uint32_t partner = m.plan(winner).partner;
-        if (partner < m.size) prefetch_disc(m, partner);
+SWIRL_INLINE void prefetch_winner(const EngineState& state, std::uint32_t level,
+                                  std::uint32_t winner) {
+    if (level + 2 == state.levels) {
+        prefetch_disc(state, winner);
+    } else if (level + 1 == state.levels) {
+        prefetch_neighbours(state, winner);
+        const std::uint32_t partner = state.cold(winner).partner;
+        if (partner < state.size) prefetch_disc(state, partner);
     }
 }
 
 /// No disc has an event.
-SWIRL_INLINE void empty_queue(Machine& m) {
-    for (std::uint32_t level = 0; level < m.levels; ++level) {
-        const std::uint32_t rows = ((m.size - 1) >> (3 * (level + 1))) + 1;
+SWIRL_INLINE void empty_queue(EngineState& state) {
+    for (std::uint32_t level = 0; level < state.levels; ++level) {
+        const std::uint32_t rows = ((state.size - 1) >> (3 * (level + 1))) + 1;
         for (std::uint32_t k = 0; k < 8 * rows; ++k) {
-            m.level_times[level][k] = never;
-            if (level > 0) m.level_winners[level][k] = (k << (3 * level)) % m.size;
+            state.level_times[level][k] = never;
+            if (level > 0) state.level_winners[level][k] = (k << (3 * level)) % state.size;
         }
     }
 }
 
 /// Leaves a disc without an event: its place goes to the next in its row, on every level where it
 /// had won.
-SWIRL_INLINE void take_out(Machine& m, std::uint32_t disc) {
-    double* const places = m.level_times[0] + (disc & ~7u);
+SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
+    double* const places = state.level_times[0] + (disc & ~7u);
     Lanes<8> row = with_lane(Lanes<8>::load(places), disc & 7u, never);
     row.store(places);
     std::uint32_t place = disc;
-    for (std::uint32_t level = 1; level < m.levels; ++level) {
-        if (m.level_winners[level][place >> 3] != disc) return;
+    for (std::uint32_t level = 1; level < state.levels; ++level) {
+        if (state.level_winners[level][place >> 3] != disc) return;
         const double time = smallest(row);
         std::uint32_t winner = (place & ~7u) + __builtin_ctz(lanes_equal(row, time));
-        if (level > 1) winner = m.level_winners[level - 1][winner];
-        if (m.prefetches) prefetch_winner(m, level, winner);
+        if (level > 1) winner = state.level_winners[level - 1][winner];
+        if (state.prefetches) prefetch_winner(state, level, winner);
         place >>= 3;
-        double* const times = m.level_times[level] + (place & ~7u);
+        double* const times = state.level_times[level] + (place & ~7u);
         row = with_lane(Lanes<8>::load(times), place & 7u, time);
         row.store(times);
-        m.level_winners[level][place] = winner;
+        state.level_winners[level][place] = winner;
     }
 }
 
-/// Gives a disc that has none, or a later one, an event.
-SWIRL_INLINE void put_in(Machine& m, std::uint32_t disc, double time) {
+/// Gives a disc that has none, or a later one, an event at the given time.
+SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
     for (std::uint32_t level = 0;; ++level) {
-        double* const times = m.level_times[level] + (place & ~7u);
+        double* const times = state.level_times[level] + (place & ~7u);
         with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
-        if (level > 0) m.level_winners[level][place] = disc;
+        if (level > 0) state.level_winners[level][place] = disc;
         place >>= 3;
-        if (level + 1 == m.levels || !(time < m.level_times[level + 1][place])) return;
+        if (level + 1 == state.levels || !(time < state.level_times[level + 1][place])) return;
     }
 }
 
-SWIRL_INLINE double pending_time(const Machine& m, std::uint32_t disc) {
-    return m.level_times[0][disc];
+SWIRL_INLINE double pending_time(const EngineState& state, std::uint32_t disc) {
+    return state.level_times[0][disc];
 }
 
-/// Whether the event on i's card comes before the one on k's, both at the same time.
-SWIRL_INLINE bool comes_first(const Machine& m, std::uint32_t i, std::uint32_t k) {
-    const std::uint32_t pi = m.plan(i).partner, pk = m.plan(k).partner;
-    const std::uint32_t i_low = i < pi ? i : pi, k_low = k < pk ? k : pk;
-    if (i_low != k_low) return i_low < k_low;
-    return (i < pi ? pi : i) < (k < pk ? pk : k);
-}
-
-/// Among all cards with the winning time, the first in order; the slow way, for the rare case.
-[[gnu::noinline]] static std::uint32_t first_of_equals(const Machine& m, double time,
-                                                       std::uint32_t level, std::uint32_t row,
-                                                       std::uint32_t best) {
-    const unsigned equal = lanes_equal(Lanes<8>::load(m.level_times[level] + 8 * row), time);
-    for (unsigned left = equal; left != 0; left &= left - 1) {
-        const std::uint32_t child = 8 * row + __builtin_ctz(left);
-        if (level > 0)
-            best = first_of_equals(m, time, level - 1, child, best);
-        else if (best == m.size || comes_first(m, child, best))
-            best = child;
-    }
-    return best;
-}
-
-/// The card that comes first, or one of those that come first.
-SWIRL_INLINE Next next_pending(const Machine& m) {
-    const std::uint32_t top = m.levels - 1;
-    const Lanes<8> row = Lanes<8>::load(m.level_times[top]);
+/// The pending event that comes first, or one of those that do.
+SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
+    const std::uint32_t top = state.levels - 1;
+    const Lanes<8> row = Lanes<8>::load(state.level_times[top]);
     const double time = smallest(row);
     const std::uint32_t lane = __builtin_ctz(lanes_equal(row, time));
-    return {time, top == 0 ? lane : m.level_winners[top][lane]};
+    const std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
+    return {time, disc, state.cold(disc).partner};
+}
+
+/// Among all pending events that come at the same time as `first`, the first in order; the slow
+/// way, for the rare case.
+[[gnu::noinline]] static PendingEvent first_of_equals(const EngineState& state, std::uint32_t level,
+                                                      std::uint32_t row, PendingEvent first) {
+    const Lanes<8> times = Lanes<8>::load(state.level_times[level] + 8 * row);
+    for (unsigned equal = lanes_equal(times, first.time); equal != 0; equal &= equal - 1) {
+        const std::uint32_t child = 8 * row + __builtin_ctz(equal);
+        if (level > 0) {
+            first = first_of_equals(state, level - 1, child, first);
+            continue;
+        }
+        const PendingEvent other{first.time, child, state.cold(child).partner};
+        if (is_first_in_order(other, first)) first = other;
+    }
+    return first;
+}
+
+SWIRL_INLINE void take_out_both(EngineState& state, const PendingEvent& event) {
+    if (!event.is_with_wall()) take_out(state, event.partner);
+    take_out(state, event.disc);
+}
+
+/// If several events come at the same instant: their first, in order. The discs of the one that was
+/// found have been taken out and are put back; those of the first are taken out.
+template <class Search>
+[[gnu::noinline]] static PendingEvent first_of_simultaneous(EngineState& state,
+                                                            const PendingEvent& found,
+                                                            double partner_pending) {
+    put_in(state, found.partner, partner_pending);
+    put_in(state, found.disc, found.time);
+    for (;;) {
+        const PendingEvent first =
+            first_of_equals(state, state.levels - 1, 0, {found.time, state.size, state.size});
+        if (state.is_valid(first)) {
+            take_out_both(state, first);
+            return first;
+        }
+        Search::predict_again(state, first);
+    }
+}
+
+/// Leaves the discs of the first event, which has been found, without any; says which is the first
+/// in order, if several come at the same instant.
+template <class Search>
+SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& found) {
+    const double partner_pending = pending_time(state, found.partner);
+    take_out_both(state, found);
+    if (next_pending(state).time == found.time) [[unlikely]]
+        return first_of_simultaneous<Search>(state, found, partner_pending);
+    if (state.prefetches && !found.is_with_wall()) prefetch_neighbours(state, found.partner);
+    return found;
+}
+
+/// Gives a disc that has none a pending event.
+SWIRL_INLINE void put_in(EngineState& state, const PendingEvent& event) {
+    note_partner(state, event);
+    put_in(state, event.disc, event.time);
 }
 
 }  // namespace SWIRL_TARGET

@@ -12,16 +12,17 @@ inline namespace SWIRL_TARGET {
 constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
 #if defined(SWIRL_INTERNAL_CHECKS)
     // The longest serves everybody: the sanitizers need a minute to compile each.
-    constexpr EventLoop (*loop)(const char*) = all_pairs::loop<SideBySide::most / 8>;
-    return {event_loop<Lists>(width, lists::start),
-            event_loop<Cells>(width, cells::start),
-            {loop(width), loop(width), loop(width), loop(width), loop(width)},
+    const EventLoop all_pairs = event_loop<AllPairs<SideBySide::most / 8>>(width);
+    return {event_loop<VerletLists>(width),
+            event_loop<LinkedCells>(width),
+            {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},
             few};
 #else
-    return {event_loop<Lists>(width, lists::start),
-            event_loop<Cells>(width, cells::start),
-            {all_pairs::loop<1>(width), all_pairs::loop<2>(width), all_pairs::loop<3>(width),
-             all_pairs::loop<4>(width), all_pairs::loop<5>(width)},
+    return {event_loop<VerletLists>(width),
+            event_loop<LinkedCells>(width),
+            {event_loop<AllPairs<1>>(width), event_loop<AllPairs<2>>(width),
+             event_loop<AllPairs<3>>(width), event_loop<AllPairs<4>>(width),
+             event_loop<AllPairs<5>>(width)},
             few};
 #endif
 }

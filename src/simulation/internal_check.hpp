@@ -1,0 +1,45 @@
+// The engine's promises to itself, asked while it runs if SWIRL_INTERNAL_CHECKS is defined (CMake
+// preset `check`); otherwise nothing of them is compiled.
+//
+// Each promise is a function that takes whether it is kept, and stops the program if it is not. The
+// engine does not print, so what was broken is read off the stack trace of a sanitizer or a
+// debugger: its top frame is the function of that name.
+#pragma once
+
+namespace swirl {
+
+#if defined(SWIRL_INTERNAL_CHECKS)
+inline constexpr bool internal_checks = true;
+#else
+inline constexpr bool internal_checks = false;
+#endif
+
+namespace promise {
+
+#define SWIRL_PROMISE(name)                                       \
+    [[gnu::noinline, maybe_unused]] static void name(bool kept) { \
+        if (!kept) __builtin_trap();                              \
+    }
+// Of a collision.
+SWIRL_PROMISE(discs_touch_at_contact)
+SWIRL_PROMISE(momentum_is_conserved)
+SWIRL_PROMISE(angular_momentum_is_conserved)
+SWIRL_PROMISE(energy_never_grows)
+SWIRL_PROMISE(energy_changes_by_the_work_of_the_impulses)
+SWIRL_PROMISE(friction_obeys_coulombs_law)
+// Of the order of events.
+SWIRL_PROMISE(time_never_goes_back)
+SWIRL_PROMISE(the_next_event_is_the_first_of_all)
+SWIRL_PROMISE(winners_are_the_first_of_their_rows)
+// Of all discs.
+SWIRL_PROMISE(no_two_discs_overlap)
+SWIRL_PROMISE(no_disc_is_outside_the_container)
+SWIRL_PROMISE(discs_are_within_their_skins)
+SWIRL_PROMISE(neighbour_lists_are_symmetric)
+SWIRL_PROMISE(neighbour_lists_are_complete)
+SWIRL_PROMISE(discs_are_in_their_cells)
+SWIRL_PROMISE(columns_are_what_the_discs_are)
+#undef SWIRL_PROMISE
+
+}  // namespace promise
+}  // namespace swirl
