@@ -11,6 +11,7 @@
 #include "simulation/scenes.hpp"
 #include "swirl/math/lanes.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/physics/collision_law.hpp"
 #include "swirl/physics/contact_time.hpp"
 
 namespace swirl {

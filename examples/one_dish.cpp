@@ -18,7 +18,7 @@ int main() {
         const std::int64_t period = simulation.swirls();
         const swirl::Event event = simulation.step();
         simulation.refresh(snapshot, event);
-        rotation.look(snapshot, event);
+        rotation.sample(snapshot, event);
         if (simulation.swirls() > period) rotation.close_block();
     }
 

@@ -8,7 +8,7 @@
 
 class MeanDistance {
   public:
-    void look(const swirl::Snapshot& dish) {
+    void sample(const swirl::Snapshot& dish) {
         for (std::size_t i = 0; i < dish.size(); ++i) {
             const swirl::Vec2 from_middle = dish.position(i) - dish.container_centre;
             sum_ += std::hypot(from_middle.x, from_middle.y);
@@ -25,11 +25,11 @@ class MeanDistance {
 int main() {
     swirl::Simulation simulation(paper_dish(48, 1.0, 1));
     MeanDistance distance;
-    const int warmup = 20, end = 120, looks = 64;  // looks per period; a look changes no bit
+    const int warmup = 20, end = 120, samples = 64;  // per period; a look changes no bit
     for (int period = warmup; period < end; ++period)
-        for (int k = 0; k < looks; ++k) {
-            simulation.advance_to(period, swirl::paper_period * k / looks);
-            distance.look(simulation.snapshot());
+        for (int k = 0; k < samples; ++k) {
+            simulation.advance_to(period, swirl::paper_period * k / samples);
+            distance.sample(simulation.snapshot());
         }
     std::printf("mean distance from the middle: %.4f radii of a disc\n", distance.mean());
     std::printf("evenly spread it would be %.4f\n",

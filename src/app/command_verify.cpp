@@ -89,7 +89,8 @@ void verify_result(const std::string& file, bool quiet) {
                                       of_version(made_by(json))));
     if (!quiet)
         print_all(fmt::format("The same, bit for bit: {} events, state {}.\n",
-                              result["events"]["total"].dump(), result["state_hash"].get<std::string>()));
+                              result["events"]["total"].dump(),
+                              result["state_hash"].get<std::string>()));
 }
 
 bool same_bits(double a, double b) {

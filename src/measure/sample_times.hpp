@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "swirl/math/real.hpp"
 #include "swirl/physics/container_path.hpp"
@@ -27,9 +26,9 @@ class SampleTimes {
     /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
     /// period; false if there is none left.
     bool next(Snapshot& s, const ContainerPath& path, double clock) {
-        if (!due_) due_ = next_in(s.swirls);
-        if (!(*due_ <= clock)) return false;
-        s.clock = *due_;
+        if (due_ == not_asked) due_ = next_in(s.swirls);
+        if (!(due_ <= clock)) return false;
+        s.clock = due_;
         const Leg& leg = path.leg_at(s.clock);
         s.container_centre = leg.position_at(s.clock);
         s.container_velocity = leg.velocity_at(s.clock);
@@ -39,7 +38,7 @@ class SampleTimes {
     }
     void begin_period() {
         if (interval_ == 0.0) index_ = 0;
-        due_.reset();
+        due_ = not_asked;
     }
 
     template <class Visitor>
@@ -57,10 +56,12 @@ class SampleTimes {
         return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
     }
 
+    static constexpr double not_asked = -1.0;
+
     int per_period_;
     double period_, interval_;
-    std::int64_t index_ = 0;     // of the next
-    std::optional<double> due_;  // its moment in this period, once it has been asked for
+    std::int64_t index_ = 0;  // of the next
+    double due_ = not_asked;  // its moment in this period, once it has been asked for
 };
 
 }  // namespace swirl

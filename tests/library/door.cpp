@@ -27,7 +27,7 @@ EXPORTED(rotation_bits) std::uint64_t rotation_bits(std::uint32_t discs, std::ui
     for (std::uint32_t k = 0; k < events; ++k) {
         const swirl::Event event = simulation.step();
         simulation.refresh(snapshot, event);
-        rotation.look(snapshot, event);
+        rotation.sample(snapshot, event);
     }
     rotation.close_block();
     const double varpi = rotation.estimates().by_event.mean;

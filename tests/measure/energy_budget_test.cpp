@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "measure/snapshots.hpp"
+#include "swirl/physics/collision_law.hpp"
 
 namespace swirl {
 namespace {
