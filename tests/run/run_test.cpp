@@ -18,7 +18,7 @@ RunConfig small(std::int64_t discs, std::int64_t periods) {
     return config;
 }
 
-TEST(MakeScene, NoTwoDiscsOverlapAndNoneIsOutside) {
+TEST(MakeInitialState, NoTwoDiscsOverlapAndNoneIsOutside) {
     for (const std::int64_t n : {1, 2, 28, 48, 55}) {
         RunConfig config;
         config.discs = n;
@@ -36,7 +36,7 @@ TEST(MakeScene, NoTwoDiscsOverlapAndNoneIsOutside) {
     }
 }
 
-TEST(MakeScene, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToDisc) {
+TEST(MakeInitialState, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToDisc) {
     RunConfig config;
     config.discs = 30;
     const InitialState scene = make_initial_state(config);
@@ -51,7 +51,7 @@ TEST(MakeScene, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToDisc) {
     EXPECT_NE(scene.discs[0].velocity.x, scene.discs[1].velocity.x);
 }
 
-TEST(MakeScene, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
+TEST(MakeInitialState, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
     RunConfig config;
     config.discs = 20;
     config.mixture = Mixture{6, 1.4, 2.0};
@@ -71,7 +71,7 @@ TEST(MakeScene, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
     EXPECT_EQ(big, 6);
 }
 
-TEST(MakeScene, MoreDiscsThanFitAreRefusedWithTheNumber) {
+TEST(MakeInitialState, MoreDiscsThanFitAreRefusedWithTheNumber) {
     RunConfig config;
     config.discs = 60;
     try {
@@ -251,6 +251,24 @@ TEST(Run, WithoutWallFrictionTheClusterTurnsWithTheSwirl) {
     config.warmup = 20;
     const Estimate rotation = run(config).rotation.by_event;
     EXPECT_NEAR(rotation.mean, 1.0, 5.0 * rotation.error + 0.01);
+}
+
+// Thirty discs and three hundred of a tenth of their size stand still after one swirl: no length of
+// run that gets there may give that as a result.
+TEST(Run, ACollapseIsToldInAShortRunToo) {
+    RunConfig config;
+    config.discs = 330;
+    config.mixture = Mixture{300, 0.1, 0.01};
+    config.seed = 2;
+    for (const std::int64_t events : {500'000, 1'000'000}) {
+        config.events = events;
+        try {
+            run(config);
+            ADD_FAILURE() << events << " events were averaged";
+        } catch (const Failure& failure) {
+            EXPECT_THAT(failure.what(), testing::HasSubstr("time all but stands still"));
+        }
+    }
 }
 
 }  // namespace

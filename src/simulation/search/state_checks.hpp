@@ -121,9 +121,11 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
     }
 }
 
-/// A disc may stand on the edge of its cell, and beyond it by what linked_cells.hpp waits at least.
+/// A disc may stand on the edge of its cell, and beyond it by what linked_cells.hpp waits at least,
+/// and by the rounding of the cell's centre to single precision. Cells are wide enough for that.
 [[maybe_unused]] static void check_cells(const EngineState& state, double t) {
-    const double half = 0.5 / state.cells_per_length * (1.0 + 1e-8);
+    const double half =
+        0.5 / state.cells_per_length * (1.0 + 1e-8) + 0x1p-22 * state.container_radius;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Vec2 offset = offset_in_skin(state, i, t);
         const Cell& cell = state.cells[state.skins[i].cell];
