@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <sstream>
 
@@ -17,6 +18,13 @@ namespace swirl {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Without what a terminal would take as a command.
+std::string printable(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    return text;
+}
 
 struct Answer {
     int code;
@@ -35,9 +43,36 @@ Answer ask(const std::string& command) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text};
 }
 
+/// A line of a job script ends where a text has a line end, and what follows would be a command.
+void refuse_unfit(const char* option, const std::string& text, const char* allowed,
+                  const char* right) {
+    const auto fits = [allowed](unsigned char c) {
+        return std::isalnum(c) || std::strchr(allowed, c) != nullptr;
+    };
+    if (std::all_of(text.begin(), text.end(), fits)) return;
+    throw WrongCall(fmt::format("{} is '{}', but it must be {}.", option, printable(text), right));
+}
+
+/// A path in a line #SBATCH: in quotation marks, and each % doubled, which alone would begin one of
+/// Slurm's own patterns.
+std::string sbatch_path(const fs::path& path) {
+    const std::string text = path.string();
+    for (const unsigned char c : text)
+        if (c < 0x20 || c == 0x7f || c == '"' || c == '\\')
+            throw WrongCall(fmt::format(
+                "--out is '{}', but for Slurm it must have no quotation mark, no backslash and no "
+                "line end in it.",
+                printable(text)));
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '%' ? std::string("%%") : std::string(1, c);
+    return quoted;  // what follows closes the quotation
+}
+
 }  // namespace
 
 std::string slurm_script(const SlurmJob& job, const fs::path& folder, const fs::path& program) {
+    refuse_unfit("--time", job.time, ":-", "as sbatch takes it, for example 2:00:00 or 1-12");
+    refuse_unfit("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";
     text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n", job.nodes);
     text += job.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", job.cpus)
@@ -47,8 +82,8 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const fs::
     // A minute before its time is over a task keeps the state of its runs and ends; so does one
     // that is preempted. A task whose node dies is started again.
     text += "#SBATCH --requeue\n#SBATCH --signal=TERM@60\n";
-    text += fmt::format("#SBATCH --output={}/%A_%a.log\n#SBATCH --open-mode=append\n",
-                        (folder / "log").string());
+    text += fmt::format("#SBATCH --output={}/%A_%a.log\"\n#SBATCH --open-mode=append\n",
+                        sbatch_path(folder / "log"));
     text += fmt::format("exec {} sweep --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --rest",
                         in_quotes(program.string()), in_quotes(folder.string()), job.nodes);
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");

@@ -20,10 +20,13 @@ class Cluster(InFolder):
         self.addCleanup(slurm.stop)
         slurm.start()
         environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
-        out = self.path("cluster")
+        out = self.path("a cluster, 100 % ours")  # a name that the script must quote
         submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
         self.assertEqual(submitted.returncode, 0, submitted.stderr)
         self.assertIn("Submitted as job", submitted.stdout)
+
+        # One log for each task, in the folder as it is named.
+        self.assertTrue(os.path.isdir(out + "/log"))
 
         def status():
             done = swirl("sweep", "--out", out, "--status", environment=environment)
@@ -50,6 +53,7 @@ class Cluster(InFolder):
             with open(f"{out}/log/{name}") as log:
                 logs += log.read()
         self.assertIn(f"{POINTS} of {POINTS} runs done", status(), logs)
+        self.assertEqual(len(os.listdir(out + "/log")), 3)
         self.assertTrue(killed)
         self.assertTrue(running_seen)
 
