@@ -127,6 +127,19 @@ class Floors(unittest.TestCase):
                 self.assertIn("#pragma once", text, file)
                 self.assertTrue(text.startswith("// "), f"{file} does not say what it is")
 
+    def test_no_header_is_left_that_nobody_includes(self):
+        wanted = set()
+        for top in ("src", "tests", "bench", "examples"):
+            for folder, _, names in os.walk(os.path.join(SOURCE, top)):
+                for name in names:
+                    if name.endswith((".hpp", ".cpp")):
+                        wanted.update(what for what, _ in includes(os.path.join(folder, name)))
+        for floor in BELOW:
+            for file in sources(floor):
+                if file.endswith(".hpp"):
+                    name = "swirl/" + os.path.relpath(file, os.path.join(SOURCE, "src"))
+                    self.assertIn(name, wanted)
+
     def test_no_drawers_for_odds_and_ends(self):
         for floor in BELOW:
             for file in sources(floor):
