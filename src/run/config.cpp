@@ -48,6 +48,10 @@ std::optional<std::string> does_not_cover(const RunConfig& c) {
         c.discs, R, 100.0 * area / (R * R), advice_on_room);
 }
 
+/// In radii of the smallest disc. The centres of Verlet skins are held in single precision, and the
+/// narrowest skin, 0.005 radii, must be wider than their rounding, 6·10⁻⁸ of the distance.
+constexpr double widest_dish = 5e4;
+
 std::optional<std::string> does_not_fit(const RunConfig& c) {
     const double R = c.container_radius;
     const double big = c.mixture ? std::fmax(c.radius, c.mixture->radius) : c.radius;
@@ -56,6 +60,13 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
             "A disc of radius {} does not fit into a container of radius {}: --container-radius "
             "must be larger than --radius.",
             big, R);
+    const double small = c.mixture ? std::fmin(c.radius, c.mixture->radius) : c.radius;
+    if (R > widest_dish * small)
+        return fmt::format(
+            "A container of radius {} is more than {} times as large as a disc of radius {}, and "
+            "the search for neighbours is not as fine as that; a smaller --container-radius would "
+            "be right.",
+            R, widest_dish, small);
     if (c.mixture) return does_not_cover(c);
     const double most = std::floor(most_discs_in_dish(c.radius, R));
     if (static_cast<double>(c.discs) <= most) return {};

@@ -15,8 +15,8 @@ struct SlurmJob {
     std::string time, partition;  // as sbatch takes them; empty: the cluster's default
 };
 
-/// The script that sbatch gets; `program` is this executable. Throws WrongCall if a text of the job,
-/// or the folder's name, cannot stand in a line of it.
+/// The script that sbatch gets; `program` is this executable. Throws WrongCall if a text of the
+/// job, or the folder's name, cannot stand in a line of it.
 std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder,
                          const std::filesystem::path& program);
 

@@ -70,6 +70,8 @@ CALLS = [
     ("--mixture 5:1.2:0", 2, ["--mixture is 0"]),
     ("--mixture 5:1.2:x", 2, ["--mixture is '5:1.2:x'"]),
     ("--mixture 5:9", 2, ["9", "--container-radius must be larger"]),
+    ("--container-radius 1e6", 2, ["radius 1000000", "50000 times", "--container-radius"]),
+    ("--radius 1e-6", 2, ["50000 times", "radius 1e-06"]),
     ("--discs 5 --discs 6", 2, ["--discs is given more than once"]),
     ("--discs", 2, ["--discs needs a value"]),
     ("--frobnicate", 2, ["no option --frobnicate"]),
