@@ -68,7 +68,7 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
             "be right.",
             R, widest_dish, small);
     if (c.mixture) return does_not_cover(c);
-    const double most = std::floor(most_discs_in_dish(c.radius, R));
+    const double most = most_discs_in_dish(c.radius, R);
     if (static_cast<double>(c.discs) <= most) return {};
     return fmt::format(
         "{} discs do not fit into a container of radius {}, where no arrangement holds more than "
@@ -129,7 +129,7 @@ InitialState make_initial_state(const RunConfig& c) {
             c.mixture ? ""
                       : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
                                     "may be found; ",
-                                    std::floor(most_discs_in_dish(c.radius, c.container_radius))),
+                                    most_discs_in_dish(c.radius, c.container_radius)),
             advice_on_room));
 
     InitialState scene{{},

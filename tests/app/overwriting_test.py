@@ -7,15 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, swirl
-
-
-def without_time(file):
-    with open(file) as opened:
-        result = json.load(opened)
-    for of_the_call in ("seconds", "events_per_second", "command"):
-        del result[of_the_call]
-    return result
+from program import SWIRL, InFolder, swirl, without_time
 
 
 class Overwriting(InFolder):

@@ -25,6 +25,15 @@ def result_of(*arguments):
     return json.loads(done.stdout)
 
 
+def without_time(file):
+    """The result of a run, but for what is of the call that made it."""
+    with open(file) as opened:
+        result = json.load(opened)
+    for of_the_call in ("seconds", "events_per_second", "command"):
+        del result[of_the_call]
+    return result
+
+
 class InFolder(unittest.TestCase):
     """A test with an empty folder of its own, self.folder; with in_memory on no disk, where that is
     possible: a kill leaves the same behind, and nobody waits for what brings it onto the disk."""

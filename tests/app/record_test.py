@@ -9,18 +9,10 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, swirl
+from program import SWIRL, InFolder, swirl, without_time
 
 RUN = ["run", "--discs", "24", "--events", "100000", "--warmup", "5", "--seed", "3", "--frames", "120",
        "--checkpoint-every", "0.01", "--compression", "0", "--measure", "radial,pinned"]
-
-
-def without_time(file):
-    with open(file) as opened:
-        result = json.load(opened)
-    for of_the_call in ("seconds", "events_per_second", "command"):
-        del result[of_the_call]
-    return result
 
 
 class Recorded(InFolder):

@@ -14,7 +14,7 @@ LIBRARIES = os.environ["SWIRL_LIBRARIES"]
 DOOR = os.path.join(SOURCE, "tests", "library", "door.cpp")
 INCLUDES = [f"-I{SOURCE}/include", f"-I{SOURCE}/examples"]
 
-# Whatever the C library would ask of the system is refused (52: not implemented).
+# Whatever the C library would ask of the system is refused (52 is its ENOSYS).
 NODE = """
 const asked = new Set();
 const refuse = new Proxy({}, {get: (_, name) => (...words) => { asked.add(name); return 52; }});
