@@ -53,24 +53,21 @@ bool is_of_the_call(const std::string& name) {
     return false;
 }
 
-/// Runs again to the end, or until `enough` says so.
-RunResult run_again(const RunConfig& config, RunControl control, bool quiet,
-                    const std::atomic<bool>* enough = nullptr) {
+/// Runs again to the end, or until `look`, which passes one event after the other, has seen enough.
+template <class Look>
+RunResult run_again(const RunConfig& config, bool quiet, const Look& look) {
     ProgressLine line("again", quiet);
-    std::atomic<bool> stop = false;
-    control.stop = &stop;
+    RunControl control;
+    control.stop = &stop_signal();
     control.progress = [&](const RunProgress& p) {
         line.show(p.fraction, fmt::format("{} events", p.events));
     };
-    const auto asked = std::move(control.after_event);
-    control.after_event = [&](const Snapshot& s, const Event& event) {
-        if (asked) asked(s, event);
-        if (stop_signal().load(std::memory_order_relaxed) || (enough && *enough)) stop = true;
-    };
-    RunResult result = run(config, control);
+    Run run(config, control);
+    while (run.next_event() && look(run)) {
+    }
     line.clear();
     if (stop_signal().load()) throw Interrupted("Stopped before the end of the run.");
-    return result;
+    return run.result();
 }
 
 void verify_result(const std::string& file, bool quiet) {
@@ -81,7 +78,10 @@ void verify_result(const std::string& file, bool quiet) {
         throw Failure(fmt::format(
             "'{}' is of a run that was stopped before its end, and cannot be compared.", file));
     const RunConfig config = config_in(file, json["config"].dump());
-    const Json result = result_json(run_again(config, {}, quiet));
+    const Json result = result_json(run_again(config, quiet, [](Run& run) {
+        run.pass_event();
+        return true;
+    }));
     for (const auto& [part, now] : result.items())
         if (!is_of_the_call(part) && json.value(part, Json()) != Json::parse(now.dump()))
             throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,
@@ -123,18 +123,16 @@ class Comparison {
           what_(what),
           there_(there),
           complete_(complete),
-          made_by_(std::move(made_by)),
-          enough_(!complete && there == 0) {}
+          made_by_(std::move(made_by)) {}
 
     std::uint64_t next() const { return next_; }
-    const std::atomic<bool>* enough() const { return &enough_; }
     /// Of an unfinished recording the run may have more.
     bool expects_more() const { return next_ < there_ || complete_; }
 
     void found(bool same, std::string_view how) {
         if (next_ >= there_) refuse(fmt::format("it ends there, but the run has more {}s", what_));
         if (!same) refuse(how);
-        if (++next_ == there_ && !complete_) enough_ = true;
+        ++next_;
     }
     [[noreturn]] void refuse(std::string_view how) const {
         throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, what_, next_, how,
@@ -156,7 +154,6 @@ class Comparison {
     std::uint64_t there_, next_ = 0;
     bool complete_;
     std::string made_by_;
-    std::atomic<bool> enough_;
 };
 
 /// When its frames were taken, as the recording says.
@@ -196,14 +193,15 @@ void verify_trajectory(const std::string& file, bool quiet) {
                              reader.events_before(k) == events,
                          "the run has another one");
     };
-    RunControl control;
-    if (!times.events)
-        control.samplers.push_back({times.per_swirl, compare, times.interval.value_or(0.0)});
-    control.after_event = [&](const Snapshot& s, const Event&) {
+    SampleTimes frame_times(times.per_swirl, config.period, times.interval.value_or(0.0));
+    run_again(config, quiet, [&](Run& run) {
+        if (!times.events)
+            while (run.next_sample(frame_times)) compare(run.snapshot());
+        run.pass_event();
         ++events;
-        if (times.events && events % std::uint64_t(*times.events) == 0) compare(s);
-    };
-    run_again(config, control, quiet, comparison.enough());
+        if (times.events && events % std::uint64_t(*times.events) == 0) compare(run.snapshot());
+        return comparison.expects_more();
+    });
     comparison.report(quiet);
 }
 
@@ -246,9 +244,10 @@ void verify_event_log(const std::string& file, bool quiet) {
     Replay replay(log.initial(), log.swirl_end());
     constexpr std::uint64_t at_once = 1 << 16;
     std::vector<Event> block;
-    RunControl control;
-    control.after_event = [&](const Snapshot&, const Event& now) {
-        if (!comparison.expects_more()) return;
+    run_again(config, quiet, [&](Run& run) {
+        run.pass_event();
+        const Event& now = run.event();
+        if (!comparison.expects_more()) return false;
         const std::uint64_t k = comparison.next();
         if (k < log.events() && k % at_once == 0)
             block = log.read(k, std::min(at_once, log.events() - k));
@@ -256,8 +255,8 @@ void verify_event_log(const std::string& file, bool quiet) {
         comparison.found(same, "another event happens now");
         simulation.step();
         replay.apply(now);
-    };
-    run_again(config, control, quiet, comparison.enough());
+        return true;
+    });
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(replay.discs()[i], simulation.disc(i)))
             comparison.refuse("the state that the events lead to is another");

@@ -14,7 +14,7 @@ namespace swirl {
 namespace {
 
 constexpr std::string_view kind = "swirl checkpoint ";
-constexpr std::string_view first_line = "swirl checkpoint 3\n";
+constexpr std::string_view first_line = "swirl checkpoint 4\n";
 
 std::string number(std::uint64_t n) { return {reinterpret_cast<const char*>(&n), sizeof n}; }
 
@@ -53,9 +53,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const std::size_t line = rest.find('\n');
     if (rest.substr(0, line + 1) != first_line)
         refuse(fmt::format(
-            "is a checkpoint in format {}, but this program reads format 2; resume it with the "
+            "is a checkpoint in format {}, but this program reads format {}; resume it with the "
             "program that wrote it",
-            rest.substr(kind.size(), std::min<std::size_t>(line, 40) - kind.size())));
+            rest.substr(kind.size(), std::min<std::size_t>(line, 40) - kind.size()),
+            first_line.substr(kind.size(), first_line.size() - kind.size() - 1)));
     const std::string damaged =
         "is damaged: its checksum does not fit its content; it was cut off or changed";
     if (rest.size() < first_line.size() + 24) refuse(damaged);

@@ -26,6 +26,7 @@ class SampleTimes {
     /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
     /// period; false if there is none left.
     bool next(Snapshot& s, const ContainerPath& path, double clock) {
+        if (s.swirls != swirls_) begin_period(s.swirls);
         if (due_ == not_asked) due_ = next_in(s.swirls);
         if (!(due_ <= clock)) return false;
         s.clock = due_;
@@ -36,17 +37,18 @@ class SampleTimes {
         due_ = next_in(s.swirls);
         return true;
     }
-    void begin_period() {
-        if (interval_ == 0.0) index_ = 0;
-        due_ = not_asked;
-    }
 
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(index_);
+        visit(index_, swirls_);
     }
 
   private:
+    void begin_period(std::int64_t swirls) {
+        if (interval_ == 0.0) index_ = 0;
+        swirls_ = swirls;
+        due_ = not_asked;
+    }
     /// The next moment on the clock of this period; never, if it is not in it.
     double next_in(std::int64_t swirls) const {
         const auto k = static_cast<double>(index_);
@@ -60,8 +62,9 @@ class SampleTimes {
 
     int per_period_;
     double period_, interval_;
-    std::int64_t index_ = 0;  // of the next
-    double due_ = not_asked;  // its moment in this period, once it has been asked for
+    std::int64_t index_ = 0;   // of the next
+    std::int64_t swirls_ = 0;  // whole periods before the one it counts in
+    double due_ = not_asked;   // its moment in this period, once it has been asked for
 };
 
 }  // namespace swirl

@@ -136,26 +136,29 @@ namespace {
 constexpr int seeds_of_the_transient = 4;
 
 /// One swirl after the other, from rest.
-Json transient(const RunConfig& config, const RunControl& outer) {
+Json transient(const RunConfig& config, const RunControl& control) {
     Json json{{"varpi", Json::array()}, {"spin", Json::array()}, {"events", Json::array()}};
-    RunControl control = outer;
+    Run run(config, control);
+    SampleTimes times = run.sample_times(64);
     double rotation = 0.0, spin = 0.0, looks = 0.0, events = 0.0;
-    control.after_event = [&](const Snapshot&, const Event&) { events += 1.0; };
-    control.samplers.push_back({64, [&](const Snapshot& s) {
-                                    rotation += cluster_rotation(s).individual / config.omega();
-                                    double sum = 0.0;
-                                    for (const double one : s.spin) sum += one;
-                                    spin += sum / static_cast<double>(s.size()) / config.omega();
-                                    looks += 1.0;
-                                }});
-    control.swirl_begins = [&](bool) {
-        if (looks == 0.0) return;
+    while (run.next_event()) {
+        while (run.next_sample(times)) {
+            const Snapshot& s = run.snapshot();
+            rotation += cluster_rotation(s).individual / config.omega();
+            double sum = 0.0;
+            for (const double one : s.spin) sum += one;
+            spin += sum / static_cast<double>(s.size()) / config.omega();
+            looks += 1.0;
+        }
+        run.pass_event();
+        events += 1.0;
+        if (run.snapshot().swirls == run.event().swirls) continue;
         json["varpi"].push_back(rotation / looks);
         json["spin"].push_back(spin / looks);
         json["events"].push_back(events);
         rotation = spin = looks = 0.0;
-    };
-    if (!run(config, control).complete) throw Interrupted("Stopped.");
+    }
+    if (!run.complete()) throw Interrupted("Stopped.");
     return json;
 }
 
@@ -348,21 +351,25 @@ FigurePlan plan_figure_polygon(const PaperSettings& settings) {
 namespace {
 
 /// Energy at the beginning of every swirl.
-Json energy_series(const RunConfig& config, const RunControl& outer) {
+Json energy_series(const RunConfig& config, const RunControl& control) {
     Json json{{"energy", Json::array()}, {"invariant", Json::array()}};
-    RunControl control = outer;
-    control.samplers.push_back({1, [&](const Snapshot& s) {
-                                    double K = 0.0, L = 0.0;
-                                    for (std::size_t i = 0; i < s.size(); ++i) {
-                                        const Disc d = s.disc(i);
-                                        K += kinetic_energy(d);
-                                        L += d.mass * cross(s.position(i), d.velocity) +
-                                             d.inertia * d.spin;
-                                    }
-                                    json["energy"].push_back(K);
-                                    json["invariant"].push_back(K - config.omega() * L);
-                                }});
-    if (!run(config, control).complete) throw Interrupted("Stopped.");
+    Run run(config, control);
+    SampleTimes times = run.sample_times(1);
+    while (run.next_event()) {
+        while (run.next_sample(times)) {
+            const Snapshot& s = run.snapshot();
+            double K = 0.0, L = 0.0;
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                const Disc d = s.disc(i);
+                K += kinetic_energy(d);
+                L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
+            }
+            json["energy"].push_back(K);
+            json["invariant"].push_back(K - config.omega() * L);
+        }
+        run.pass_event();
+    }
+    if (!run.complete()) throw Interrupted("Stopped.");
     return json;
 }
 

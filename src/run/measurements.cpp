@@ -204,15 +204,15 @@ std::string measured_text(const MeasurementReports& reports) {
 std::vector<fs::path> write_measured_tables(const MeasurementReports& reports,
                                             const fs::path& folder) {
     std::vector<fs::path> files;
-    Table numbers({"quantity", "mean", "error", "effective_samples", "blocks"});
+    Table numbers({"quantity", "unit", "mean", "error", "effective_samples", "blocks"});
     bool has_rows = false;
     for (const auto& [name, report] : reports) {
         for (const ReportTable& table : report.tables)
             files.push_back(write_table(table, folder / (full_name(name, table.name) + ".csv")));
         for (const ReportRow& row : report.rows) {
             const Estimate& e = row.estimate;
-            numbers.add({full_name(name, row.name), e.mean, e.error, e.effective_samples,
-                         static_cast<std::int64_t>(e.blocks)});
+            numbers.add({full_name(name, row.name), std::string(row.unit), e.mean, e.error,
+                         e.effective_samples, static_cast<std::int64_t>(e.blocks)});
         }
         has_rows |= !report.rows.empty();
     }

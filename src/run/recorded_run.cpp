@@ -13,6 +13,7 @@
 #include "swirl/files/recording.hpp"
 #include "swirl/files/state_archive.hpp"
 #include "swirl/files/whole_file.hpp"
+#include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/version.hpp"
@@ -85,6 +86,7 @@ class Recorder {
           files_(files),
           observation_(observation),
           run_name_(run_name(identity(config, files, observation))),
+          frame_times_(files.frames.per_swirl, config.period, files.frames.interval.value_or(0.0)),
           last_kept_(Clock::now()) {
         if (files.resume && std::filesystem::exists(files.checkpoint))
             resume();
@@ -93,8 +95,14 @@ class Recorder {
     }
 
     RunResult operator()(RunControl control) {
-        add_to(control);
-        const RunResult result = run(config_, control);
+        control.resume = std::move(resumed_);
+        Run run(config_, std::move(control));
+        while (run.next_event()) {
+            record(run);
+            if (is_due() && !run.complete()) keep(run);
+        }
+        if (!run.complete()) keep(run);
+        const RunResult result = run.result();
         if (!result.complete) {
             if (trajectory_) trajectory_->flush();
             if (event_log_) event_log_->flush();
@@ -134,7 +142,7 @@ class Recorder {
         StateReader state(kept.state);
         std::uint64_t frames = 0, logged = 0;
         resumed_.emplace();
-        state(frames, logged, events_, *resumed_);
+        state(frames, logged, events_, frame_times_, *resumed_);
         state.expect_end();
         run_name_ = about.value("run", std::string());
         if (!files_.trajectory.empty())
@@ -143,50 +151,46 @@ class Recorder {
             event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
     }
 
-    void add_to(RunControl& control) {
-        control.resume = std::move(resumed_);
-        if (trajectory_ && !files_.frames.events) {
-            const auto write = [this](const Snapshot& s) { trajectory_->write(s, events_); };
-            control.samplers.push_back(
-                {files_.frames.per_swirl, write, files_.frames.interval.value_or(0.0)});
+    /// Passes the event that comes next: the frames before it, its own line, the frame after it.
+    void record(Run& run) {
+        if (trajectory_ && !files_.frames.events)
+            while (run.next_sample(frame_times_)) trajectory_->write(run.snapshot(), events_);
+        run.pass_event();
+        ++events_;
+        if (event_log_) event_log_->write(run.event());
+        if (trajectory_ && files_.frames.events &&
+            events_ % std::uint64_t(*files_.frames.events) == 0)
+            trajectory_->write(run.snapshot(), events_);
+    }
+
+    /// Is it time to keep the state? The clock is looked at every few hundred events.
+    bool is_due() const {
+        return events_ % 256 == 0 && !files_.checkpoint.empty() &&
+               std::chrono::duration<double>(Clock::now() - last_kept_).count() >=
+                   files_.checkpoint_every;
+    }
+
+    void keep(Run& run) {
+        if (files_.checkpoint.empty() || given_up_) return;
+        try {
+            write(run.state());
+        } catch (const FileError& error) {
+            if (files_.checkpoint_needed) throw;
+            given_up_ = true;
+            if (files_.complain)
+                files_.complain(
+                    fmt::format("{} The run goes on without checkpoints.", error.what()));
         }
-        const auto asked = std::move(control.after_event);
-        if (asked || trajectory_ || event_log_)
-            control.after_event = [this, asked](const Snapshot& s, const Event& event) {
-                if (event_log_) event_log_->write(event);
-                ++events_;
-                if (trajectory_ && files_.frames.events &&
-                    events_ % std::uint64_t(*files_.frames.events) == 0)
-                    trajectory_->write(s, events_);
-                if (asked) asked(s, event);
-            };
-        if (files_.checkpoint.empty()) return;
-        control.wants_state = [this](bool stopped) {
-            if (given_up_) return false;
-            return stopped || std::chrono::duration<double>(Clock::now() - last_kept_).count() >=
-                                  files_.checkpoint_every;
-        };
-        control.keep_state = [this](const std::string& state) {
-            try {
-                keep(state);
-            } catch (const FileError& error) {
-                if (files_.checkpoint_needed) throw;
-                given_up_ = true;
-                if (files_.complain)
-                    files_.complain(
-                        fmt::format("{} The run goes on without checkpoints.", error.what()));
-            }
-        };
     }
 
     /// What the checkpoint counts on must be on the disk before it.
-    void keep(const std::string& run_state) {
+    void write(const std::string& run_state) {
         if (trajectory_) trajectory_->flush();
         if (event_log_) event_log_->flush();
         StateWriter state;
         std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
         std::uint64_t logged = event_log_ ? event_log_->events() : 0;
-        state(frames, logged, events_);
+        state(frames, logged, events_, frame_times_);
         state(run_state);
         const Json about{{"version", version()},
                          {"identity", identity(config_, files_, observation_)},
@@ -203,6 +207,7 @@ class Recorder {
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;
+    SampleTimes frame_times_;
     std::uint64_t events_ = 0;  // since the beginning of the run
     bool given_up_ = false;
     Clock::time_point last_kept_;

@@ -9,21 +9,21 @@
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/state_archive.hpp"
-#include "swirl/measure/sample_times.hpp"
+#include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Samples of the averages by time per swirl. Not a multiple of the paper's 30 sides, so that the
 /// corners of the path are met at different phases.
 constexpr int rotation_samples = 64;
 
-/// Events between two glances at the clock and at the stop flag.
-constexpr int patience = 256;
+/// Events between two looks at the clock and at the stop flag.
+constexpr int events_between_looks = 256;
 constexpr std::chrono::milliseconds progress_interval(100);
+
+constexpr std::uint64_t least_collapse_window = 2000;
 
 struct Budget {
     double energy = 0.0, invariant = 0.0;
@@ -64,11 +64,13 @@ struct Moment {
     }
 };
 
-Simulation begin(const RunConfig& config, std::optional<StateReader>& kept) {
+/// The simulation at its beginning, or where the text of a state says.
+Simulation begin(const RunConfig& config, const std::optional<std::string>& state) {
     InitialState scene = make_initial_state(config);
     Moment moment;
-    if (kept) {
-        (*kept)(moment);
+    if (state) {
+        StateReader read(*state);
+        read(moment);
         if (moment.discs.size() != scene.discs.size() ||
             moment.progress.leg >= scene.path.legs.size())
             throw FileError("The saved state is that of another run.");
@@ -77,245 +79,213 @@ Simulation begin(const RunConfig& config, std::optional<StateReader>& kept) {
     return Simulation(scene, moment.progress);
 }
 
-class Run {
-  public:
-    Run(const RunConfig& config, const RunControl& control)
-        : config_(config),
-          control_(control),
-          path_(make_path(config)),
-          kept_(control.resume ? std::optional<StateReader>(*control.resume) : std::nullopt),
-          simulation_(begin(config, kept_)),
-          snapshot_(simulation_.snapshot()),
-          rotation_times_(rotation_samples, config.period),
-          observation_times_(samples_per_period, config.period),
-          warm_(config.warmup == 0) {
-        const Budget start = budget_of(snapshot_);
-        result_.config = config;
-        result_.energy_at_start = start.energy;
-        result_.invariant_at_start = start.invariant;
-        for (const RunControl::Sampler& sampler : control.samplers)
-            caller_times_.emplace_back(sampler.per_period, config.period, sampler.interval);
-        if (kept_) {
-            fields(*kept_);
-            kept_->expect_end();
-        } else if (control.swirl_begins) {
-            control.swirl_begins(warm_);
-        }
-    }
-
-    RunResult operator()() {
-        const auto begin = Clock::now();
-        auto last_report = begin;
-        while (!done()) {
-            for (int k = 0; k < patience && !done(); ++k) step();
-            refuse_collapse(collapse_window());
-            const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
-            if (!done()) offer_state(stopped, seconds_before_ + seconds_since(begin));
-            if (stopped) break;
-            const auto now = Clock::now();
-            if (!control_.progress || now - last_report < progress_interval) continue;
-            last_report = now;
-            control_.progress({fraction(), simulation_.events().total(), periods()});
-        }
-        refuse_collapse(least_collapse_window);
-        result_.complete = done();
-        result_.seconds = seconds_before_ + seconds_since(begin);
-        finish();
-        return result_;
-    }
-
-  private:
-    static double seconds_since(Clock::time_point begin) {
-        return std::chrono::duration<double>(Clock::now() - begin).count();
-    }
-
-    /// What the run has gathered beside the moment it has reached.
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        visit(seconds_before_, warm_, rotation_times_, in_warmup_, after_warmup_);
-        visit(result_.warmup, result_.warmup_events, result_.max_overlap);
-        visit(result_.energy_at_start, result_.invariant_at_start);
-        visit(spin_in_warmup_, spin_after_, next_question_);
-        for (SampleTimes& times : caller_times_) visit(times);
-        if (control_.observation) visit(observation_times_, *control_.observation);
-    }
-
-    /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
-    /// friction alone (docs/physics.md). A disc of the paper's dish has about 70 events per swirl,
-    /// one that obeys a contact duration at most T/t_c. Asked whenever so many events have passed,
-    /// and of what is left at the end.
-    void refuse_collapse(std::uint64_t window) {
-        constexpr double too_fast = 1e8;  // events per disc and swirl
-        const std::uint64_t events = simulation_.events().total() - events_at_mark_;
-        if (events < window) return;
-        const double swirls = periods() - periods_at_mark_;
-        const double discs = static_cast<double>(simulation_.size());
-        if (static_cast<double>(events) > too_fast * discs * swirls)
-            throw Failure(fmt::format(
-                "The last {} events took {:.2g} swirls, so time all but stands still after {:.3f} "
-                "swirls: {}",
-                events, swirls, periods(), reason_for_collapse()));
-        events_at_mark_ += events;
-        periods_at_mark_ += swirls;
-    }
-
-    static constexpr std::uint64_t least_collapse_window = 2000;
-    /// Some two hundred events for each disc: the two that collapse may be among thousands.
-    std::uint64_t collapse_window() const {
-        return std::max<std::uint64_t>(20'000, 200 * simulation_.size());
-    }
-
-    std::string reason_for_collapse() const {
-        if (config_.restitution < 1.0)
-            return fmt::format(
-                "with restitution {} the discs collide ever faster (inelastic collapse). A longer "
-                "--contact-duration than {} would keep them apart.",
-                config_.restitution, config_.contact_duration);
-        return fmt::format(
-            "friction has taken the energy out of the relative motion of discs that lie pressed "
-            "together, and they collide ever faster (a collapse; docs/physics.md). The model has "
-            "no state after it. Another --seed than {} may "
-            "not meet it.",
-            config_.seed);
-    }
-
-    void offer_state(bool stopped, double seconds) {
-        if (!control_.wants_state || !control_.wants_state(stopped)) return;
-        sample_rotation_by_event();
-        StateWriter state;
-        Moment moment = Moment::of(simulation_);
-        state(moment);
-        const double before = std::exchange(seconds_before_, seconds);
-        fields(state);
-        seconds_before_ = before;
-        control_.keep_state(state.bytes());
-    }
-
-    bool done() const {
-        if (config_.periods) return simulation_.swirls() >= *config_.periods;
-        return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
-    }
-    double periods() const {
-        return static_cast<double>(simulation_.swirls()) + simulation_.clock() / config_.period;
-    }
-    double fraction() const {
-        if (config_.periods) return periods() / static_cast<double>(*config_.periods);
-        return static_cast<double>(simulation_.events().total()) /
-               static_cast<double>(config_.events);
-    }
-
-    /// One event. The snapshot holds the state before it, and is sampled at all times that are due
-    /// until then; after it, it holds the state that the event has left behind.
-    void step() {
-        const Event event = simulation_.step();
-        sample_rotation_by_event();
-        while (rotation_times_.next(snapshot_, path_, event.clock)) {
-            rotation().sample_by_time(snapshot_);
-            spin().add(mean_spin(snapshot_));
-        }
-        if (observes())
-            while (observation_times_.next(snapshot_, path_, event.clock))
-                control_.observation->sample(snapshot_);
-        for (std::size_t k = 0; k < caller_times_.size(); ++k)
-            while (caller_times_[k].next(snapshot_, path_, event.clock))
-                control_.samplers[k].look(snapshot_);
-
-        simulation_.refresh(snapshot_, event);
-        rotation().follow(snapshot_, event);
-        rotation_is_sampled_ = false;
-        result_.max_overlap = std::max(result_.max_overlap, event.overlap);
-        if (observes()) control_.observation->sample(event, snapshot_);
-        if (control_.after_event) control_.after_event(snapshot_, event);
-        if (event.kind == EventKind::path_vertex && simulation_.swirls() > event.swirls)
-            begin_period();
-    }
-    bool observes() const { return warm_ && control_.observation; }
-
-    /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
-    /// when nobody has to wait for it to be written (cluster_rotation.hpp).
-    void sample_rotation_by_event() {
-        if (!rotation_is_sampled_) rotation().sample(snapshot_);
-        rotation_is_sampled_ = true;
-    }
-
-    /// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up.
-    void begin_period() {
-        rotation_times_.begin_period();
-        observation_times_.begin_period();
-        for (SampleTimes& times : caller_times_) times.begin_period();
-        sample_rotation_by_event();
-        rotation().close_block();
-        spin().close_block();
-        if (observes()) control_.observation->close_block();
-        if (!warm_ && warm_now()) {
-            warm_ = true;
-            result_.warmup = simulation_.swirls();
-            result_.warmup_events = simulation_.events();
-        }
-        if (control_.swirl_begins) control_.swirl_begins(warm_);
-    }
-
-    /// At the end of a swirl: is the warm-up over?
-    bool warm_now() {
-        if (config_.warmup_found) return found_warm() || fraction() >= 0.5;
-        if (config_.warmup) return simulation_.swirls() >= *config_.warmup;
-        return simulation_.swirls() >= default_warmup || fraction() >= 0.2;
-    }
-
-    /// Asked ever more seldom: the answer takes time that grows with the number of swirls.
-    bool found_warm() {
-        if (simulation_.swirls() < next_question_) return false;
-        next_question_ += std::max<std::int64_t>(10, next_question_ / 10);
-        return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
-               beginning_is_forgotten(spin_in_warmup_.series().block_means());
-    }
-
-    /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
-    ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
-    BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
-
-    void finish() {
-        sample_rotation_by_event();
-        // A run too short for a single whole swirl still has a mean, though no error.
-        if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
-        if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
-        if (!warm_ && config_.warmup && result_.complete)
-            throw Failure(fmt::format(
-                "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "
-                "more --events or a shorter --warmup would be right.",
-                periods(), *config_.warmup));
-        result_.rotation = rotation().estimates();
-        result_.steady = find_steady_state(rotation().by_event().block_means());
-        result_.steady_spin = find_steady_state(spin().series().block_means());
-        result_.events = simulation_.events();
-        result_.periods = periods();
-        const Budget end = budget_of(snapshot_);
-        result_.energy = end.energy;
-        result_.invariant = end.invariant;
-        result_.state_hash = simulation_.state_hash();
-    }
-
-    const RunConfig config_;
-    const RunControl& control_;
-    const ContainerPath path_;
-    std::optional<StateReader> kept_;
-    Simulation simulation_;
-    Snapshot snapshot_;
-    SampleTimes rotation_times_, observation_times_;
-    std::vector<SampleTimes> caller_times_;
-    std::uint64_t events_at_mark_ = simulation_.events().total();
-    double periods_at_mark_ = periods();
-    double seconds_before_ = 0.0;  // by the runs that this one resumes
-    ClusterRotation in_warmup_, after_warmup_;
-    BlockMean spin_in_warmup_, spin_after_;
-    std::int64_t next_question_ = least_blocks_of_a_steady_state;  // at this swirl: warm?
-    bool warm_;
-    bool rotation_is_sampled_ = true;  // after the last event
-    RunResult result_;
-};
-
 }  // namespace
 
-RunResult run(const RunConfig& config, const RunControl& control) { return Run(config, control)(); }
+Run::Run(const RunConfig& config, RunControl control)
+    : config_(config),
+      control_(std::move(control)),
+      path_(make_path(config)),
+      simulation_(begin(config, control_.resume)),
+      snapshot_(simulation_.snapshot()),
+      event_(),
+      rotation_times_(sample_times(rotation_samples)),
+      observation_times_(sample_times(samples_per_period)),
+      events_to_look_up_(events_between_looks),
+      events_at_mark_(simulation_.events().total()),
+      periods_at_mark_(periods()),
+      next_question_(least_blocks_of_a_steady_state),
+      warm_(config.warmup == 0) {
+    const Budget start = budget_of(snapshot_);
+    result_.config = config;
+    result_.energy_at_start = start.energy;
+    result_.invariant_at_start = start.invariant;
+    if (!control_.resume) return;
+    StateReader kept(*control_.resume);
+    Moment moment;
+    kept(moment);
+    fields(kept);
+    kept.expect_end();
+}
+
+/// What the run has gathered beside the moment it has reached.
+template <class Visitor>
+void Run::fields(Visitor&& visit) {
+    visit(seconds_before_, warm_, rotation_times_, in_warmup_, after_warmup_);
+    visit(result_.warmup, result_.warmup_events, result_.max_overlap);
+    visit(result_.energy_at_start, result_.invariant_at_start);
+    visit(spin_in_warmup_, spin_after_, next_question_);
+    if (control_.observation) visit(observation_times_, *control_.observation);
+}
+
+std::string Run::state() {
+    sample_rotation_by_event();
+    StateWriter state;
+    Moment moment = Moment::of(simulation_);
+    state(moment);
+    const double before = std::exchange(seconds_before_, seconds());
+    fields(state);
+    seconds_before_ = before;
+    return state.bytes();
+}
+
+bool Run::complete() const {
+    if (config_.periods) return simulation_.swirls() >= *config_.periods;
+    return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
+}
+double Run::seconds() const {
+    return seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+double Run::periods() const {
+    return static_cast<double>(simulation_.swirls()) + simulation_.clock() / config_.period;
+}
+double Run::fraction() const {
+    if (config_.periods) return periods() / static_cast<double>(*config_.periods);
+    return static_cast<double>(simulation_.events().total()) / static_cast<double>(config_.events);
+}
+
+/// The snapshot holds the state before the event, and is sampled at all times that are due until
+/// then.
+bool Run::next_event() {
+    if (complete()) {
+        refuse_collapse(least_collapse_window);
+        return false;
+    }
+    if (events_to_look_up_-- == 0 && !look_up()) return false;
+    event_ = simulation_.step();
+    sample_rotation_by_event();
+    while (next_sample(rotation_times_)) {
+        rotation().sample_by_time(snapshot_);
+        spin().add(mean_spin(snapshot_));
+    }
+    if (observes())
+        while (next_sample(observation_times_)) control_.observation->sample(snapshot_);
+    return true;
+}
+
+void Run::pass_event() {
+    simulation_.refresh(snapshot_, event_);
+    rotation().follow(snapshot_, event_);
+    rotation_is_sampled_ = false;
+    result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
+    if (observes()) control_.observation->sample(event_, snapshot_);
+    if (event_.kind == EventKind::path_vertex && simulation_.swirls() > event_.swirls)
+        begin_period();
+}
+
+/// Between two events, now and then: false if the run is to stop.
+bool Run::look_up() {
+    events_to_look_up_ = events_between_looks - 1;
+    const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
+    refuse_collapse(stopped ? least_collapse_window : collapse_window());
+    if (stopped) return false;
+    const auto now = Clock::now();
+    if (!control_.progress || now - last_report_ < progress_interval) return true;
+    last_report_ = now;
+    control_.progress({fraction(), simulation_.events().total(), periods()});
+    return true;
+}
+
+/// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
+/// friction alone (docs/physics.md). A disc of the paper's dish has about 70 events per swirl,
+/// one that obeys a contact duration at most T/t_c. Asked whenever so many events have passed,
+/// and of what is left at the end.
+void Run::refuse_collapse(std::uint64_t window) {
+    constexpr double too_fast = 1e8;  // events per disc and swirl
+    const std::uint64_t events = simulation_.events().total() - events_at_mark_;
+    if (events < window) return;
+    const double swirls = periods() - periods_at_mark_;
+    const double discs = static_cast<double>(simulation_.size());
+    if (static_cast<double>(events) > too_fast * discs * swirls)
+        throw Failure(fmt::format(
+            "The last {} events took {:.2g} swirls, so time all but stands still after {:.3f} "
+            "swirls: {}",
+            events, swirls, periods(), reason_for_collapse()));
+    events_at_mark_ += events;
+    periods_at_mark_ += swirls;
+}
+
+/// Some two hundred events for each disc: the two that collapse may be among thousands.
+std::uint64_t Run::collapse_window() const {
+    return std::max<std::uint64_t>(20'000, 200 * simulation_.size());
+}
+
+std::string Run::reason_for_collapse() const {
+    if (config_.restitution < 1.0)
+        return fmt::format(
+            "with restitution {} the discs collide ever faster (inelastic collapse). A longer "
+            "--contact-duration than {} would keep them apart.",
+            config_.restitution, config_.contact_duration);
+    return fmt::format(
+        "friction has taken the energy out of the relative motion of discs that lie pressed "
+        "together, and they collide ever faster (a collapse; docs/physics.md). The model has "
+        "no state after it. Another --seed than {} may "
+        "not meet it.",
+        config_.seed);
+}
+
+/// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
+/// when nobody has to wait for it to be written (cluster_rotation.hpp).
+void Run::sample_rotation_by_event() {
+    if (!rotation_is_sampled_) rotation().sample(snapshot_);
+    rotation_is_sampled_ = true;
+}
+
+/// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up.
+void Run::begin_period() {
+    sample_rotation_by_event();
+    rotation().close_block();
+    spin().close_block();
+    if (observes()) control_.observation->close_block();
+    if (!warm_ && warm_now()) {
+        warm_ = true;
+        result_.warmup = simulation_.swirls();
+        result_.warmup_events = simulation_.events();
+    }
+}
+
+/// At the end of a swirl: is the warm-up over?
+bool Run::warm_now() {
+    if (config_.warmup_found) return found_warm() || fraction() >= 0.5;
+    if (config_.warmup) return simulation_.swirls() >= *config_.warmup;
+    return simulation_.swirls() >= default_warmup || fraction() >= 0.2;
+}
+
+/// Asked ever more seldom: the answer takes time that grows with the number of swirls.
+bool Run::found_warm() {
+    if (simulation_.swirls() < next_question_) return false;
+    next_question_ += std::max<std::int64_t>(10, next_question_ / 10);
+    return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
+           beginning_is_forgotten(spin_in_warmup_.series().block_means());
+}
+
+RunResult Run::result() {
+    result_.complete = complete();
+    result_.seconds = seconds();
+    sample_rotation_by_event();
+    // A run too short for a single whole swirl still has a mean, though no error.
+    if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
+    if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
+    if (!warm_ && config_.warmup && result_.complete)
+        throw Failure(fmt::format(
+            "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "
+            "more --events or a shorter --warmup would be right.",
+            periods(), *config_.warmup));
+    result_.rotation = rotation().estimates();
+    result_.steady = find_steady_state(rotation().by_event().block_means());
+    result_.steady_spin = find_steady_state(spin().series().block_means());
+    result_.events = simulation_.events();
+    result_.periods = periods();
+    const Budget end = budget_of(snapshot_);
+    result_.energy = end.energy;
+    result_.invariant = end.invariant;
+    result_.state_hash = simulation_.state_hash();
+    return result_;
+}
+
+RunResult run(const RunConfig& config, const RunControl& control) {
+    Run run(config, control);
+    while (run.next_event()) run.pass_event();
+    return run.result();
+}
 
 }  // namespace swirl

@@ -3,20 +3,24 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/measure/observation.hpp"
+#include "swirl/measure/sample_times.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/physics/container_path.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
+
+class Observation;
 
 struct RunResult {
     RunConfig config;
@@ -57,10 +61,6 @@ struct RunProgress {
 
 /// What a caller may want while the run goes on. Everything is optional, and nothing of it changes
 /// a bit of the trajectory.
-///
-/// The order, event by event: the samples that are due before it, first the observation's, then
-/// those of each sampler; the event, for the observation, then for after_event; if it ends a
-/// period, the observation's block is closed, and then swirl_begins is called.
 struct RunControl {
     /// Set from outside (a signal) to end the run early; the result then says it is incomplete.
     const std::atomic<bool>* stop = nullptr;
@@ -72,35 +72,94 @@ struct RunControl {
     /// what it has gathered is part of the state that is kept.
     Observation* observation = nullptr;
 
-    /// Called after every event, warm-up included, with the state just after it.
-    std::function<void(const Snapshot&, const Event&)> after_event;
-
-    /// Each looks at equal intervals, warm-up included: at the exact state at the exact times
-    /// k T / per_period, or, if `interval` is above 0, k · interval.
-    struct Sampler {
-        int per_period;
-        std::function<void(const Snapshot&)> look;
-        double interval = 0.0;
-    };
-    std::vector<Sampler> samplers;
-
-    /// Called at the beginning of every swirl, the first included, before anything is seen of it;
-    /// `warm` says that it counts, the warm-up being over.
-    std::function<void(bool warm)> swirl_begins;
-
-    /// Asked every few hundred events, and once when the run is stopped: does the caller want to
-    /// keep the state of the run?
-    std::function<bool(bool stopped)> wants_state;
-    /// Gets it (state_archive.hpp): a run that resumes from it goes on bit for bit, and ends with
-    /// the same result.
-    std::function<void(const std::string& state)> keep_state;
-    /// What keep_state got, of a run with the same configuration, samplers and names of an
-    /// observation that has seen nothing yet. Throws FileError if
-    /// it is something else.
+    /// What state() said of a run with the same configuration and names of an observation that has
+    /// seen nothing yet: the run goes on from there, bit for bit.
     std::optional<std::string> resume;
 };
 
-/// The configuration must have no problem().
+/// A run for who wants to see what happens in it, event by event:
+///
+///     Run run(config);
+///     SampleTimes times = run.sample_times(30);
+///     while (run.next_event()) {
+///         while (run.next_sample(times)) look(run.snapshot());   // before the event
+///         run.pass_event();
+///         look(run.event(), run.snapshot());                     // after it
+///     }
+///     RunResult result = run.result();
+///
+/// Looking never changes a bit. What RunControl asks for is seen to on the way.
+class Run {
+  public:
+    /// The configuration must have no problem(). Throws FileError if what it is to resume from is
+    /// not the state of such a run.
+    explicit Run(const RunConfig& config, RunControl control = {});
+
+    /// Finds the event that comes next; false at the end of the run, or when it is to stop. Throws
+    /// Failure when time all but stands still.
+    bool next_event();
+    /// Puts the snapshot to the next of these moments, if one is left up to the event.
+    bool next_sample(SampleTimes& times) { return times.next(snapshot_, path_, event_.clock); }
+    /// Puts the snapshot behind the event; once for each.
+    void pass_event();
+
+    const Event& event() const { return event_; }
+    const Snapshot& snapshot() const { return snapshot_; }
+
+    /// k T / per_period from the beginning on; or k · interval, if that is above 0.
+    SampleTimes sample_times(int per_period, double interval = 0.0) const {
+        return {per_period, config_.period, interval};
+    }
+
+    bool complete() const;
+    /// Of the run as far as it has come.
+    RunResult result();
+
+    /// For RunControl::resume; between pass_event() and next_event().
+    std::string state();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    double seconds() const;
+    double periods() const;
+    double fraction() const;
+    bool observes() const { return warm_ && control_.observation; }
+    bool look_up();
+    void refuse_collapse(std::uint64_t window);
+    std::uint64_t collapse_window() const;
+    std::string reason_for_collapse() const;
+    void sample_rotation_by_event();
+    void begin_period();
+    bool warm_now();
+    bool found_warm();
+    ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
+    BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
+    template <class Visitor>
+    void fields(Visitor&& visit);
+
+    const RunConfig config_;
+    const RunControl control_;
+    const ContainerPath path_;
+    Simulation simulation_;
+    Snapshot snapshot_;
+    Event event_;
+    SampleTimes rotation_times_, observation_times_;
+    int events_to_look_up_;  // until stop, progress and collapse are thought of again
+    std::uint64_t events_at_mark_ = 0;
+    double periods_at_mark_ = 0.0;
+    double seconds_before_ = 0.0;  // by the runs that this one resumes
+    Clock::time_point begin_ = Clock::now(), last_report_ = begin_;
+    /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
+    ClusterRotation in_warmup_, after_warmup_;
+    BlockMean spin_in_warmup_, spin_after_;
+    std::int64_t next_question_;  // at this swirl: warm?
+    bool warm_;
+    bool rotation_is_sampled_ = true;  // after the last event
+    RunResult result_;
+};
+
+/// From the beginning to the end.
 RunResult run(const RunConfig& config, const RunControl& control = {});
 
 }  // namespace swirl

@@ -193,9 +193,9 @@ TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     std::getline(profile, line);
     EXPECT_EQ(line, "theta,visits,varpi_m,varpi_m_error,wall,normalised,normalised_error");
     std::getline(numbers, line);
-    EXPECT_EQ(line, "quantity,mean,error,effective_samples,blocks");
+    EXPECT_EQ(line, "quantity,unit,mean,error,effective_samples,blocks");
     std::getline(numbers, line);
-    EXPECT_THAT(line, HasSubstr("slip.cluster,0."));
+    EXPECT_THAT(line, HasSubstr("slip.cluster,1,0."));
 }
 
 std::string text_of(const fs::path& file) {
@@ -220,7 +220,7 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
         for (const ReportRow& row : report.rows) {
             const std::string full = name + "." + row.name;
             EXPECT_TRUE(json.at(name).contains(row.name)) << full;
-            EXPECT_THAT(numbers, HasSubstr("\n" + full + ","));
+            EXPECT_THAT(numbers, HasSubstr("\n" + full + "," + row.unit + ","));
             EXPECT_THAT(help, HasSubstr("  " + full + " "));
             EXPECT_THAT(terminal, HasSubstr("  " + full + " "));
             EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));

@@ -5,6 +5,7 @@
 
 #include "files/scratch.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/state_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -33,40 +34,43 @@ struct Look {
     bool operator==(const Look&) const = default;
 };
 
-RunControl::Sampler looker(std::vector<Look>& looks, int per_period) {
-    return {per_period, [&looks](const Snapshot& s) {
-                looks.push_back({s.time(), s.position(3).x});
-            }};
+/// Passes `count` events, or as many as there are, and looks seven times a swirl.
+void go_on(swirl::Run& run, std::uint64_t count, SampleTimes& times, std::vector<Look>& looks) {
+    for (; count > 0 && run.next_event(); --count) {
+        while (run.next_sample(times))
+            looks.push_back({run.snapshot().time(), run.snapshot().position(3).x});
+        run.pass_event();
+    }
 }
 
 TEST(Resume, AnInterruptedRunEndsWithTheSameResult) {
     const RunConfig config = short_run();
     std::vector<Look> whole_looks;
-    RunControl whole_control;
-    whole_control.samplers = {looker(whole_looks, 7)};
-    const RunResult whole = run(config, whole_control);
-    ASSERT_TRUE(whole.complete);
+    swirl::Run whole(config);
+    SampleTimes whole_times = whole.sample_times(7);
+    go_on(whole, 1'000'000, whole_times, whole_looks);
+    ASSERT_TRUE(whole.complete());
 
-    // Stopped again and again, at odd moments, each time resumed from what was kept.
+    // Broken off again and again, at odd moments, each time resumed from what was kept.
     std::vector<Look> looks;
-    std::optional<std::string> state;
-    RunResult result;
-    int pieces = 0;
-    for (bool complete = false; !complete; ++pieces) {
-        std::atomic<bool> stop = false;
-        std::uint64_t left = 1'700;
-        RunControl control;
-        control.stop = &stop;
-        control.samplers = {looker(looks, 7)};
-        control.after_event = [&](const Snapshot&, const Event&) { stop = --left == 0 || stop; };
-        control.wants_state = [](bool stopped) { return stopped; };
-        control.keep_state = [&](const std::string& kept) { state = kept; };
-        control.resume = state;
-        result = run(config, control);
-        complete = result.complete;
+    RunControl control;
+    SampleTimes times = whole.sample_times(7);
+    for (int piece = 0; piece < 17; ++piece) {
+        swirl::Run run(config, control);
+        go_on(run, 1'700, times, looks);
+        ASSERT_FALSE(run.complete());
+        control.resume = run.state();
+        // Whoever keeps a state keeps his own times with it.
+        StateWriter kept;
+        times.fields(kept);
+        times = whole.sample_times(7);
+        StateReader read(kept.bytes());
+        times.fields(read);
     }
-    EXPECT_GT(pieces, 10);
-    EXPECT_EQ(result_without_time(result), result_without_time(whole));
+    swirl::Run last(config, control);
+    go_on(last, 1'000'000, times, looks);
+    ASSERT_TRUE(last.complete());
+    EXPECT_EQ(result_without_time(last.result()), result_without_time(whole.result()));
     EXPECT_EQ(looks, whole_looks);
 }
 
@@ -76,26 +80,24 @@ TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
     const std::vector<std::string> names = read_measurement_list("all");
     const MeasuredRun whole = measured_run(config, names);
 
-    const Scratch scratch;
-    RunFiles files;
-    files.checkpoint = scratch / "c";
-    files.resume = true;
-    std::string measured;
-    RunResult result;
-    int pieces = 0;
-    for (; !result.complete; ++pieces) {
-        std::atomic<bool> stop = false;
-        std::uint64_t left = 1'900;
+    std::optional<std::string> state;
+    for (int piece = 0; piece < 15; ++piece) {
         Observation observation = observation_of(config, names);
         RunControl control;
-        control.stop = &stop;
-        control.after_event = [&](const Snapshot&, const Event&) { stop = --left == 0 || stop; };
         control.observation = &observation;
-        result = run_recorded(config, files, control, {});
-        measured = measured_json(observation.report()).dump();
+        control.resume = state;
+        swirl::Run run(config, control);
+        for (int k = 0; k < 1'900 && run.next_event(); ++k) run.pass_event();
+        ASSERT_FALSE(run.complete());
+        state = run.state();
     }
-    EXPECT_GT(pieces, 10);
-    EXPECT_EQ(measured, whole.measured.dump());
+    Observation observation = observation_of(config, names);
+    RunControl control;
+    control.observation = &observation;
+    control.resume = state;
+    const RunResult result = run(config, control);
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(measured_json(observation.report()).dump(), whole.measured.dump());
     EXPECT_EQ(result_without_time(result), result_without_time(whole.run));
 }
 
@@ -127,21 +129,21 @@ TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
 
 TEST(Resume, KeepingTheStateChangesNothing) {
     const RunConfig config = short_run();
-    RunControl control;
-    int kept = 0;
-    control.wants_state = [](bool) { return true; };
-    control.keep_state = [&](const std::string&) { ++kept; };
-    EXPECT_EQ(result_without_time(run(config, control)), result_without_time(run(config)));
-    EXPECT_GT(kept, 50);
+    swirl::Run kept(config);
+    for (int k = 0; kept.next_event(); ++k) {
+        kept.pass_event();
+        if (k % 500 == 0) {
+            EXPECT_FALSE(kept.state().empty());
+        }
+    }
+    EXPECT_EQ(result_without_time(kept.result()), result_without_time(run(config)));
 }
 
 TEST(Resume, RefusesTheStateOfAnotherRun) {
     const RunConfig config = short_run();
-    std::string state;
-    RunControl control;
-    control.wants_state = [](bool) { return true; };
-    control.keep_state = [&](const std::string& kept) { state = kept; };
-    run(config, control);
+    swirl::Run begun(config);
+    for (int k = 0; k < 10'000 && begun.next_event(); ++k) begun.pass_event();
+    const std::string state = begun.state();
 
     RunConfig other = config;
     other.discs = 23;

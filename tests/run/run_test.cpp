@@ -110,11 +110,15 @@ TEST(Run, EndsAtTheEventOrTheSwirlAskedFor) {
 TEST(Run, ObservedOrNotHasTheSameBits) {
     const RunConfig config = small(28, 5);
     const RunResult unobserved = run(config);
-    RunControl control;
     int looks = 0, events = 0;
-    control.samplers.push_back({37, [&](const Snapshot&) { ++looks; }});
-    control.after_event = [&](const Snapshot&, const Event&) { ++events; };
-    const RunResult observed = run(config, control);
+    swirl::Run watched(config);
+    SampleTimes times = watched.sample_times(37);
+    while (watched.next_event()) {
+        while (watched.next_sample(times)) ++looks;
+        watched.pass_event();
+        ++events;
+    }
+    const RunResult observed = watched.result();
     EXPECT_EQ(observed.state_hash, unobserved.state_hash);
     EXPECT_EQ(observed.rotation.by_event.mean, unobserved.rotation.by_event.mean);
     EXPECT_EQ(looks, 5 * 37);
@@ -123,37 +127,41 @@ TEST(Run, ObservedOrNotHasTheSameBits) {
 
 TEST(Run, SamplesAreTheStatesAtTheirTimes) {
     const RunConfig config = small(20, 3);
-    RunControl control;
     Simulation beside(make_initial_state(config));
+    swirl::Run run(config);
+    SampleTimes times = run.sample_times(16);
     int k = 0;
-    control.samplers.push_back({16, [&](const Snapshot& s) {
-                                    beside.advance_to(k / 16, config.period * (k % 16) / 16);
-                                    const Snapshot expected = beside.snapshot();
-                                    ASSERT_EQ(s.swirls, expected.swirls);
-                                    ASSERT_EQ(s.clock, expected.clock);
-                                    EXPECT_EQ(s.container_centre.x, expected.container_centre.x);
-                                    EXPECT_EQ(s.container_centre.y, expected.container_centre.y);
-                                    for (std::size_t i = 0; i < s.size(); ++i) {
-                                        EXPECT_EQ(s.position(i).x, expected.position(i).x);
-                                        EXPECT_EQ(s.position(i).y, expected.position(i).y);
-                                    }
-                                    ++k;
-                                }});
-    run(config, control);
+    while (run.next_event()) {
+        for (; run.next_sample(times); ++k) {
+            beside.advance_to(k / 16, config.period * (k % 16) / 16);
+            const Snapshot expected = beside.snapshot();
+            const Snapshot& s = run.snapshot();
+            ASSERT_EQ(s.swirls, expected.swirls);
+            ASSERT_EQ(s.clock, expected.clock);
+            EXPECT_EQ(s.container_centre.x, expected.container_centre.x);
+            EXPECT_EQ(s.container_centre.y, expected.container_centre.y);
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                EXPECT_EQ(s.position(i).x, expected.position(i).x);
+                EXPECT_EQ(s.position(i).y, expected.position(i).y);
+            }
+        }
+        run.pass_event();
+    }
     EXPECT_EQ(k, 48);
 }
 
 TEST(Run, WarmupIsLeftOutOfTheAverages) {
     RunConfig config = small(15, 10);
     std::vector<double> sums(10, 0.0), counts(10, 0.0);
-    RunControl control;
-    control.after_event = [&](const Snapshot& s, const Event& e) {
-        const auto swirl = static_cast<std::size_t>(e.swirls);
-        sums[swirl] += cluster_rotation(s).individual / config.omega();
-        counts[swirl] += 1.0;
-    };
     config.warmup = 4;
-    const RunResult result = run(config, control);
+    swirl::Run run(config);
+    while (run.next_event()) {
+        run.pass_event();
+        const auto swirl = static_cast<std::size_t>(run.event().swirls);
+        sums[swirl] += cluster_rotation(run.snapshot()).individual / config.omega();
+        counts[swirl] += 1.0;
+    }
+    const RunResult result = run.result();
     double sum = 0.0, count = 0.0;
     for (std::size_t swirl = 4; swirl < 10; ++swirl) {
         sum += sums[swirl];
@@ -219,9 +227,9 @@ TEST(Run, StoppedIsIncompleteAndSaysWhatThereIs) {
     std::atomic<bool> stop = false;
     RunControl control;
     control.stop = &stop;
-    int events = 0;
-    control.after_event = [&](const Snapshot&, const Event&) { stop = ++events >= 5000; };
-    const RunResult result = run(config, control);
+    swirl::Run run(config, control);
+    for (int events = 0; run.next_event(); stop = ++events >= 5000) run.pass_event();
+    const RunResult result = run.result();
     EXPECT_FALSE(result.complete);
     EXPECT_GE(result.events.total(), 5000u);
     EXPECT_LT(result.events.total(), 6000u);
