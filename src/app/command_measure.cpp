@@ -9,6 +9,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/track_fit.hpp"
 #include "swirl/app/track_options.hpp"
 #include "swirl/files/trajectory.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
@@ -24,19 +25,65 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeasureCall {
-    std::string file, list, tables, json, skip;
+    std::string file, list, tables, json, skip, misfit;
     TrackTexts camera;
     bool quiet = false;
 };
 
-SnapshotSeries open_series(const MeasureCall& call, std::string& remark) {
-    if (is_trajectory(call.file)) return series_of(std::make_shared<TrajectoryReader>(call.file));
+/// The frames, and what is to be said of them.
+struct Opened {
+    SnapshotSeries series;
+    std::string remarks;  // a line each
+    Json camera;          // of tracks only
+};
+
+Json camera_json(const Tracks& tracks, const SnapshotSeries& series, const TrackFit& fit) {
+    return {{"filled_positions", tracks.mended.filled},
+            {"renamed", tracks.mended.renamed},
+            {"dropped_positions", tracks.mended.dropped},
+            {"breaks", series.breaks.size()},
+            {"frames_outside", fit.outside},
+            {"frames_overlapping", fit.overlapping},
+            {"wall_gap", fit.wall_gap},
+            {"fitting_phase", fit.fitting_phase}};
+}
+
+Opened open_tracks(const MeasureCall& call) {
     const TrackScale scale = track_scale(call.camera, call.file);
-    Tracks tracks = read_tracks(call.file);
-    if (tracks.filled > 0)
-        remark =
-            fmt::format("{} positions missing for up to five frames were put back.", tracks.filled);
-    return series_of(std::move(tracks), scale);
+    const double misfit = number_option("misfit", call.misfit, 0.05, 0.0);
+    Tracks tracks = read_tracks(call.file, scale);
+    if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
+        throw Failure(fmt::format(
+            "'{}' holds a single frame, which tells no velocities; two are the least.", call.file));
+    Opened opened;
+    opened.remarks = mended_text(tracks);
+    opened.series = series_of(tracks, scale);
+    const TrackFit fit = fit_of(opened.series, scale);
+    refuse_misfit(fit, scale, misfit);
+    opened.remarks += fit_text(fit);
+    if (!opened.series.same_discs())
+        opened.remarks += fmt::format(
+            "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",
+            opened.series.breaks.size(), opened.series.frames);
+    opened.camera = camera_json(tracks, opened.series, fit);
+    return opened;
+}
+
+Opened open_series(const MeasureCall& call) {
+    if (is_trajectory(call.file))
+        return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
+    return open_tracks(call);
+}
+
+/// Whether the same discs are seen long enough for their tracks to say anything.
+bool holds_tracks(const SnapshotSeries& series) {
+    std::uint64_t begin = 0, longest = 0;
+    for (const std::uint64_t end : series.breaks) {
+        longest = std::max(longest, end - begin);
+        begin = end;
+    }
+    longest = std::max(longest, series.frames - begin);
+    return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
 }
 
 /// Frames do not tell one collision from the next.
@@ -55,9 +102,9 @@ void drop_what_needs_tracks(std::vector<std::string>& names, const MeasureCall& 
     for (const std::string& name : names)
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
-                "The discs of '{}' are not the same in every frame, so '{}' cannot be told of "
-                "them; density, flow, profile, radial, temperature, order and packing can.",
-                call.file, name));
+                "The discs of '{}' are never the same for {} frames in a row, so '{}' cannot be "
+                "told of them; density, flow, profile, radial, temperature, order and packing can.",
+                call.file, PinnedLoose::width + 1, name));
     std::erase_if(names,
                   [](const std::string& name) { return find_measurement(name)->needs_tracks; });
 }
@@ -71,26 +118,33 @@ void measure_file(const MeasureCall& call) {
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
-    std::string remark;
-    const SnapshotSeries series = open_series(call, remark);
+    const Opened opened = open_series(call);
+    const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
     const Snapshot first = series.frame(0);
-    if (!series.same_discs) drop_what_needs_tracks(names, call);
+    const bool tracked = holds_tracks(series);
+    if (!tracked) drop_what_needs_tracks(names, call);
 
-    Observation observation(first.container_radius, first.period, names, series.same_discs);
+    Observation observation(first.container_radius, first.period, names, tracked);
     ClusterRotation rotation;
     ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
     std::int64_t swirl = first.swirls;
     std::uint64_t used = 0;
+    std::size_t discs = 0;
+    auto next_break = series.breaks.begin();
     for (std::uint64_t k = 0; k < series.frames; ++k) {
         if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
         const Snapshot s = series.frame(k);
+        const bool others = next_break != series.breaks.end() && *next_break == k;
+        if (others) ++next_break;
         if (s.time() < skip * s.period) continue;
         if (used > 0 && s.swirls != swirl) {
             rotation.close_block();
             observation.close_block();
         }
+        if (others) observation.begin_tracks();
         swirl = s.swirls;
+        discs = std::max(discs, s.size());
         rotation.sample_by_time(s);
         observation.sample(s);
         ++used;
@@ -107,20 +161,21 @@ void measure_file(const MeasureCall& call) {
     const double swirls = series.frame(series.frames - 1).time() / first.period - skip;
     Json json{{"file", call.file},
               {"frames", used},
-              {"discs", first.size()},
-              {"same_discs", series.same_discs},
+              {"discs", discs},
+              {"same_discs", series.same_discs()},
               {"rotation",
                {{"by_time", estimate_json(found.by_time)},
                 {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
               {"measured", measured_json(measured)},
-              {"remark", remark},
+              {"camera", opened.camera},
+              {"remark", opened.remarks},
               {"version", version()}};
     std::string text = fmt::format(
-        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", first.size(),
+        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
         sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
     text += measured_text(measured);
-    if (!remark.empty()) text += remark + "\n";
+    text += opened.remarks;
     const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
@@ -161,10 +216,12 @@ void add_measure_command(Subcommand& subcommand) {
     text("--amplitude", call->camera.amplitude, "NUMBER", "of the swirl, in disc radii [0]",
          camera);
     text("--container-radius", call->camera.container_radius, "NUMBER", "in disc radii", camera);
+    text("--misfit", call->misfit, "SHARE",
+         "of the frames may show discs outside the dish or in each other [0.05]", camera);
     subcommand.set_examples(
         {"swirl measure frames.h5 --measure density,flow --tables maps",
          "swirl measure tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre 512,384 "
-         "--container-radius 8.5"});
+         "--phase 90 --amplitude 1.9 --container-radius 8.6"});
     subcommand.callback([call] { measure_file(*call); });
 }
 

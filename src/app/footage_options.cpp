@@ -63,8 +63,8 @@ Footage tracked_in(const FootageTexts& texts) {
                         "--container-radius say something of their container.",
                         texts.file, option_name(given.begin()->first)));
     if (const auto wrong = film_problem(texts.pictures)) throw WrongCall(*wrong);
-    Tracks tracks = read_tracks(texts.file);
     const TrackScale scale = track_scale(camera, texts.file);
+    Tracks tracks = read_tracks(texts.file, scale);
     return tracked(std::move(tracks), scale,
                    escaped(std::filesystem::path(texts.file).filename().string()), texts.pictures,
                    texts.first_picture);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "swirl/files/track_mending.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
@@ -46,9 +47,24 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
     text("--omega", texts.omega, "NUMBER",
          "angular velocity of the swirl, in radians per unit of time");
     text("--centre", texts.centre, "X,Y", "the swirl centre, in pixels [0,0]");
-    text("--phase", texts.phase, "DEGREES", "of the container at frame 0, from +x [0]");
+    text("--phase", texts.phase, "DEGREES",
+         "of the container at frame 0, as the camera saw it, counter-clockwise from the right [0]");
     subcommand.add_flag("--clockwise", texts.clockwise, "the swirl ran clockwise in the picture")
         ->group(group);
+}
+
+std::string mended_text(const Tracks& tracks) {
+    const auto& [filled, renamed, dropped] = tracks.mended;
+    std::string text;
+    if (filled > 0)
+        text += fmt::format("{} positions missing for up to five frames were put back.\n", filled);
+    if (renamed > 0)
+        text += fmt::format(
+            "{} times a disc went on under another name, and was given its own back.\n", renamed);
+    if (dropped > 0)
+        text +=
+            fmt::format("{} positions of discs seen in a single frame were left out.\n", dropped);
+    return text;
 }
 
 bool is_trajectory(const std::string& file) {
@@ -56,15 +72,19 @@ bool is_trajectory(const std::string& file) {
     return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
 }
 
-Tracks read_tracks(const std::string& file) {
+Tracks read_tracks(const std::string& file, const TrackScale& scale) {
     const std::string begin = first_bytes(file);
-    if (begin.starts_with("ITEM:")) return read_lammps_dump(file);
+    const auto mended = [&](Tracks tracks) {
+        mend(tracks, scale.pixels_per_radius);
+        return tracks;
+    };
+    if (begin.starts_with("ITEM:")) return mended(read_lammps_dump(file));
     if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
         throw Failure(fmt::format(
             "'{}' is neither a trajectory of swirl (HDF5), nor a table of trackpy (CSV), nor a "
             "LAMMPS text dump.",
             file));
-    return read_trackpy_csv(file);
+    return mended(read_trackpy_csv(file));
 }
 
 TrackScale track_scale(const TrackTexts& texts, const std::string& file) {

@@ -24,8 +24,11 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
 
 /// Whether the file is one of ours (HDF5) and no tracks. Throws Failure if it cannot be read.
 bool is_trajectory(const std::string& file);
-/// A table of trackpy or a LAMMPS dump, by what it begins with. Throws FileError.
-Tracks read_tracks(const std::string& file);
+/// A table of trackpy or a LAMMPS dump, by what it begins with, mended (files/track_mending.hpp).
+/// Throws FileError.
+Tracks read_tracks(const std::string& file, const TrackScale& scale);
+/// What was mended, a line each.
+std::string mended_text(const Tracks& tracks);
 /// Throws WrongCall for what is missing or wrong.
 TrackScale track_scale(const TrackTexts& texts, const std::string& file);
 

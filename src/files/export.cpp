@@ -303,7 +303,7 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
             gsd.add("configuration/box", gsd_f32, std::vector<float>{width, width, 1, 0, 0, 0}, 1);
         }
         gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(n)}, 1);
-        if (k == 0 || !series.same_discs) {
+        if (k == 0 || !series.same_discs()) {
             int kinds;
             const std::vector<int> species = species_of(s, kinds);
             std::vector<char> types;

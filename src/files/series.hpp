@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "swirl/physics/snapshot.hpp"
 
@@ -16,9 +17,12 @@ struct SnapshotSeries {
     std::uint64_t frames = 0;
     /// Half the width of a square about the swirl centre that holds the container at all times.
     double reach = 0.0;
-    /// Every frame holds the same discs in the same order.
-    bool same_discs = true;
     std::function<Snapshot(std::uint64_t)> frame;
+    /// Frames whose discs are not those of the frame before, ascending.
+    std::vector<std::uint64_t> breaks = {};
+
+    /// Every frame holds the same discs in the same order.
+    bool same_discs() const { return breaks.empty(); }
 };
 
 class TrajectoryReader;

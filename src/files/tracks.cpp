@@ -12,13 +12,14 @@
 #include <set>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/track_mending.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {
 
-constexpr std::int64_t longest_gap = 5;  // frames
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The lines of a text, with their numbers.
 class Lines {
@@ -104,35 +105,21 @@ std::optional<std::size_t> index_of(const std::vector<std::string_view>& names,
     return std::size_t(found - names.begin());
 }
 
-using Track = std::map<std::int64_t, Vec2>;  // by frame
-
-std::uint64_t fill_gaps(std::map<std::int64_t, Track>& tracks) {
-    std::uint64_t filled = 0;
-    for (auto& [id, track] : tracks) {
-        Track added;
-        for (auto a = track.begin(), b = std::next(a); b != track.end(); a = b++) {
-            const std::int64_t gap = b->first - a->first;
-            if (gap - 1 > longest_gap) continue;
-            for (std::int64_t k = 1; k < gap; ++k)
-                added[a->first + k] = a->second + double(k) / double(gap) * (b->second - a->second);
-        }
-        filled += added.size();
-        track.merge(added);
-    }
-    return filled;
-}
-
 /// Snapshots out of frames, with the velocities that are missing taken from the neighbours.
 class TrackSeries {
   public:
     TrackSeries(Tracks tracks, const TrackScale& scale)
-        : tracks_(std::move(tracks)), scale_(scale) {}
+        : tracks_(std::move(tracks)),
+          scale_(scale),
+          step_(commonest_step(tracks_)),
+          period_(scale.amplitude > 0.0 ? 2.0 * pi * scale.amplitude : scale.period) {}
 
     std::uint64_t frames() const { return tracks_.frames.size(); }
-    bool same_discs() const {
-        for (const TrackFrame& f : tracks_.frames)
-            if (f.id != tracks_.frames.front().id) return false;
-        return true;
+    std::vector<std::uint64_t> breaks() const {
+        std::vector<std::uint64_t> found;
+        for (std::size_t k = 1; k < tracks_.frames.size(); ++k)
+            if (tracks_.frames[k].id != tracks_.frames[k - 1].id) found.push_back(k);
+        return found;
     }
 
     Snapshot frame(std::uint64_t k) const {
@@ -140,28 +127,34 @@ class TrackSeries {
         Snapshot s;
         s.resize(f.id.size());
         const double time = time_of(k);
-        s.period = scale_.period;
+        s.period = period_;
         s.swirls = static_cast<std::int64_t>(std::floor(time / s.period));
         s.clock = time - double(s.swirls) * s.period;
         s.container_radius = scale_.container_radius;
-        const Vec2 direction = unit_circle(scale_.phase / (2.0 * pi) + s.clock / s.period);
+        const Vec2 direction = unit_circle(phase() / (2.0 * pi) + s.clock / s.period);
         s.container_centre = scale_.amplitude * direction;
         s.container_velocity = (scale_.amplitude * 2.0 * pi / s.period) * perpendicular(direction);
         for (std::size_t i = 0; i < s.size(); ++i) {
             const double mass = f.mass.empty() ? 1.0 : f.mass[i];
             s.set(i,
-                  {lab(f.position[i]), velocity(k, i), std::numeric_limits<double>::quiet_NaN(),
-                   f.spin.empty() ? std::numeric_limits<double>::quiet_NaN() : sense() * f.spin[i],
-                   s.clock, f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass,
-                   std::numeric_limits<double>::quiet_NaN()});
+                  {lab(f.position[i]), velocity(k, i), unknown,
+                   f.spin.empty() ? unknown : sense() * f.spin[i] / camera_time(), s.clock,
+                   f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass, unknown});
         }
         return s;
     }
 
   private:
     double sense() const { return tracks_.y_down != scale_.clockwise ? -1.0 : 1.0; }
+    /// Mirrored with the picture.
+    double phase() const { return scale_.clockwise ? pi - scale_.phase : scale_.phase; }
+    /// One of ours, in those of the camera.
+    double camera_time() const { return period_ / scale_.period; }
     double time_of(std::uint64_t k) const {
-        return double(tracks_.frames[k].number) / scale_.frames_per_time;
+        return double(tracks_.frames[k].number) / scale_.frames_per_time * camera_time();
+    }
+    bool follow(std::uint64_t k, std::uint64_t next) const {
+        return tracks_.frames[next].number - tracks_.frames[k].number <= (longest_gap + 1) * step_;
     }
     Vec2 turned(const Vec2& v) const {
         return {(scale_.clockwise ? -1.0 : 1.0) * v.x / scale_.pixels_per_radius,
@@ -178,18 +171,21 @@ class TrackSeries {
     }
     Vec2 velocity(std::uint64_t k, std::size_t i) const {
         const TrackFrame& f = tracks_.frames[k];
-        if (!f.velocity.empty()) return turned(f.velocity[i]);
+        if (!f.velocity.empty()) return (1.0 / camera_time()) * turned(f.velocity[i]);
         std::uint64_t from = k, to = k;
         Vec2 first = f.position[i], last = first;
-        if (const auto before = k > 0 ? seen(k - 1, f.id[i]) : std::nullopt)
-            from = k - 1, first = *before;
-        if (const auto after = seen(k + 1, f.id[i])) to = k + 1, last = *after;
+        if (k > 0 && follow(k - 1, k))
+            if (const auto before = seen(k - 1, f.id[i])) from = k - 1, first = *before;
+        if (k + 1 < tracks_.frames.size() && follow(k, k + 1))
+            if (const auto after = seen(k + 1, f.id[i])) to = k + 1, last = *after;
         if (from == to) return {0.0, 0.0};
         return (1.0 / (time_of(to) - time_of(from))) * turned(last - first);
     }
 
     Tracks tracks_;
     TrackScale scale_;
+    std::int64_t step_;  // between the numbers of two frames
+    double period_;      // in our unit of time
 };
 
 }  // namespace
@@ -204,7 +200,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         lines.wrong(
             "the header must name the columns frame, particle, x and y, separated by commas");
 
-    std::map<std::int64_t, Track> tracks;
+    std::map<std::int64_t, std::map<std::int64_t, Vec2>> tracks;  // by particle and frame
     std::string_view line;
     while (lines.next(line)) {
         if (line.empty()) continue;
@@ -224,7 +220,6 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
 
     Tracks result;
     result.y_down = true;
-    result.filled = fill_gaps(tracks);
     std::map<std::int64_t, TrackFrame> frames;
     for (const auto& [id, track] : tracks)
         for (const auto& [number, position] : track) {
@@ -310,8 +305,8 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
 
 SnapshotSeries series_of(Tracks tracks, const TrackScale& scale) {
     auto series = std::make_shared<TrackSeries>(std::move(tracks), scale);
-    return {series->frames(), scale.amplitude + scale.container_radius, series->same_discs(),
-            [series](std::uint64_t k) { return series->frame(k); }};
+    return {series->frames(), scale.amplitude + scale.container_radius,
+            [series](std::uint64_t k) { return series->frame(k); }, series->breaks()};
 }
 
 }  // namespace swirl

@@ -1,16 +1,18 @@
 // Tracks recorded by a camera, or by another program, as snapshots.
 //
 //   trackpy CSV   a header line with at least frame, particle, x, y (any order, further columns
-//                 ignored); x to the right and y downwards, in pixels. A particle missing for up
-//                 to five frames is put back on the straight line between its neighbours.
+//                 ignored); x to the right and y downwards, in pixels
 //   LAMMPS dump   text; id, x and y (or xu, yu), and where given vx, vy, radius, mass, omegaz
 //
 // Velocities that are not given are central differences over the frame before and the frame after
-// (one-sided at the ends of a track): they miss a fraction (ΩΔt)²/6 of a circular motion.
+// (one-sided at the ends of a track): they miss a fraction (ΩΔt)²/6 of a circular motion. Of a disc
+// that is in neither they are not known, and 0.
 //
-// Units of the result: length in disc radii, time in the unit of `frames_per_time`. The container
-// is where a swirl of the given amplitude, period and phase puts it; the swirl centre is the
-// origin. Orientation and spin of a tracked disc are not known (NaN).
+// Units of the result are those of everything here: length in disc radii, the speed AΩ of the
+// container = 1 (docs/physics.md), so the period is 2πA. Of a container that stands still, with
+// amplitude 0, time stays in the unit of `frames_per_time`. Masses are as given, 1 if they are not.
+// The container is where a swirl of the given amplitude, period and phase puts it; the swirl centre
+// is the origin. Orientation and spin of a tracked disc are not known (NaN).
 #pragma once
 
 #include <cstdint>
@@ -35,8 +37,15 @@ struct TrackFrame {
 struct Tracks {
     std::vector<TrackFrame> frames;  // in order of time
     bool y_down = false;
-    std::uint64_t filled = 0;  // positions put back into short gaps
+    struct {
+        std::uint64_t filled = 0;   // positions put back into short gaps
+        std::uint64_t renamed = 0;  // tracks that went on under another name
+        std::uint64_t dropped = 0;  // positions of discs seen in a single frame
+    } mended;                       // by track_mending.hpp
 };
+
+/// A disc missing for longer is not put back, and has no velocity across the gap.
+inline constexpr std::int64_t longest_gap = 5;  // frames
 
 /// How the camera's coordinates translate. The paper's camera: 960 frames per second.
 struct TrackScale {
@@ -45,7 +54,8 @@ struct TrackScale {
     Vec2 swirl_centre{0.0, 0.0};    // in pixels
     double period = 1.0;            // T, in time units
     double amplitude = 0.0;         // of the swirl, in disc radii
-    double phase = 0.0;             // of the container at frame 0, rad, counter-clockwise from +x
+    double phase = 0.0;             // of the container at frame 0 as the camera sees it, rad,
+                                    // counter-clockwise from the right
     double container_radius = 0.0;  // in disc radii
     bool clockwise = false;         // the camera saw the swirl run clockwise: mirror x
 };

@@ -108,7 +108,7 @@ double TrajectoryReader::reach() const {
 }
 
 SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
-    return {reader->frames(), reader->reach(), true,
+    return {reader->frames(), reader->reach(),
             [reader](std::uint64_t k) { return reader->frame(k); }};
 }
 

@@ -243,12 +243,12 @@ Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& capti
     const SnapshotSeries series = series_of(std::move(tracks), scale);
     Footage footage = recorded(series, caption);
     footage.frames_per_swirl = scale.frames_per_time * scale.period;
-    if (series.same_discs) footage.open_between = footage.open;
-    if (!series.same_discs || !pictures.empty())
+    if (series.same_discs()) footage.open_between = footage.open;
+    if (!series.same_discs() || !pictures.empty())
         footage.open = [series, table]() -> Reel {
             return [series, table](double swirls) { return series.frame(table->nearest(swirls)); };
         };
-    if (!series.same_discs)
+    if (!series.same_discs())
         footage.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
     if (pictures.empty()) return footage;
 

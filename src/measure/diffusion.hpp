@@ -68,6 +68,8 @@ class Diffusion {
         }
         ++samples_;
     }
+    /// The discs of the next sample are not those of the last, though there may be as many.
+    void begin_anew() { discs_ = 0; }
     void close_block() {
         moves_.close_block();
         turns_.close_block();
@@ -142,6 +144,10 @@ class DiffusionLags {
     void sample_within_period(const Snapshot& s) { within_.sample(s); }
     /// Once per period, always at the same phase.
     void sample_across_periods(const Snapshot& s) { across_.sample(s); }
+    void begin_anew() {
+        within_.begin_anew();
+        across_.begin_anew();
+    }
     void close_block() {
         within_.close_block();
         across_.close_block();

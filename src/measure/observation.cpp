@@ -23,6 +23,7 @@ template <class M>
 concept TakesPositions = requires(M& m, const Snapshot& lab) {
     m.sample_within_period(lab);
     m.sample_across_periods(lab);
+    m.begin_anew();
 };
 template <class M>
 concept TakesEventAndState = requires(M& m, const Event& event, const Snapshot& after) {
@@ -101,7 +102,7 @@ const MFrameView& PinnedFrames::sample(const Snapshot& lab) {
 }
 
 const MFrameView* PinnedFrames::earlier() const {
-    if (frames_ < PinnedLoose::width) return nullptr;
+    if (!pinned_loose_.knows()) return nullptr;
     return &recent_[(frames_ - 1 - PinnedLoose::half_width) % recent_.size()];
 }
 
@@ -169,6 +170,13 @@ void Observation::sample(const Event& event, const Snapshot& after) {
         }
     });
     ++events_;
+}
+
+void Observation::begin_tracks() {
+    pinned_.begin_tracks();
+    each([]<class M>(M& m) {
+        if constexpr (TakesPositions<M>) m.begin_anew();
+    });
 }
 
 void Observation::close_block() {

@@ -6,6 +6,8 @@
 //     observation.sample(snapshot);       at equal steps of time, samples_per_period of them
 //     observation.sample(event, after);   after every event, if events are known at all
 //     observation.close_block();          at the end of every period
+//     observation.begin_tracks();         where the discs to come are not those of before: a camera
+//                                         has lost one, or names it otherwise
 //
 // Warm-up is what is not handed over. A measurement is a class with close_block(), merge(),
 // fields(), report(visitor), and those of the following that it needs; which they are is found out
@@ -20,6 +22,7 @@
 //     sample_within_period(snapshot)   every 7th sample, in the lab
 //     sample_across_periods(snapshot)  the first sample of every block, in the lab
 //     sample(event[, after])           every event
+//     begin_anew()                     beside sample_within_period: other discs from here on
 //     sample_by_event(view)            the state after every 32nd event, in the M-frame
 //     close_block(duration[, discs])   instead of close_block(): of the collisions alone. Without
 //                                      events it is not called: then nothing is known, not even
@@ -86,9 +89,10 @@ struct MeasurementReport {
 class PinnedFrames {
   public:
     const MFrameView& sample(const Snapshot& lab);
+    void begin_tracks() { pinned_loose_.begin_anew(); }
     void close_block() { pinned_loose_.close_block(); }
     const PinnedLoose& pinned_loose() const { return pinned_loose_; }
-    /// The frame that pinned() speaks of; null in the first frames.
+    /// The frame that pinned() speaks of; null in the first frames of the tracks.
     const MFrameView* earlier() const;
 
     void merge(const PinnedFrames& other) { pinned_loose_.merge(other.pinned_loose_); }
@@ -108,8 +112,8 @@ class PinnedFrames {
 class Observation {
   public:
     /// The names are those of measurement_kinds(), each once; others are passed over. Without the
-    /// same discs in every frame nobody follows which are pinned. Radius and period are those of
-    /// the snapshots to come.
+    /// same discs for some frames in a row nobody follows which are pinned. Radius and period are
+    /// those of the snapshots to come.
     Observation(double container_radius, double period, std::vector<std::string> names,
                 bool same_discs = true);
 
@@ -118,6 +122,8 @@ class Observation {
 
     void sample(const Snapshot& lab);
     void sample(const Event& event, const Snapshot& after);
+    /// The discs of the next sample are not those of the last.
+    void begin_tracks();
     void close_block();
 
     /// In the order of the names.

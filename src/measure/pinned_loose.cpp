@@ -76,6 +76,12 @@ void PinnedLoose::begin_tracks(std::size_t n) {
     pinned_.assign(n, 0);
 }
 
+void PinnedLoose::begin_anew() {
+    if (frames_ > 0) breaks_ += 1.0;
+    frames_ = 0;
+    pinned_.clear();  // as many discs as no frame has
+}
+
 double* PinnedLoose::slot(std::vector<double>& past, std::int64_t frame) {
     return past.data() + static_cast<std::size_t>(frame % width) * pinned_.size();
 }

@@ -56,10 +56,15 @@ class PinnedLoose {
 
     /// One frame; frames at equal time steps.
     void sample(const MFrameView& view);
+    /// The discs of the next frame are not those of the last, though there may be as many.
+    void begin_anew();
     void close_block();
 
     /// For each disc whether it is pinned, seven frames ago; all 0 before there are enough frames.
     const std::vector<std::uint8_t>& pinned() const { return pinned_; }
+
+    /// Whether pinned() says anything: the present tracks are long enough.
+    bool knows() const { return frames_ >= width; }
 
     /// θ where discs become pinned, and where they become free.
     const CircularMean& becoming_pinned() const { return becoming_pinned_; }

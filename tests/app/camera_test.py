@@ -90,8 +90,10 @@ class CameraTest(InFolder):
                         table.write(f"{frame},{k},{x!r},{y!r}\n")
 
     def call(self, command, *more, over=True):
+        # In a mirrored picture the phase is that of the mirror, as one reads it off there.
+        phase = 180.0 - PHASE if "--clockwise" in more else PHASE
         arguments = [command, self.path("tracks.csv"), "--camera-fps", CAMERA_FPS, "--scale", SCALE,
-                     "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--phase", PHASE,
+                     "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--phase", phase,
                      "--amplitude", AMPLITUDE, "--container-radius", RADIUS, "--size",
                      f"{SIDE}x{SIDE}"]
         if over:

@@ -6,6 +6,7 @@
 
 #include "files/scratch.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/track_mending.hpp"
 
 namespace swirl {
 namespace {
@@ -14,6 +15,11 @@ Tracks tracks_in(const std::string& text) {
     const Scratch scratch;
     write_quickly(scratch / "tracks.csv", text);
     return read_trackpy_csv(scratch / "tracks.csv");
+}
+Tracks mended(const std::string& text, double radius) {
+    Tracks tracks = tracks_in(text);
+    mend(tracks, radius);
+    return tracks;
 }
 Tracks dump_in(const std::string& text) {
     const Scratch scratch;
@@ -47,7 +53,6 @@ TEST(TrackpyTable, ReadsColumnsInAnyOrderAmongOthersAndRowsInAnyOrder) {
         "\n");
     ASSERT_EQ(tracks.frames.size(), 2u);
     EXPECT_TRUE(tracks.y_down);
-    EXPECT_EQ(tracks.filled, 0u);
     for (const auto& frame : tracks.frames) EXPECT_EQ(frame.id, (std::vector<std::int64_t>{3, 7}));
     EXPECT_EQ(tracks.frames[0].number, 0);
     EXPECT_EQ(tracks.frames[1].number, 1);
@@ -90,18 +95,117 @@ TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
               std::string::npos);
 }
 
-TEST(TrackpyTable, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
-    // Missing in frames 1 … 5; and then in six frames.
-    const Tracks tracks = tracks_in("frame,particle,x,y\n0,0,0,12\n6,0,6,0\n13,0,0,0\n");
-    EXPECT_EQ(tracks.filled, 5u);
-    ASSERT_EQ(tracks.frames.size(), 8u);
-    for (int k = 0; k <= 6; ++k) {
+TEST(MendedTracks, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
+    // Missing in frames 2 … 6; and then in six frames.
+    const Tracks tracks = mended(
+        "frame,particle,x,y\n0,0,-1,14\n1,0,0,12\n7,0,6,0\n8,0,6,0\n15,0,6,0\n16,0,6,0\n", 100.0);
+    EXPECT_EQ(tracks.mended.filled, 5u);
+    EXPECT_EQ(tracks.mended.renamed, 0u);
+    ASSERT_EQ(tracks.frames.size(), 11u);
+    for (int k = 1; k <= 7; ++k) {
         EXPECT_EQ(tracks.frames[std::size_t(k)].number, k);
         // Thirds and sixths: one rounding.
-        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].x, k, 1e-14);
-        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].y, 12 - 2 * k, 1e-14);
+        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].x, k - 1, 1e-14);
+        EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].y, 14 - 2 * k, 1e-14);
     }
-    EXPECT_EQ(tracks.frames[7].number, 13);
+    EXPECT_EQ(tracks.frames[9].number, 15);
+}
+
+TEST(MendedTracks, EverySecondPictureIsNoGap) {
+    const Tracks tracks =
+        mended("frame,particle,x,y\n0,0,0,0\n2,0,1,0\n4,0,2,0\n8,0,4,0\n10,0,5,0\n", 10.0);
+    EXPECT_EQ(tracks.mended.filled, 1u);  // frame 6
+    ASSERT_EQ(tracks.frames.size(), 6u);
+    EXPECT_EQ(tracks.frames[3].number, 6);
+    EXPECT_EQ(tracks.frames[3].position[0].x, 3.0);
+}
+
+/// Two discs that move to the right, 20 pixels apart, for 40 frames.
+std::string two_discs(int (*id)(int frame, int disc), int (*lost)(int frame, int disc)) {
+    std::string text = "frame,particle,x,y\n";
+    for (int k = 0; k < 40; ++k)
+        for (int disc = 0; disc < 2; ++disc)
+            if (!lost(k, disc))
+                text += std::to_string(k) + "," + std::to_string(id(k, disc)) + "," +
+                        std::to_string(k + 20 * disc) + ",0\n";
+    return text;
+}
+
+void expect_two_whole_discs(const Tracks& tracks) {
+    ASSERT_EQ(tracks.frames.size(), 40u);
+    for (const TrackFrame& frame : tracks.frames) {
+        EXPECT_EQ(frame.id, (std::vector<std::int64_t>{3, 8}));
+        EXPECT_NEAR(frame.position[0].x, double(frame.number), 1e-12);
+        EXPECT_NEAR(frame.position[1].x, double(frame.number) + 20.0, 1e-12);
+    }
+}
+
+TEST(MendedTracks, ExchangedNamesAreGivenBack) {
+    const Tracks tracks =
+        mended(two_discs([](int k, int d) { return (k < 17) == (d == 0) ? 3 : 8; },
+                         [](int, int) { return 0; }),
+               10.0);
+    expect_two_whole_discs(tracks);
+    EXPECT_EQ(tracks.mended.renamed, 2u);
+    EXPECT_EQ(tracks.mended.filled, 0u);
+}
+
+TEST(MendedTracks, ADiscLostAndFoundAgainUnderAnotherNameIsTheSame) {
+    const Tracks tracks =
+        mended(two_discs([](int k, int d) { return d == 0   ? 3
+                                                   : k < 20 ? 8
+                                                            : 11; },
+                         [](int k, int d) { return int(d == 1 && k >= 20 && k < 24); }),
+               10.0);
+    expect_two_whole_discs(tracks);
+    EXPECT_EQ(tracks.mended.renamed, 1u);
+    EXPECT_EQ(tracks.mended.filled, 4u);
+}
+
+TEST(MendedTracks, WhatIsLostForLongerComesAsAnotherDisc) {
+    const Tracks tracks =
+        mended(two_discs([](int k, int d) { return d == 0   ? 3
+                                                   : k < 20 ? 8
+                                                            : 11; },
+                         [](int k, int d) { return int(d == 1 && k >= 20 && k < 26); }),
+               10.0);
+    EXPECT_EQ(tracks.mended.renamed, 0u);
+    EXPECT_EQ(tracks.frames[22].id, (std::vector<std::int64_t>{3}));
+    EXPECT_EQ(tracks.frames[30].id, (std::vector<std::int64_t>{3, 11}));
+    EXPECT_EQ(series_of(tracks, {}).breaks, (std::vector<std::uint64_t>{20, 26}));
+}
+
+TEST(MendedTracks, APositionFarFromAllOthersOfItsDiscHasNoVelocityAndIsLeftOut) {
+    const Tracks tracks = mended(
+        "frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n9,0,9,0\n16,0,16,0\n17,0,17,0\n", 10.0);
+    EXPECT_EQ(tracks.mended.dropped, 1u);
+    ASSERT_EQ(tracks.frames.size(), 5u);
+    EXPECT_EQ(tracks.frames[3].number, 16);
+}
+
+TEST(MendedTracks, WhatTellsMoreThanPositionsIsLeftAsItIs) {
+    Tracks tracks = tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,1,0\n3,0,3,0\n4,0,3,0\n");
+    for (TrackFrame& frame : tracks.frames) frame.mass = {1.0};
+    mend(tracks, 10.0);
+    EXPECT_EQ(tracks.frames.size(), 4u);
+}
+
+TEST(MendedTracks, AFlashInASingleFrameIsNoDisc) {
+    const Tracks tracks =
+        mended(two_discs([](int, int d) { return d == 0 ? 3 : 8; }, [](int, int) { return 0; }) +
+                   "12,99,300,0\n",
+               10.0);
+    expect_two_whole_discs(tracks);
+    EXPECT_EQ(tracks.mended.dropped, 1u);
+}
+
+TEST(MendedTracks, WhereDiscsMoveFarFromFrameToFrameTheNamesAreBelieved) {
+    std::string text = "frame,particle,x,y\n";
+    for (int k = 0; k < 40; ++k)
+        text += std::to_string(k) + ",3," + std::to_string(15 * k) + ",0\n";
+    const Tracks tracks = mended(text, 10.0);
+    EXPECT_EQ(tracks.frames.size(), 40u);
+    EXPECT_TRUE(series_of(tracks, {}).same_discs());
 }
 
 TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
@@ -139,8 +243,70 @@ TEST(TrackScale, TheContainerIsWhereTheSwirlPutsIt) {
     EXPECT_EQ(s.container_radius, 8.5);
     EXPECT_NEAR(s.container_centre.x, -3.0, 1e-14);
     EXPECT_NEAR(s.container_centre.y, 0.0, 1e-14);
-    EXPECT_NEAR(s.container_velocity.x, 0.0, 1e-13);
-    EXPECT_NEAR(s.container_velocity.y, -3.0 * 2.0 * pi, 1e-13);
+    // Its speed is the unit of speed.
+    EXPECT_NEAR(s.container_velocity.x, 0.0, 1e-14);
+    EXPECT_NEAR(s.container_velocity.y, -1.0, 1e-14);
+    EXPECT_NEAR(s.period, 6.0 * pi, 1e-14);
+    EXPECT_NEAR(s.clock, s.period / 4.0, 1e-14);
+}
+
+// Upright or in a mirror: --phase is what one reads off the picture.
+TEST(TrackScale, ThePhaseIsThatOfThePictureAlsoWhereTheSwirlRanClockwise) {
+    TrackScale scale;
+    scale.amplitude = 3.0;
+    scale.container_radius = 8.5;
+    scale.pixels_per_radius = 10.0;
+    for (const bool clockwise : {false, true})
+        for (const double degrees : {0.0, 70.0, 200.0}) {
+            scale.clockwise = clockwise;
+            scale.phase = degrees * pi / 180.0;
+            // A disc in the middle of the dish, in pixels with y down.
+            const Snapshot s =
+                seen(30.0 * std::cos(scale.phase), -30.0 * std::sin(scale.phase), scale);
+            EXPECT_NEAR(s.position(0).x, s.container_centre.x, 1e-6);  // six digits in the text
+            EXPECT_NEAR(s.position(0).y, s.container_centre.y, 1e-6);
+        }
+}
+
+// A disc that rides with the container has its velocity, whatever the camera's unit of time.
+TEST(TrackScale, VelocitiesAreInUnitsOfTheContainers) {
+    for (const double fps : {1.0, 960.0}) {
+        TrackScale scale;
+        scale.frames_per_time = fps;
+        scale.period = 400.0 / fps;  // 400 frames
+        scale.amplitude = 2.0;
+        scale.pixels_per_radius = 1e5;
+        std::string text = "frame,particle,x,y\n";
+        for (int k = 0; k < 3; ++k)
+            text += std::to_string(k) + ",0," + std::to_string(2e5 * std::cos(k * pi / 200.0)) +
+                    "," + std::to_string(-2e5 * std::sin(k * pi / 200.0)) + "\n";
+        const Snapshot s = series_of(tracks_in(text), scale).frame(1);
+        EXPECT_NEAR(std::hypot(s.vx[0], s.vy[0]), 1.0, 1e-4);  // (ΩΔt)²/6 = 4e-5
+        EXPECT_NEAR(s.vx[0], s.container_velocity.x, 1e-4);
+        EXPECT_NEAR(s.vy[0], s.container_velocity.y, 1e-4);
+    }
+}
+
+TEST(TrackScale, VelocitiesAndSpinsOfADumpAreTranslatedToo) {
+    TrackScale scale;
+    scale.period = pi;  // Ω = 2
+    scale.amplitude = 4.0;
+    scale.pixels_per_radius = 10.0;  // so the container moves at 80 of the dump's units
+    const Snapshot s =
+        series_of(dump_in("ITEM: TIMESTEP\n4\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff pp\n"
+                          "-1 1\n-1 1\n-1 1\nITEM: ATOMS id x y vx vy omegaz\n1 0 0 80 -40 6\n"),
+                  scale)
+            .frame(0);
+    EXPECT_NEAR(s.vx[0], 1.0, 1e-14);
+    EXPECT_NEAR(s.vy[0], -0.5, 1e-14);
+    EXPECT_NEAR(s.spin[0] * s.period / (2.0 * pi), 3.0, 1e-13);  // three times Ω
+}
+
+TEST(TrackScale, NoVelocityIsTakenAcrossALongGap) {
+    TrackScale scale;
+    const auto series = series_of(
+        tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n50,0,80,0\n51,0,81,0\n"), scale);
+    for (const std::uint64_t k : {2u, 3u}) EXPECT_NEAR(series.frame(k).vx[0], 960.0, 1e-9);
 }
 
 TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
@@ -150,7 +316,7 @@ TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
     const auto series = series_of(
         tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,10,-20\n2,0,40,-20\n2,1,5,5\n"), scale);
     ASSERT_EQ(series.frames, 3u);
-    EXPECT_FALSE(series.same_discs);
+    EXPECT_FALSE(series.same_discs());
     EXPECT_EQ(series.frame(0).vx[0], 2.0);
     EXPECT_EQ(series.frame(0).vy[0], 4.0);  // up
     EXPECT_EQ(series.frame(1).vx[0], 4.0);

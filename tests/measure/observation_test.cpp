@@ -129,6 +129,34 @@ TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {
     EXPECT_TRUE(std::isnan(packing.rows[1].estimate.mean));
 }
 
+// Twelve discs, of which one is another from the middle on: what the tracks say is that of two
+// shorter recordings.
+TEST(Observation, OtherDiscsBeginNewTracks) {
+    const auto moving = [](double time, double begin) {
+        Snapshot s = empty_dish();
+        for (int i = 0; i < 12; ++i)
+            add_disc(s, s.container_centre + 6.0 * unit_circle(begin + i / 12.0 - time), {});
+        s.clock = time * s.period;
+        s.held_at.assign(s.size(), s.clock);
+        return s;
+    };
+    for (const bool told : {true, false}) {
+        Observation observation = observation_of({"pinned", "diffusion"});
+        for (int k = 0; k < 60; ++k) {
+            if (k == 30 && told) observation.begin_tracks();
+            observation.sample(moving(k / 511.0, k < 30 ? 0.0 : 0.31));
+        }
+        observation.close_block();
+        const auto reports = observation.report();
+        const ReportTable& diffusion = report_of(reports, "diffusion").tables.front();
+        // Nobody has moved by more than 2π · 6 · 28/511 = 2.1.
+        double longest = 0.0;
+        for (std::size_t r = 0; r < diffusion.rows(); ++r)
+            longest = std::max(longest, diffusion.at(r, 1));
+        EXPECT_EQ(longest < 2.1 * 2.1, told) << longest;
+    }
+}
+
 TEST(SampleTimes, AreEquallySpacedAndTheEndOfAPeriodBelongsToTheNext) {
     const ContainerPath path = polygon_path(1.0, 2.0, 6);
     SampleTimes times(4, 2.0);

@@ -132,7 +132,14 @@ TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
     pinning.sample(frame_of(21, 1, circle));
     pinning.sample(frame_of(25, 1, circle));  // frames missing
     EXPECT_EQ(pinning.breaks(), 2.0);
-    pinning.sample(frame_of(26, 3, circle));  // other discs
+    for (int k = 26; k < 50; ++k) pinning.sample(frame_of(k, 1, circle));
+    EXPECT_TRUE(pinning.knows());
+    pinning.begin_anew();  // one disc again, but another
+    pinning.sample(frame_of(50, 1, circle));
+    EXPECT_EQ(pinning.breaks(), 3.0);
+    EXPECT_FALSE(pinning.knows());
+    EXPECT_EQ(pinning.pinned().at(0), 0);
+    pinning.sample(frame_of(51, 3, circle));  // other discs
     EXPECT_EQ(pinning.pinned().size(), 3u);
     pinning.sample(empty_dish());
     EXPECT_TRUE(pinning.pinned().empty());

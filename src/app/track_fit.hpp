@@ -1,0 +1,32 @@
+// Whether a camera's tracks and what was said of the dish belong together (measure/dish_fit.hpp).
+#pragma once
+
+#include <string>
+
+#include "swirl/files/series.hpp"
+#include "swirl/files/tracks.hpp"
+
+namespace swirl {
+
+/// Of a few hundred frames spread over the series: the shares of frames that say so.
+struct TrackFit {
+    double outside = 0.0;      // a disc sticks out of the dish by more than a fifth of its radius
+    double overlapping = 0.0;  // two discs lie in each other by more than 15 %
+    bool pairs_known = false;  // there are enough discs for two to touch at all times
+    bool never_at_wall = false, never_touching = false;  // in nine frames of ten, of many
+    double wall_gap = 0.0;                               // radii, of the frames the median
+    double closest_pair = 1.0;                // in sums of radii, of the frames the median
+    double phase = 0.0, fitting_phase = 0.0;  // of the picture, degrees
+    bool phase_fits = true;                   // hardly better with the fitting one
+    std::string advice;                       // of the phase, where it does not fit
+};
+
+/// What does not quite fit, a line each.
+std::string fit_text(const TrackFit& fit);
+
+TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale);
+
+/// Throws Failure where more than this share of the frames contradicts what was said.
+void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share);
+
+}  // namespace swirl
