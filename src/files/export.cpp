@@ -42,9 +42,11 @@ std::vector<int> species_of(const Snapshot& s, int& count) {
 
 template <class Write>
 void write_frames(const SnapshotSeries& series, const ExportOptions& options, Write&& write) {
-    for (std::uint64_t k = 0; k < series.frames; ++k) {
+    const std::uint64_t count = exported_frames(series, options);
+    for (std::uint64_t n = 0; n < count; ++n) {
+        const std::uint64_t k = options.first + n * options.stride;
         write(k, series.frame(k));
-        if (options.done) options.done(k);
+        if (options.done) options.done(n + 1);
     }
 }
 
@@ -92,6 +94,33 @@ void write_csv(const SnapshotSeries& series, WholeFile& file, const ExportOption
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{}\n", k, i, (series.reach + p.x) * options.pixels_per_radius,
                 (series.reach - p.y) * options.pixels_per_radius);
+        }
+        file.append(view(text));
+    });
+}
+
+/// What is not known is an empty cell.
+void add_known(Text& text, double value) {
+    if (std::isnan(value))
+        add(text, ",");
+    else
+        add(text, ",{}", value);
+}
+
+void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    file.append(
+        "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
+        "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)\n");
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        Text text;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec2 p = s.position(i);
+            add(text, "{},{},{},{},{},{},{},{}", k, s.time(), double(s.swirls) + s.clock / s.period,
+                s.container_centre.x, s.container_centre.y, i, p.x, p.y);
+            for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
+                                       s.mass[i], s.inertia[i]})
+                add_known(text, value);
+            add(text, "\n");
         }
         file.append(view(text));
     });
@@ -298,12 +327,12 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         const std::size_t n = s.size();
         gsd.add("configuration/step", gsd_u64, std::vector<std::uint64_t>{k}, 1);
-        if (k == 0) {
+        if (k == options.first) {
             gsd.add("configuration/dimensions", gsd_u8, std::vector<std::uint8_t>{2}, 1);
             gsd.add("configuration/box", gsd_f32, std::vector<float>{width, width, 1, 0, 0, 0}, 1);
         }
         gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(n)}, 1);
-        if (k == 0 || !series.same_discs()) {
+        if (k == options.first || !series.same_discs()) {
             int kinds;
             const std::vector<int> species = species_of(s, kinds);
             std::vector<char> types;
@@ -341,37 +370,42 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
     gsd.finish();
 }
 
-}  // namespace
-
-std::optional<ExportFormat> export_format(std::string_view name) {
-    if (name == "lammps") return ExportFormat::lammps;
-    if (name == "xyz") return ExportFormat::xyz;
-    if (name == "vtp") return ExportFormat::vtp;
-    if (name == "csv") return ExportFormat::csv;
-    if (name == "gsd") return ExportFormat::gsd;
-    return {};
-}
-
-void export_series(const SnapshotSeries& series, ExportFormat format,
-                   const std::filesystem::path& path, const ExportOptions& options) {
-    if (format == ExportFormat::vtp) return write_vtp(series, path, options);
+template <auto write>
+void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
+                const ExportOptions& options) {
     WholeFile file(path);
-    switch (format) {
-        case ExportFormat::lammps:
-            write_lammps(series, file, options);
-            break;
-        case ExportFormat::xyz:
-            write_xyz(series, file, options);
-            break;
-        case ExportFormat::csv:
-            write_csv(series, file, options);
-            break;
-        default:
-            write_gsd(series, file, options);
-            break;
-    }
+    write(series, file, options);
     file.finish();
     remove_leftovers(path.parent_path(), path.filename().string());
+}
+
+constexpr std::array formats{
+    ExportFormat{"lammps", ".dump", "text dump, for OVITO, VMD", whole_file<write_lammps>},
+    ExportFormat{"xyz", ".xyz", "extended, for OVITO, ASE", whole_file<write_xyz>},
+    ExportFormat{"vtp", ".pvd", "ParaView, VTK", write_vtp},
+    ExportFormat{"csv", ".csv", "trackpy, in pixels", whole_file<write_csv>},
+    ExportFormat{"table", ".csv", "CSV of everything, in units of a run", whole_file<write_table>},
+    ExportFormat{"gsd", ".gsd", "HOOMD", whole_file<write_gsd>},
+};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return formats; }
+
+const ExportFormat* export_format(std::string_view name) {
+    for (const ExportFormat& format : formats)
+        if (format.name == name) return &format;
+    return nullptr;
+}
+
+std::uint64_t exported_frames(const SnapshotSeries& series, const ExportOptions& options) {
+    const std::uint64_t end = options.last < series.frames ? options.last + 1 : series.frames;
+    return options.first < end ? (end - options.first - 1) / options.stride + 1 : 0;
+}
+
+void export_series(const SnapshotSeries& series, const ExportFormat& format,
+                   const std::filesystem::path& path, const ExportOptions& options) {
+    format.write(series, path, options);
 }
 
 }  // namespace swirl

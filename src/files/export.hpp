@@ -8,31 +8,52 @@
 //   vtp     NAME.pvd, and one NAME/NNNNNN.vtp per frame (ParaView, VTK): points with velocity,
 //           angle, spin, radius, mass, id; uncompressed base64 with 64-bit headers
 //   csv     as trackpy writes: frame,particle,x,y in pixels, y downwards, origin top left
+//   table   CSV for pandas, R or a spreadsheet, everything in our units, which the header names: a
+//   line
+//           for each disc and frame, with time, the container's centre and whatever a frame tells
 //   gsd     HOOMD's GSD 2.0 (float32): position, orientation, velocity, mass, diameter; the spin
 //           under log/particles/angular_velocity, the time under log/time, both float64
+//
+// Where some of the frames are left out, those that are there keep their numbers and times.
+//
+// A new format is a function that writes it and a row of the list, both in export.cpp; the command
+// line has name, ending and description from there.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <limits>
+#include <span>
 #include <string_view>
 
 #include "swirl/files/series.hpp"
 
 namespace swirl {
 
-enum class ExportFormat : std::uint8_t { lammps, xyz, vtp, csv, gsd };
-
-/// Nothing if there is no such format.
-std::optional<ExportFormat> export_format(std::string_view name);
-
 struct ExportOptions {
-    double pixels_per_radius = 20.0;          // csv only
-    std::function<void(std::uint64_t)> done;  // called after each frame; may throw to stop
+    double pixels_per_radius = 20.0;  // csv only
+    /// From the first to the last, every stride-th.
+    std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max(), stride = 1;
+    /// Called after each frame with how many there are so far; may throw to stop.
+    std::function<void(std::uint64_t)> done = {};
 };
 
+struct ExportFormat {
+    const char* name;
+    const char* ending;
+    const char* description;
+    void (*write)(const SnapshotSeries&, const std::filesystem::path&, const ExportOptions&);
+};
+
+std::span<const ExportFormat> export_formats();
+/// Null if there is no such format.
+const ExportFormat* export_format(std::string_view name);
+
+/// How many of the frames are written.
+std::uint64_t exported_frames(const SnapshotSeries& series, const ExportOptions& options);
+
 /// Throws FileError; then nothing new stands under the final name.
-void export_series(const SnapshotSeries& series, ExportFormat format,
+void export_series(const SnapshotSeries& series, const ExportFormat& format,
                    const std::filesystem::path& path, const ExportOptions& options = {});
 
 }  // namespace swirl

@@ -209,6 +209,23 @@ def read_csv():
         same(frame["y"], (REACH - y) * 20.0, "y in pixels, downwards")
 
 
+def read_table():
+    need("pandas")
+    import pandas
+    table = pandas.read_csv(FILE, float_precision="round_trip")
+    assert len(table) == DISCS * FRAMES
+    for k, frame in table.groupby("frame"):
+        x, y, vx, vy, angle, spin = expected(k)
+        same(frame["disc"], np.arange(DISCS), "disc")
+        same(frame["time (r/v)"], np.full(DISCS, time(k)), "time")
+        same(frame["container x (r)"], np.full(DISCS, 0.1 * k), "container")
+        for name, values in {"x (r)": x, "y (r)": y, "v_x (v)": vx, "v_y (v)": vy,
+                             "angle (rad)": angle, "spin (v/r)": spin, "radius (r)": SIZES,
+                             "mass (m)": MASSES,
+                             "moment of inertia (m r²)": 10.0 + np.arange(DISCS)}.items():
+            same(frame[name], values, name)
+
+
 def read_gsd():
     need("gsd.hoomd")
     import gsd.hoomd

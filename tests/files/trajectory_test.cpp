@@ -1,6 +1,8 @@
 #include "swirl/files/trajectory.hpp"
 
 #include <csignal>
+#include <limits>
+#include <numeric>
 
 #include "files/scratch.hpp"
 #include "swirl/files/export.hpp"
@@ -270,6 +272,69 @@ TEST(Export, GsdLoadsInGsd) {
     const Scratch scratch;
     EXPECT_READER_AGREES("gsd", exported(scratch, "gsd", "out.gsd"), discs, frames);
 }
+TEST(Export, TableInOurUnitsLoadsInPandas) {
+    const Scratch scratch;
+    EXPECT_READER_AGREES("table", exported(scratch, "table", "out.csv"), discs, frames);
+}
+
+/// The numbers of the frames in a file in which each line begins with one.
+std::vector<int> frames_in(const std::string& text) {
+    std::vector<int> found;
+    for (std::size_t line = text.find('\n') + 1; line < text.size();
+         line = text.find('\n', line) + 1) {
+        const int frame = std::stoi(text.substr(line));
+        if (found.empty() || found.back() != frame) found.push_back(frame);
+    }
+    return found;
+}
+
+TEST(Export, FramesLeftOutLeaveTheOthersTheirNumbers) {
+    const Scratch scratch;
+    const SnapshotSeries series =
+        series_of(std::make_shared<TrajectoryReader>(known_trajectory(scratch)));
+    ASSERT_EQ(series.frames, std::uint64_t(frames));
+    const auto chosen = [&](std::uint64_t first, std::uint64_t last, std::uint64_t stride) {
+        ExportOptions options;
+        options.first = first;
+        options.last = last;
+        options.stride = stride;
+        std::uint64_t told = 0;
+        options.done = [&](std::uint64_t done) { told = done; };
+        export_series(series, *export_format("table"), scratch / "t.csv", options);
+        EXPECT_EQ(told, exported_frames(series, options));
+        return frames_in(read_whole_file(scratch / "t.csv"));
+    };
+    std::vector<int> all(frames);
+    std::iota(all.begin(), all.end(), 0);
+    constexpr auto end = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(chosen(0, end, 1), all);
+    EXPECT_EQ(chosen(1, 6, 2), (std::vector<int>{1, 3, 5}));
+    EXPECT_EQ(chosen(1, 5, 2), (std::vector<int>{1, 3, 5}));
+    EXPECT_EQ(chosen(3, 3, 7), (std::vector<int>{3}));
+    EXPECT_EQ(chosen(frames - 1, end, 1), (std::vector<int>{int(frames) - 1}));
+    EXPECT_EQ(chosen(frames, end, 1), std::vector<int>{});
+}
+
+// The first frame that is written holds what does not change, whichever it is.
+TEST(Export, EveryFormatMayBeginLater) {
+    const Scratch scratch;
+    const SnapshotSeries series =
+        series_of(std::make_shared<TrajectoryReader>(known_trajectory(scratch)));
+    for (const ExportFormat& format : export_formats()) {
+        ExportOptions options;
+        options.first = 2;
+        const auto path = scratch / (std::string("late") + format.name + format.ending);
+        export_series(series, format, path, options);
+        EXPECT_GT(std::filesystem::file_size(path), 100u) << format.name;
+    }
+    const auto ran = run_command("/usr/bin/python3 -c \"import gsd.hoomd as g; f = g.open('" +
+                                 (scratch / "lategsd.gsd").string() +
+                                 "', 'rb')[0]; print(f.configuration.step, f.particles.mass[1], "
+                                 "f.particles.types)\"");
+    if (ran.output.find("ModuleNotFound") != std::string::npos) GTEST_SKIP() << ran.output;
+    EXPECT_EQ(ran.output, "2 1.0 ['D1', 'D2']\n");
+}
+
 TEST(Export, KnowsItsFormats) { EXPECT_FALSE(export_format("netcdf")); }
 
 }  // namespace
