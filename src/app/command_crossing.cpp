@@ -3,6 +3,7 @@
 
 #include "swirl/app/command_line.hpp"
 #include "swirl/app/commands.hpp"
+#include "swirl/app/config_file.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/run_options.hpp"
@@ -13,10 +14,13 @@
 namespace swirl {
 namespace {
 
+/// A run of a search is shorter than one that is made for its own sake.
+const ParameterTexts defaults{{"events", "2e5"}};
+
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
-    std::string json;
+    std::string config_file, json;
     bool quiet = false;
 };
 
@@ -31,7 +35,7 @@ std::string table_text(const CrossingSearch& search) {
 
 void find(CrossingCall& call) {
     const bool json_to_stdout = call.json == "-";
-    call.settings.config = resolve(*call.parameters);
+    call.settings.config = resolve(overridden(defaults, *call.parameters));
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
 
     CrossingSearch search;
@@ -69,7 +73,11 @@ void find(CrossingCall& call) {
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
-    call->parameters = add_run_options(subcommand, {"discs", "periods"}, {{"events", "2e5"}});
+    subcommand
+        .add_option("config", call->config_file,
+                    "a TOML file with the names of the options; options given here override it")
+        ->type_name("FILE.toml");
+    call->parameters = add_run_options(subcommand, {"discs", "periods"}, defaults);
     subcommand
         .add_option("--tolerance", call->settings.tolerance, "wanted standard error of N_c [0.3]")
         ->type_name("NUMBER");
@@ -81,7 +89,12 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0 --from 20 --json -"});
-    subcommand.callback([call] { find(*call); });
+    subcommand.callback([call, &subcommand] {
+        if (!call->config_file.empty())
+            take_config_file(subcommand, call->config_file, *call->parameters, Lists::refused,
+                             "crossing");
+        find(*call);
+    });
 }
 
 const Command crossing_command(15, "crossing",

@@ -133,7 +133,10 @@ void add_movie_command(Subcommand& subcommand) {
          "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
          "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
          "dish.mp4"});
-    subcommand.callback([call] { make_and_report(*call); });
+    subcommand.callback([call, &subcommand] {
+        take_film_config(subcommand, *call->footage, "movie", {{"seconds", "swirls"}});
+        make_and_report(*call);
+    });
 }
 
 const Command movie_command(60, "movie", "A movie of the dish, in the lab frame or the M-frame.",

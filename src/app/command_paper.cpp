@@ -3,6 +3,7 @@
 
 #include "swirl/app/command_line.hpp"
 #include "swirl/app/commands.hpp"
+#include "swirl/app/config_file.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 struct PaperCall {
     PaperSettings settings;
-    std::string out = "out", events, seed;
+    std::string config_file, out = "out", events, seed;
     std::vector<std::string> figures;
     bool quiet = false, movies = false;
 };
@@ -117,6 +118,10 @@ std::string figure_list() {
 void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();
     subcommand
+        .add_option("config", call->config_file,
+                    "a TOML file with the names of the options; options given here override it")
+        ->type_name("FILE.toml");
+    subcommand
         .add_option("--figure", call->figures, "which ones [all]; may be given several times")
         ->type_name("NAME");
     subcommand.add_flag("--quick", call->settings.quick,
@@ -134,7 +139,16 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
     subcommand.explain(figure_list() + "\n");
-    subcommand.callback([call] { make_paper(*call); });
+    subcommand.callback([call, &subcommand] {
+        ParameterTexts parameters;
+        if (!call->config_file.empty())
+            take_config_file(subcommand, call->config_file, parameters, Lists::refused, "paper");
+        for (const auto& [name, into] :
+             {std::pair("events", &call->events), std::pair("seed", &call->seed)})
+            if (const auto found = parameters.find(name); found != parameters.end())
+                if (into->empty()) *into = found->second;
+        make_paper(*call);
+    });
 }
 
 const Command paper_command(20, "paper",

@@ -67,7 +67,10 @@ void add_picture_command(Subcommand& subcommand) {
         {"swirl picture --discs 48 --frame m --color pinned --theme light --out 48.pdf",
          "swirl picture --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
          "swirl picture run.h5 --at 12.5 --trails --out instant.svg"});
-    subcommand.callback([call] { draw_and_report(*call); });
+    subcommand.callback([call, &subcommand] {
+        take_film_config(subcommand, *call->footage, "picture");
+        draw_and_report(*call);
+    });
 }
 
 const Command picture_command(61, "picture", "A picture of the dish at one instant.",

@@ -55,7 +55,8 @@ std::string take_config_file(const RunCall& call,
                              const std::map<std::string, std::string*>& others) {
     const std::string& file = call.recording->config_file;
     if (file.empty()) return "";
-    std::vector<std::string> names = recording_option_names();
+    std::vector<std::string> names = parameter_names();
+    for (const std::string& name : recording_option_names()) names.push_back(name);
     for (const auto& [name, text] : others) names.push_back(name);
     const ConfigFile from_file = read_config_file(file, names, Lists::refused, "run");
     *call.parameters = overridden(from_file.parameters, *call.parameters);

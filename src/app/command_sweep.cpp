@@ -41,7 +41,7 @@ std::int64_t whole(const char* name, const std::string& text, std::int64_t other
 void take_config_file(SweepCall& call) {
     const std::map<std::string, std::string*> others{
         {"seeds", &call.seeds}, {"measure", &call.measure}, {"frames", &call.frames}};
-    std::vector<std::string> names;
+    std::vector<std::string> names = parameter_names();
     for (const auto& [name, target] : others) names.push_back(name);
     const ConfigFile plan = read_config_file(call.config_file, names, Lists::taken, "sweep");
     *call.parameters = overridden(plan.parameters, *call.parameters);

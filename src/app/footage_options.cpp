@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "swirl/app/config_file.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/draw/film.hpp"
 #include "swirl/draw/label.hpp"
@@ -79,7 +80,8 @@ std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand) {
         .add_option(
             "FILE", texts->file,
             "instead of a new run: a recorded trajectory (.h5), a camera's tracks (table of "
-            "trackpy, CSV), or a LAMMPS text dump")
+            "trackpy, CSV), or a LAMMPS text dump; or a TOML file with the names of the options, "
+            "which may name one of those as file; options given here override it")
         ->group(group);
     subcommand
         .add_option("--beside", texts->beside,
@@ -111,6 +113,16 @@ std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand) {
         ->group(camera);
     texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
     return texts;
+}
+
+void take_film_config(Subcommand& subcommand, FootageTexts& texts, const std::string& command,
+                      const std::vector<std::vector<std::string>>& instead) {
+    if (!is_config_file(texts.file)) return;
+    const std::string config = std::exchange(texts.file, "");
+    // What was given is the configuration; a recording may still be named in it.
+    for (Option& option : subcommand.options())
+        if (option.name == "FILE") option.is_given = false;
+    take_config_file(subcommand, config, *texts.parameters, Lists::refused, command, instead);
 }
 
 std::vector<Footage> footage(const FootageTexts& texts) {

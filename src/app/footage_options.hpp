@@ -17,7 +17,7 @@ namespace swirl {
 
 struct FootageTexts {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string file;
+    std::string file;  // a recording; of a call also a configuration
     TrackTexts camera;
     std::string pictures;  // of the camera
     std::int64_t first_picture = 0;
@@ -27,6 +27,11 @@ struct FootageTexts {
 };
 
 std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand);
+
+/// Where FILE is a configuration (.toml), takes what it says of the options that were not given;
+/// it may name a recording as `file`.
+void take_film_config(Subcommand& subcommand, FootageTexts& texts, const std::string& command,
+                      const std::vector<std::vector<std::string>>& instead = {});
 
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<Footage> footage(const FootageTexts& texts);

@@ -25,6 +25,7 @@ struct Option {
     std::string value_form = {};  // what stands after it: "FILE"
     std::string help_group = {};
     bool is_required = false;
+    bool is_given = false;  // in the call that was parsed
 
     Option* type_name(std::string form) {
         value_form = std::move(form);
@@ -64,6 +65,7 @@ class Subcommand {
     void callback(std::function<void()> action) { action_ = std::move(action); }
 
     const std::deque<Option>& options() const { return options_; }
+    std::deque<Option>& options() { return options_; }
     std::string footer() const;
     void act() const { action_(); }
 

@@ -112,6 +112,11 @@ void add_to(CLI::App& app, const Subcommand& subcommand) {
     app.footer(subcommand.footer());
 }
 
+void note_given(const CLI::App& app, Subcommand& subcommand) {
+    for (Option& option : subcommand.options())
+        option.is_given = app.get_option(option.name)->count() > 0;
+}
+
 /// The names of options have hyphens; with underscores, as in files, they are understood too. The
 /// parser wants the words back to front.
 std::vector<std::string> words_of(int argc, char** argv) {
@@ -157,6 +162,8 @@ Call parse(int argc, char** argv) {
         throw WrongCall(in_words(app, error));
     }
     Call call{.act = {}, .text = {}, .usage = app.help()};
+    for (auto& [added, subcommand] : *subcommands)
+        if (added->parsed()) note_given(*added, subcommand);
     for (const auto& [added, subcommand] : *subcommands)
         if (added->parsed()) call.act = [subcommands, chosen = &subcommand] { chosen->act(); };
     return call;

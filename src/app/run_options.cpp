@@ -9,7 +9,7 @@ namespace swirl {
 std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
                                                 const std::vector<std::string>& without,
                                                 const ParameterTexts& defaults) {
-    auto texts = std::make_shared<ParameterTexts>(defaults);
+    auto texts = std::make_shared<ParameterTexts>();
     for (const Parameter& p : run_parameters) {
         if (!p.can_be_given()) continue;
         if (std::find(without.begin(), without.end(), p.name) != without.end()) continue;

@@ -10,8 +10,9 @@
 namespace swirl {
 
 /// Adds one option for every one of run_parameters but those named in `without`. After parsing,
-/// what was given stands in the texts returned; resolve() makes the configuration of it. What was
-/// not given has the default of its row, or the one in `defaults`.
+/// what was given stands in the texts returned; resolve() makes the configuration of it. Where
+/// `defaults` has another default than the row, help says so; the caller overrides them
+/// (overridden) with what was given.
 std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
                                                 const std::vector<std::string>& without = {},
                                                 const ParameterTexts& defaults = {});

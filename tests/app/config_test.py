@@ -1,0 +1,115 @@
+"""Configuration files in place of options: what stands there counts as if it were given, and what is
+given by hand wins. Every command that makes something of a dish reads one."""
+
+import json
+import os
+import unittest
+
+from program import InFolder, result_of, swirl
+
+
+class ConfigFiles(InFolder):
+    def config(self, *lines):
+        with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
+            opened.write("\n".join(lines) + "\n")
+        return self.path("a.toml")
+
+    def good(self, *arguments):
+        done = swirl(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def refused(self, *arguments):
+        done = swirl(*arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def bytes_of(self, name):
+        with open(self.path(name), "rb") as opened:
+            return opened.read()
+
+    def test_a_picture(self):
+        options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
+                   "--trail-length", 0.5, "--at", 2]
+        self.good("picture", *options, "--out", self.path("hand.png"))
+        file = self.config("discs = 12", "mu_wall = 0.25", 'frame = "m"', "angles = true",
+                           'size = "320x240"', "trail_length = 0.5", "at = 2", "strobe = 1",
+                           f'out = "{self.path("file.png")}"')
+        said = self.good("picture", file).stdout
+        self.assertIn("320x240", said)
+        self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
+        # By hand wins, also over an option that means the same in other words.
+        self.good("picture", file, "--discs", 5, "--mu", 1, "--at", 3, "--out", self.path("x.png"))
+        self.good("picture", *options[4:-2], "--at", 3, "--discs", 5, "--mu", 1, "--out",
+                  self.path("y.png"))
+        self.assertEqual(self.bytes_of("x.png"), self.bytes_of("y.png"))
+
+    def test_a_picture_of_a_recording_that_the_file_names(self):
+        self.good("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory",
+                  self.path("t.h5"), "--quiet")
+        file = self.config(f'file = "{self.path("t.h5")}"', 'size = "200x200"')
+        self.good("picture", file, "--at", 1, "--out", self.path("file.png"))
+        self.good("picture", self.path("t.h5"), "--size", "200x200", "--at", 1, "--out",
+                  self.path("hand.png"))
+        self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
+
+    def test_a_movie(self):
+        file = self.config("discs = 8", 'size = "160x120"', "fps = 10", "seconds = 2", "start = 1",
+                           "pace = 1", "plot = true")
+        self.good("movie", file, "--frames", self.path("a"))
+        self.assertEqual(len(os.listdir(self.path("a"))), 20)
+        # --swirls replaces the file's seconds.
+        self.good("movie", file, "--swirls", 0.5, "--frames", self.path("b"))
+        self.assertEqual(len(os.listdir(self.path("b"))), 5)
+
+    def test_a_crossing(self):
+        file = self.config("mu = 1", "events = 2000", "from = 30", "to = 44", "tolerance = 3",
+                           "seed = 7", f'json = "{self.path("file.json")}"')
+        self.good("crossing", file, "--quiet")
+        self.good("crossing", "--mu", 1, "--events", 2000, "--from", 30, "--to", 44, "--tolerance", 3,
+                  "--seed", 7, "--json", self.path("hand.json"), "--quiet")
+        found = []
+        for name in ("file.json", "hand.json"):
+            result = json.loads(self.bytes_of(name))
+            for of_the_call in ("command", "seconds", "events_per_second"):
+                result.pop(of_the_call, None)
+            found.append(result)
+        self.assertEqual(found[0], found[1])
+
+    def test_the_paper(self):
+        file = self.config('figure = ["1c"]', "quick = true", "events = 3000", "seed = 3",
+                           f'out = "{self.path("out")}"')
+        self.good("paper", file, "--quiet")
+        self.assertTrue(any(name.startswith("figure_1c") for name in os.listdir(self.path("out"))))
+
+    def test_what_to_measure_may_be_a_list(self):
+        lists = self.config("discs = 5", "events = 2000", 'measure = ["slip", "radial"]')
+        found = result_of(lists)
+        text = self.config("discs = 5", "events = 2000", 'measure = "slip,radial"')
+        self.assertEqual(list(found["measured"]), ["slip", "radial"])
+        self.assertEqual(result_of(text)["measured"], found["measured"])
+        self.good("sweep", lists, "--out", self.path("s"), "--quiet")
+        self.assertIn("discs is a list", self.refused("run", self.config("discs = [5, 6]")))
+
+    def test_what_has_no_place_in_a_file_is_refused_with_the_line(self):
+        out = ["--out", self.path("x.png")]
+        for command, line, words in (
+                ("picture", "events = 100", "there is no option 'events'"),
+                ("picture", "sieze = '20x20'", "did you mean 'size'?"),
+                ("picture", "angles = 3", "angles is '3', but it must be true or false"),
+                ("picture", "strobe = 1.5", "strobe is '1.5', but it must be a whole number"),
+                ("picture", "at = 'soon'", "at is 'soon', but it must be a number"),
+                ("movie", "fps = 9999999999", "whole number"),
+                ("movie", "discs = [5, 6]", "list"),
+                ("crossing", "discs = 40", "there is no option 'discs'"),
+                ("crossing", "config = 'b.toml'", "there is no option 'config'"),
+                ("paper", "mu = 1", "there is no option 'mu'")):
+            with self.subTest(line):
+                self.assertIn(words, self.refused(command, self.config(line),
+                                                  *(out if command == "picture" else [])))
+        self.assertEqual(self.left_behind(), ["a.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main()
