@@ -61,6 +61,16 @@ void find(CrossingCall& call) {
             "{} of the runs that this rests on had not reached a steady state after the warm-up; a "
             "longer --warmup, or --warmup auto, would be right.\n",
             search.drifting);
+    if (search.too_short > 0)
+        text += fmt::format(
+            "{} of the runs that this rests on were too short to tell whether they are steady.\n",
+            search.too_short);
+    if (search.disagreeing > 0)
+        text += fmt::format(
+            "At {} of the numbers of discs that this rests on the seeds scatter more than the "
+            "errors "
+            "within their runs can explain; the errors are those between them.\n",
+            search.disagreeing);
     const std::string json = crossing_json(call.settings, search, command_line());
     if (json_to_stdout) {
         print_all(json);

@@ -196,6 +196,21 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.callback([call] { sweep(*call); });
 }
 
+/// What a reader of the table must know of its errors.
+std::string remarks_on(const CollectedSweep& collected) {
+    std::string text;
+    if (collected.disagreeing > 0)
+        text += fmt::format(
+            "In {} of {} rows the replicas scatter more than the errors of their own blocks can "
+            "explain (column scatter, in units of those); the errors are those between them.\n",
+            collected.disagreeing, collected.rows);
+    if (collected.not_steady > 0)
+        text += fmt::format(
+            "In {} of {} rows a run was not shown to be steady (column steady_state).\n",
+            collected.not_steady, collected.rows);
+    return text;
+}
+
 void add_collect_command(Subcommand& subcommand) {
     struct Collect {
         std::string folder, table;
@@ -212,16 +227,20 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl collect study", "swirl collect study --csv -"});
     subcommand.callback([call] {
         const SweepPlan plan = read_plan(call->folder);
-        const Table table = collect_sweep(call->folder, plan);
+        const CollectedSweep collected = collect_sweep(call->folder, plan);
         const SweepStatus s = sweep_status(call->folder, plan);
         const std::string file =
             call->table.empty() ? (fs::path(call->folder) / "table.csv").string() : call->table;
         if (s.done < s.points)
             fmt::print(stderr, "swirl: {} of {} runs are not done yet; the table holds the rest.\n",
                        s.points - s.done, s.points);
-        if (file == "-") return print_all(table.csv());
-        write_output(file, table.csv());
-        print_all(fmt::format("{} of {} runs in {}\n", s.done, s.points, file));
+        const std::string remarks = remarks_on(collected);
+        if (file == "-") {
+            fmt::print(stderr, "{}", remarks);
+            return print_all(collected.table.csv());
+        }
+        write_output(file, collected.table.csv());
+        print_all(fmt::format("{} of {} runs in {}\n{}", s.done, s.points, file, remarks));
     });
 }
 

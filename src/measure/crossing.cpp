@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "swirl/measure/several_runs.hpp"
+
 namespace swirl {
 namespace {
 
@@ -69,7 +71,10 @@ Line fit(std::span<const RotationPoint> points) {
         chi_square += off * off;
     }
     if (points.size() > 2) {
-        const double scale = std::max(1.0, chi_square / static_cast<double>(points.size() - 2));
+        const double freedom = static_cast<double>(points.size() - 2);
+        const double student = student_95(freedom) / z;
+        const double scattered = chi_square / freedom * student * student;
+        const double scale = chi_square > freedom ? scattered : 1.0;
         line.height_variance *= scale;
         line.slope_variance *= scale;
     }

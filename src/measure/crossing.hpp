@@ -5,7 +5,8 @@
 // for where it fits the signs best: the cut k that leaves the largest Σ_{left} m/e² − Σ_{right}
 // m/e². Through the points nearest to it (`window` on either side) goes the straight line a + b (N
 // − N̄) of weighted least squares; if they scatter about it more than their errors say (χ² per
-// degree of freedom > 1), the errors are scaled up by its root. N_c is the line's zero, and its
+// degree of freedom > 1), the errors are scaled up by its root, and by Student's t for the points
+// less two, since that root is uncertain itself. N_c is the line's zero, and its
 // interval is that of Fieller (1954, doi:10.1111/j.2517-6161.1954.tb00159.x): every N at which the
 // line is compatible with zero,
 //

@@ -177,12 +177,16 @@ Json measured_json(const MeasurementReports& reports) {
     return measured;
 }
 
-std::vector<std::pair<std::string, Estimate>> measured_numbers(const Json& measured) {
-    std::vector<std::pair<std::string, Estimate>> numbers;
+// Directions are what says how well its angles agree (circular_mean.hpp).
+bool is_direction(const Json& row) { return row.is_object() && row.contains("concentration"); }
+
+std::vector<MeasuredNumber> measured_numbers(const Json& measured) {
+    std::vector<MeasuredNumber> numbers;
     for (const auto& [name, result] : measured.items()) {
         if (is_table(result)) continue;
         for (const auto& [quantity, value] : result.items())
-            if (!is_table(value)) numbers.emplace_back(name + "." + quantity, estimate_in(value));
+            if (!is_table(value))
+                numbers.push_back({name + "." + quantity, estimate_in(value), is_direction(value)});
     }
     return numbers;
 }

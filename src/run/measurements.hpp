@@ -46,9 +46,17 @@ MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>
 
 /// Name of the measurement: its rows, then its tables; or its table, if that has no name.
 nlohmann::ordered_json measured_json(const MeasurementReports& reports);
-/// "slip.cluster" and its value, for every row in such JSON.
-std::vector<std::pair<std::string, Estimate>> measured_numbers(
-    const nlohmann::ordered_json& measured);
+
+/// "slip.cluster" and its value.
+struct MeasuredNumber {
+    std::string name;
+    Estimate estimate;
+    bool direction = false;  // an angle in degrees: 350 and 10 make 0
+};
+/// Every row in such JSON.
+std::vector<MeasuredNumber> measured_numbers(const nlohmann::ordered_json& measured);
+/// Is this the JSON of a row that is a direction?
+bool is_direction(const nlohmann::ordered_json& row);
 
 /// One line for every row and every table.
 std::string measured_text(const MeasurementReports& reports);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "swirl/measure/several_runs.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
@@ -28,27 +29,31 @@ class Search {
         : settings_(settings), control_(control) {}
 
     CrossingSearch operator()() {
-        look_at(coarse_numbers(), settings_.config.events, "coarse look");
+        look_at(coarse_numbers(), settings_.config.events, settings_.seeds, "coarse look");
         narrow();
-        for (int round = 0; round < settings_.rounds && !good_enough(); ++round)
-            look_at(window(), settings_.config.events << round, "more events");
+        for (int round = 0; round < settings_.rounds && !good_enough(); ++round) {
+            look_at(window(), settings_.config.events << round, 1, "more events");
+            narrow();  // the crossing may turn out to lie elsewhere
+        }
         CrossingSearch search;
         search.points = points();
-        for (const auto& [n, sum] : sums_) search.runs_made.push_back(sum.runs);
+        for (const auto& [n, runs] : runs_at_)
+            search.runs_made.push_back(std::int64_t(runs.size()));
         search.crossing = find_crossing(search.points);
         search.events = events_;
         search.runs = runs_;
-        for (const std::int64_t n : changes_sign() ? window() : all_numbers())
-            search.drifting += sums_.at(n).drifting;
+        for (const std::int64_t n : changes_sign() ? window() : all_numbers()) count(n, search);
         search.within_tolerance = good_enough();
         search.seconds = seconds();
         return search;
     }
 
   private:
-    struct Sum {
-        double mean = 0.0, square_error = 0.0, weight = 0.0;
-        std::int64_t runs = 0, drifting = 0;
+    /// What is kept of a run.
+    struct Made {
+        Estimate rotation;
+        double swirls;  // after the warm-up
+        SteadyState::Verdict verdict;
     };
 
     std::set<std::int64_t> coarse_numbers() const {
@@ -61,16 +66,36 @@ class Search {
 
     std::set<std::int64_t> all_numbers() const {
         std::set<std::int64_t> numbers;
-        for (const auto& [n, sum] : sums_) numbers.insert(n);
+        for (const auto& [n, runs] : runs_at_) numbers.insert(n);
         return numbers;
     }
 
     std::vector<RotationPoint> points() const {
         std::vector<RotationPoint> all;
-        for (const auto& [n, sum] : sums_)
-            all.push_back({static_cast<double>(n), sum.mean / sum.weight,
-                           std::sqrt(sum.square_error) / sum.weight});
+        for (const auto& [n, runs] : runs_at_) {
+            const Estimate e = together(runs).estimate;
+            all.push_back({static_cast<double>(n), e.mean, e.error});
+        }
         return all;
+    }
+
+    static SeveralRuns together(const std::vector<Made>& runs) {
+        std::vector<Estimate> estimates;
+        std::vector<double> swirls;
+        for (const Made& run : runs) {
+            estimates.push_back(run.rotation);
+            swirls.push_back(run.swirls);
+        }
+        return several_runs(estimates, swirls);
+    }
+
+    void count(std::int64_t n, CrossingSearch& search) const {
+        const std::vector<Made>& runs = runs_at_.at(n);
+        for (const Made& run : runs) {
+            search.drifting += run.verdict == SteadyState::Verdict::drifting ? 1 : 0;
+            search.too_short += run.verdict == SteadyState::Verdict::too_short ? 1 : 0;
+        }
+        search.disagreeing += together(runs).disagree ? 1 : 0;
     }
 
     /// The neighbours between which the sign changes, as well as one can tell: the last of the cut
@@ -102,17 +127,21 @@ class Search {
         return positive && negative;
     }
 
+    /// Until the neighbours of the crossing, and all of its window, have been looked at. What is
+    /// found on the way may move it.
     void narrow() {
         while (changes_sign()) {
             const auto [left, right] = bracket();
-            if (right - left <= 1) break;
-            look_at({(left + right) / 2}, settings_.config.events, "narrowing");
+            std::set<std::int64_t> missing;
+            if (right - left > 1) {
+                missing.insert((left + right) / 2);
+            } else {
+                for (const std::int64_t n : window())
+                    if (!runs_at_.contains(n)) missing.insert(n);
+            }
+            if (missing.empty()) return;
+            look_at(missing, settings_.config.events, settings_.seeds, "narrowing");
         }
-        if (!changes_sign()) return;
-        std::set<std::int64_t> missing;
-        for (const std::int64_t n : window())
-            if (!sums_.contains(n)) missing.insert(n);
-        look_at(missing, settings_.config.events, "narrowing");
     }
 
     /// Where more events help: about the crossing; without one, where the sign is least certain.
@@ -146,41 +175,54 @@ class Search {
         return true;
     }
 
-    void look_at(const std::set<std::int64_t>& numbers, std::int64_t events, const char* stage) {
-        const std::vector<std::int64_t> order(numbers.rbegin(), numbers.rend());  // long ones first
-        std::vector<RunResult> results(order.size());
+    /// `seeds` new runs at each of these numbers.
+    void look_at(const std::set<std::int64_t>& numbers, std::int64_t events, int seeds,
+                 const char* stage) {
+        struct Place {
+            std::int64_t discs;
+            std::uint64_t seed;
+        };
+        std::vector<Place> places;
+        for (auto n = numbers.rbegin(); n != numbers.rend(); ++n)  // long ones first
+            for (int s = 0; s < seeds; ++s)
+                places.push_back({*n, settings_.config.seed + runs_at_[*n].size() +
+                                          static_cast<std::uint64_t>(s)});
+        std::vector<RunResult> results(places.size());
         on_all_cores(
-            order.size(),
+            places.size(),
             [&](std::size_t k) {
                 RunConfig config = settings_.config;
-                config.discs = order[k];
+                config.discs = places[k].discs;
                 config.events = events;
-                config.seed += static_cast<std::uint64_t>(runs_at(order[k]));
-                RunControl inner;
-                inner.stop = control_.stop;
-                results[k] = run(config, inner);
-                if (!results[k].complete)
-                    throw Interrupted("Stopped before the crossing was found.");
-                report(stage, results[k].events.total());
+                config.seed = places[k].seed;
+                results[k] = long_enough(config, stage);
             },
             control_.threads);
-        for (std::size_t k = 0; k < order.size(); ++k) {
+        for (std::size_t k = 0; k < places.size(); ++k) {
             const RunResult& r = results[k];
-            const double weight = r.periods - static_cast<double>(r.warmup);
-            Sum& sum = sums_[order[k]];
-            sum.mean += weight * r.rotation.by_time.mean;
-            sum.square_error += std::pow(weight * r.rotation.by_time.error, 2);
-            sum.weight += weight;
-            ++sum.runs;
+            runs_at_[places[k].discs].push_back(
+                {r.rotation.by_time, r.periods - static_cast<double>(r.warmup), r.steady_state()});
             ++runs_;
-            sum.drifting += r.steady_state() == SteadyState::Verdict::drifting ? 1 : 0;
         }
     }
 
-    std::int64_t runs_at(std::int64_t n) const {
-        const auto found = sums_.find(n);
-        return found == sums_.end() ? 0 : found->second.runs;
+    /// A run of so many events, and as many swirls as it takes at least.
+    RunResult long_enough(RunConfig config, const char* stage) {
+        RunControl inner;
+        inner.stop = control_.stop;
+        config.periods = config.warmup.value_or(default_warmup) + settings_.least_swirls;
+        RunResult result = run(config, inner);
+        const bool short_of_events =
+            result.events.total() < static_cast<std::uint64_t>(config.events);
+        if (result.complete && short_of_events) {
+            config.periods.reset();
+            result = run(config, inner);
+        }
+        if (!result.complete) throw Interrupted("Stopped before the crossing was found.");
+        report(stage, result.events.total());
+        return result;
     }
+
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     }
@@ -193,7 +235,7 @@ class Search {
     const CrossingSettings& settings_;
     const CrossingControl& control_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::map<std::int64_t, Sum> sums_;
+    std::map<std::int64_t, std::vector<Made>> runs_at_;
     std::mutex mutex_;
     std::uint64_t events_ = 0, runs_ = 0;
 };
@@ -231,6 +273,8 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
             {"points", points},
             {"runs", s.runs},
             {"runs_that_drift", s.drifting},
+            {"runs_too_short_to_tell", s.too_short},
+            {"numbers_whose_seeds_disagree", s.disagreeing},
             {"events", s.events},
             {"seconds", s.seconds},
             {"config", config_json(settings.config)},

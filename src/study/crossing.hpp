@@ -1,14 +1,17 @@
 // Finding N_c, the number of discs at which rotation turns into counterrotation, with as few events
 // as it takes: `swirl crossing`.
 //
-// 1. A coarse look: runs at about eight numbers of discs over the range.
+// 1. A coarse look: a few runs, with seeds of their own, at about eight numbers of discs over the
+//    range. A run is as long as the events asked for, and covers a hundred swirls after its warm-up
+//    at least: what a few swirls say of a dense dish is not its mean.
 // 2. Between the neighbours where the sign changes, runs in the middle, until they are next to each
 //    other; then the three numbers on either side, which is what the line of measure/crossing.hpp
 //    is drawn through.
 // 3. As long as N_c is less certain than asked for, one more run at each of those numbers, with a
 //    new seed and twice as many events as the last one.
 //
-// Runs at one number of discs are put together with the periods they cover as weights. Which runs
+// Runs at one number of discs are put together with the periods they cover as weights, their error
+// is the one within and between them (measure/several_runs.hpp). Which runs
 // are made depends on their results and the seed alone, never on how many cores there are.
 #pragma once
 
@@ -26,8 +29,10 @@ struct CrossingSettings {
     RunConfig
         config;  // its number of discs does not matter; its events are those of the first runs
     std::int64_t from = 5, to = 48;
-    double tolerance = 0.3;  // wanted standard error of N_c
-    int rounds = 6;          // of step 3, at most
+    double tolerance = 0.3;           // wanted standard error of N_c
+    int rounds = 6;                   // of step 3, at most
+    int seeds = 3;                    // of a first look at a number of discs
+    std::int64_t least_swirls = 100;  // after the warm-up, of every run
 };
 
 struct CrossingSearch {
@@ -36,8 +41,11 @@ struct CrossingSearch {
     std::vector<std::int64_t> runs_made;  // at each of them
     std::uint64_t events = 0, runs = 0;
     /// Of the runs that the crossing rests on (of all, if there is none): how many had not reached
-    /// a steady state after their warm-up.
-    std::int64_t drifting = 0;
+    /// a steady state after their warm-up, and how many were too short to tell.
+    std::int64_t drifting = 0, too_short = 0;
+    /// Of the numbers of discs that it rests on: where the seeds scatter more than the errors
+    /// within the runs can explain.
+    std::int64_t disagreeing = 0;
     bool within_tolerance = false;
     double seconds = 0.0;
 };

@@ -18,6 +18,7 @@
 #include "swirl/files/result_writer.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/math/random.hpp"
+#include "swirl/measure/several_runs.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -302,16 +303,16 @@ constexpr const char* estimators[] = {"by_event", "by_time", "rigid_by_event", "
 struct PointResult {
     bool there = false;
     /// The four estimators of the rotation, then the numbers that were measured.
-    std::vector<std::pair<std::string, Estimate>> quantities;
+    std::vector<MeasuredNumber> quantities;
     double energy = 0.0, periods = 0.0;
-    std::string state_hash;
+    std::string state_hash, steadiness;
 
     /// The quantity of this name; nearly always it is the one in this place.
     Estimate quantity(std::size_t place, const std::string& name) const {
-        if (place < quantities.size() && quantities[place].first == name)
-            return quantities[place].second;
-        for (const auto& [other, estimate] : quantities)
-            if (other == name) return estimate;
+        if (place < quantities.size() && quantities[place].name == name)
+            return quantities[place].estimate;
+        for (const MeasuredNumber& other : quantities)
+            if (other.name == name) return other.estimate;
         return {.mean = not_known, .error = not_known};
     }
 };
@@ -319,11 +320,11 @@ struct PointResult {
 /// Keeps what a table needs of a result; building the rest would take most of the time.
 bool needed(int depth, Json::parse_event_t event, Json& parsed) {
     if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
-    static constexpr std::string_view parts[] = {"format",   "version",    "point",   "replica",
-                                                 "config",   "state_hash", "periods", "energy",
-                                                 "rotation", "measured"};
+    static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
+                                                 "config",   "state_hash", "periods",     "energy",
+                                                 "rotation", "measured",   "steady_state"};
     const auto& key = parsed.get_ref<const std::string&>();
-    if (depth == 3) return key != "effective_samples" && key != "blocks";  // of a rotation
+    if (depth == 3) return key != "blocks";  // of a rotation
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
@@ -361,8 +362,10 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         refuse_result_of_another_point(file, json, plan, point);
         for (const char* name : estimators) {
             const Json& found = json.at("rotation").at(name);
-            result.quantities.emplace_back(name, Estimate{.mean = number(found.at("mean")),
-                                                          .error = number(found.at("error"))});
+            result.quantities.push_back(
+                {name, Estimate{.mean = number(found.at("mean")),
+                                .error = number(found.at("error")),
+                                .effective_samples = number(found.at("effective_samples"))}});
         }
         if (const auto measured = json.find("measured"); measured != json.end())
             for (auto& quantity : measured_numbers(*measured))
@@ -370,6 +373,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
         result.state_hash = json.at("state_hash").get<std::string>();
+        result.steadiness = json.at("steady_state").at("verdict").get<std::string>();
     } catch (const nlohmann::json::exception&) {
         throw FileError(
             fmt::format("'{}' lacks a part of a result, or holds a text where a number belongs; "
@@ -407,14 +411,12 @@ Table::Cell cell_of(const std::string& text) {
     return text;
 }
 
-/// Mean and standard error over replicas; a single one has the error from its blocks.
-Estimate over_replicas(const std::vector<Estimate>& found) {
-    if (found.size() == 1) return found.front();
-    const auto n = static_cast<double>(found.size());
-    double mean = 0.0, squares = 0.0;
-    for (const Estimate& e : found) mean += e.mean / n;
-    for (const Estimate& e : found) squares += (e.mean - mean) * (e.mean - mean);
-    return {.mean = mean, .error = std::sqrt(squares / (n * (n - 1.0)))};
+/// Of all replicas together: steady if all are, drifting if any is.
+std::string steadiness_of(const std::vector<const PointResult*>& replicas) {
+    for (const char* verdict : {"drifting", "too short to tell"})
+        for (const PointResult* r : replicas)
+            if (r->steadiness == verdict) return verdict;
+    return replicas.front()->steadiness;
 }
 
 }  // namespace
@@ -558,7 +560,7 @@ SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const Swee
     return SweepWork(folder, plan, share, control)();
 }
 
-Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
+CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<bool> done = present(folder / "results", ".json", plan.points());
     std::vector<PointResult> results(plan.points());
     constexpr std::size_t batch = 256;
@@ -568,19 +570,23 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     });
 
     std::vector<std::string> columns, quantities(std::begin(estimators), std::end(estimators));
+    std::vector<bool> is_direction;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
-    columns.insert(columns.end(), {"replicas", "periods", "energy"});
+    columns.insert(columns.end(), {"replicas", "periods", "energy", "steady_state", "scatter"});
     if (const auto some = std::find_if(results.begin(), results.end(),
                                        [](const PointResult& r) { return r.there; });
-        some != results.end())
+        some != results.end()) {
+        for (const MeasuredNumber& quantity : some->quantities)
+            is_direction.push_back(quantity.direction);
         for (std::size_t k = quantities.size(); k < some->quantities.size(); ++k)
-            quantities.push_back(some->quantities[k].first);
+            quantities.push_back(some->quantities[k].name);
+    }
     for (const std::string& name : quantities) {
         columns.push_back(name);
         columns.push_back(name + "_error");
     }
     columns.push_back("state_hash");
-    Table table(columns);
+    CollectedSweep collected{Table(columns)};
 
     const auto replicas = static_cast<std::size_t>(plan.replicas);
     for (std::size_t first = 0; first < results.size(); first += replicas) {
@@ -602,17 +608,26 @@ Table collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         row.emplace_back(std::int64_t(there.size()));
         row.emplace_back(periods);
         row.emplace_back(energy);
+        row.emplace_back(steadiness_of(there));
+        collected.not_steady += steadiness_of(there) == "steady" ? 0 : 1;
+        const std::size_t place_of_scatter = row.size();
+        row.emplace_back(not_known);
         for (std::size_t k = 0; k < quantities.size(); ++k) {
             std::vector<Estimate> found;
             for (const PointResult* r : there) found.push_back(r->quantity(k, quantities[k]));
-            const Estimate together = over_replicas(found);
-            row.emplace_back(together.mean);
-            row.emplace_back(together.error);
+            const SeveralRuns together =
+                is_direction[k] ? several_directions(found) : several_runs(found);
+            row.emplace_back(together.estimate.mean);
+            row.emplace_back(together.estimate.error);
+            if (quantities[k] != "by_time") continue;
+            row[place_of_scatter] = together.scatter;
+            collected.disagreeing += together.disagree ? 1 : 0;
         }
         row.emplace_back(there.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes)));
-        table.add(std::move(row));
+        collected.table.add(std::move(row));
+        ++collected.rows;
     }
-    return table;
+    return collected;
 }
 
 }  // namespace swirl

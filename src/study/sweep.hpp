@@ -90,10 +90,18 @@ struct SweepControl {
 SweepOutcome run_sweep(const std::filesystem::path& folder, const SweepPlan& plan,
                        const SweepShare& share, const SweepControl& control);
 
+struct CollectedSweep {
+    Table table;
+    std::size_t rows = 0;
+    std::size_t disagreeing = 0;  // whose replicas scatter more than their own errors can explain
+    std::size_t not_steady = 0;   // with a replica that drifts or is too short to tell
+};
+
 /// One row for each combination of parameters: mean over the replicas that are done, and its
-/// standard error (over the replicas; for a single one, from its blocks), of the rotation and of
-/// every number that was measured. The same bytes whoever did the work. Throws FileError for a
+/// standard error within and between them (measure/several_runs.hpp), of the rotation and of every
+/// number that was measured; whether all are steady; and the scatter of the replicas' rotation by
+/// time in units of their own errors. The same bytes whoever did the work. Throws FileError for a
 /// result that is damaged or of another version.
-Table collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
+CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
 }  // namespace swirl

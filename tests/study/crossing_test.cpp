@@ -16,6 +16,8 @@ CrossingSettings short_search(double mu) {
     settings.from = 24;
     settings.rounds = 1;
     settings.tolerance = 5.0;
+    settings.seeds = 2;
+    settings.least_swirls = 50;
     return settings;
 }
 
@@ -57,6 +59,34 @@ TEST(CrossingSearch, ItsJsonCallsTheNumberOfDiscsNc) {
     EXPECT_THAT(json, HasSubstr("\"N_c\": 36.5"));
     EXPECT_THAT(json, HasSubstr("\"N_c_error\": 0.25"));
     EXPECT_THAT(json, HasSubstr("\"command\": \"swirl crossing\""));
+}
+
+// A run of 20,000 events is over after six swirls at N = 48.
+TEST(CrossingSearch, EveryRunCoversTheSwirlsThatAreAskedFor) {
+    CrossingSettings settings = short_search(1.0);
+    settings.from = 46;
+    settings.rounds = 0;
+    const CrossingSearch search = search_crossing(settings);
+    EXPECT_EQ(search.too_short, 0);
+    EXPECT_EQ(search.runs, 6u);  // two seeds at each of 46, 47, 48
+    EXPECT_GT(search.events, 6u * 50u * 2000u);
+    for (const std::int64_t runs : search.runs_made) EXPECT_EQ(runs, 2);
+}
+
+// The sign is certain nowhere in the window of a crossing that later runs move: numbers of discs
+// that had not been looked at were asked for, and the search died of it.
+TEST(CrossingSearchSlow, ACrossingThatMovesIsFollowed) {
+    CrossingSettings settings = short_search(1.0);
+    settings.config.amplitude = 3.0;
+    settings.config.events = 20'000;
+    settings.from = 10;
+    settings.to = 54;
+    settings.tolerance = 0.1;
+    settings.rounds = 3;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        settings.config.seed = seed;
+        EXPECT_NO_THROW(search_crossing(settings)) << "seed " << seed;
+    }
 }
 
 TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
