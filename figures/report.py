@@ -13,9 +13,10 @@ import sys
 
 import claims
 
-ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNTESTABLE, claims.MISSING]
-MARK = {claims.HOLDS: "✓", claims.IN_PART: "◐", claims.FAILS: "✗", claims.UNTESTABLE: "–",
-        claims.MISSING: "?"}
+ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNDECIDED, claims.UNTESTABLE,
+         claims.MISSING]
+MARK = {claims.HOLDS: "✓", claims.IN_PART: "◐", claims.FAILS: "✗", claims.UNDECIDED: "±",
+        claims.UNTESTABLE: "–", claims.MISSING: "?"}
 
 CONTRADICTIONS = [
     ("Amplitude of the path", "The main text says A = 0.96, the SI 1.892 with A/R = 0.22.",
@@ -122,8 +123,8 @@ def judge(folder):
 def counts(judged):
     """"19 hold, 6 hold in part, 1 does not hold." """
     many = {claims.HOLDS: "hold", claims.IN_PART: "hold in part", claims.FAILS: "do not hold",
-            claims.UNTESTABLE: "are not testable by simulation", claims.MISSING: "were not made"}
-    one = {claims.UNTESTABLE: "is not testable by simulation", claims.MISSING: "was not made"}
+            claims.UNDECIDED: "are undecided", claims.UNTESTABLE: "are not testable by simulation", claims.MISSING: "were not made"}
+    one = {claims.UNDECIDED: "is undecided", claims.UNTESTABLE: "is not testable by simulation", claims.MISSING: "was not made"}
     found = [verdict for _, verdict, _ in judged]
     words = []
     for v in ORDER:
@@ -135,7 +136,8 @@ def counts(judged):
 
 def in_short(judged):
     """What disagrees, first of all: (what, [(says, found)])."""
-    groups = ((claims.FAILS, "Does not hold"), (claims.IN_PART, "Holds in part"))
+    groups = ((claims.FAILS, "Does not hold"), (claims.IN_PART, "Holds in part"),
+              (claims.UNDECIDED, "Undecided"))
     result = []
     for kind, heading in groups:
         here = [(claim.says, found) for claim, verdict, found in judged if verdict == kind]
@@ -169,9 +171,10 @@ def intro(about):
     return ("Each claim of L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, "
             "“Geometric frustration induces the transition between rotation and counterrotation in "
             "swirled granular media” (Phys. Rev. E 100, 012903, 2019), beside what an exact "
-            "event-driven simulation finds. Errors are standard errors from blocks of whole "
-            "periods; verdicts are computed from the tables by figures/claims.py, where every "
-            "threshold stands. ± is one standard error; “certain” means three. "
+            "event-driven simulation finds. ± is one standard error, between seeds and "
+            "within runs, whichever is larger; three of them decide. What they do not decide is "
+            "undecided. Verdicts are computed from the tables by the rules of figures/verdicts.py; "
+            "every other number that a verdict depends on has a name in figures/claims.py. "
             + quick_sentence(about)).strip()
 
 

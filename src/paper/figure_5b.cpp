@@ -64,7 +64,7 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
     const std::vector<Point> points = points_of_5b(settings);
-    for (const Point& p : points) plan.tasks.push_back(point(settings, p.friction, p.discs));
+    for (const Point& p : points) plan.points.push_back(point(settings, p.friction, p.discs));
     plan.finish = [points](const std::vector<Json>& results, const std::filesystem::path& out) {
         return finish("5b", points, results, out);
     };
@@ -76,7 +76,11 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
 FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
-    const std::vector<Point> points = points_of_5b(settings);
+    std::vector<Point> points;
+    for (const Friction& friction : frictions_of_5b)
+        for (const std::int64_t n :
+             settings.quick ? sparse_numbers(settings) : numbers_of_discs(settings))
+            points.push_back({friction, n});
     for (const Point& p : points) {
         RunConfig config = paper_config(settings, p.friction, p.discs);
         config.warmup = settings.swirls(settings.quick ? 150 : 300, 2);
@@ -84,8 +88,9 @@ FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
                                                         expected_events_per_swirl(config));
         const std::int64_t least = settings.quick ? 50 : 200;
         config.periods = *config.warmup + settings.swirls(std::max(least, measured), 3);
-        plan.tasks.push_back(
-            varied_point(fmt::format("steady_{}_N{}_{}of{}periods", p.friction.name, p.discs,
+        plan.points.push_back(
+            varied_point(settings,
+                         fmt::format("steady_{}_N{}_{}of{}periods", p.friction.name, p.discs,
                                      *config.warmup, *config.periods),
                          config));
     }

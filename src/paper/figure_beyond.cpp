@@ -25,11 +25,6 @@ struct Curve {
     std::function<void(RunConfig&)> change;
 };
 
-std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings) {
-    if (settings.quick) return {8, 20, 28, 36, 42, 48};
-    return {5, 8, 12, 16, 20, 24, 26, 28, 30, 32, 34, 36, 38, 40, 42, 44, 46, 48};
-}
-
 /// Half the events of the paper: many curves, and the error is small enough.
 std::int64_t events_of_a_curve(const PaperSettings& settings) {
     return settings.events.value_or(settings.quick ? 100'000 : 500'000);
@@ -50,8 +45,9 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
             config.events = events_of_a_curve(settings);
             curves[c].change(config);
             points.push_back({c, n});
-            plan.tasks.push_back(varied_point(
-                fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events), config));
+            plan.points.push_back(varied_point(
+                settings, fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events),
+                config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"curve", parameter, "discs"}, rotation_columns()));
@@ -176,10 +172,10 @@ FigurePlan plan_figure_transient(const PaperSettings& settings) {
             config.periods = swirls;
             config.warmup = 0;
             config.seed += static_cast<std::uint64_t>(s);
-            plan.tasks.push_back(
-                {fmt::format("transient_N{}_{}swirls_seed{}", n, swirls, config.seed),
-                 expected_events_per_swirl(config) * static_cast<double>(swirls),
-                 [config](const RunControl& control) { return transient(config, control); }});
+            plan.points.push_back(PaperTask{
+                fmt::format("transient_N{}_{}swirls_seed{}", n, swirls, config.seed),
+                expected_events_per_swirl(config) * static_cast<double>(swirls),
+                [config](const RunControl& control) { return transient(config, control); }});
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"discs", "swirl", "varpi", "varpi_error", "spin", "spin_error", "events"});
@@ -233,24 +229,24 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
         search.from = 20;
         search.tolerance = settings.quick ? 0.5 : 0.2;
         search.rounds = settings.quick ? 1 : 4;
-        plan.tasks.push_back(
-            {fmt::format("crossing_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
-             40.0 * static_cast<double>(search.config.events), [search](const RunControl& control) {
-                 CrossingControl inner;
-                 inner.stop = control.stop;
-                 inner.threads = 1;
-                 const CrossingSearch found = search_crossing(search, inner);
-                 const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
-                 return Json{{"crosses", crosses},
-                             {"drifting", found.drifting},
-                             {"discs", found.crossing.discs},
-                             {"error", found.crossing.error},
-                             {"lower", found.crossing.lower},
-                             {"upper", found.crossing.upper},
-                             {"events", found.events},
-                             {"runs", found.runs},
-                             {"report", crossing_report(search, found)}};
-             }});
+        plan.points.push_back(PaperTask{
+            fmt::format("crossing_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
+            40.0 * static_cast<double>(search.config.events), [search](const RunControl& control) {
+                CrossingControl inner;
+                inner.stop = control.stop;
+                inner.threads = 1;
+                const CrossingSearch found = search_crossing(search, inner);
+                const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
+                return Json{{"crosses", crosses},
+                            {"drifting", found.drifting},
+                            {"discs", found.crossing.discs},
+                            {"error", found.crossing.error},
+                            {"lower", found.crossing.lower},
+                            {"upper", found.crossing.upper},
+                            {"events", found.events},
+                            {"runs", found.runs},
+                            {"report", crossing_report(search, found)}};
+            }});
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
@@ -318,8 +314,8 @@ FigurePlan plan_figure_polygon(const PaperSettings& settings) {
                 config.sides = m;
             else
                 config.path = PathShape::circle;
-            plan.tasks.push_back(varied_point(
-                fmt::format("polygon_M{}_N{}_{}periods", m, n, *config.periods), config));
+            plan.points.push_back(varied_point(
+                settings, fmt::format("polygon_M{}_N{}_{}periods", m, n, *config.periods), config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"sides", "discs"}, rotation_columns()));
@@ -388,10 +384,10 @@ FigurePlan plan_figure_energy(const PaperSettings& settings) {
             config.sides = m;
         else
             config.path = PathShape::circle;
-        plan.tasks.push_back(
-            {fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
-             3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
-             [config](const RunControl& control) { return energy_series(config, control); }});
+        plan.points.push_back(PaperTask{
+            fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
+            3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
+            [config](const RunControl& control) { return energy_series(config, control); }});
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"sides", "discs", "swirl", "energy", "invariant"});
@@ -455,9 +451,11 @@ FigurePlan plan_figure_map(const PaperSettings& settings) {
             config.warmup = settings.swirls(settings.quick ? 30 : 100, 2);
             config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 4);
             points.emplace_back(mu_disc, mu_wall);
-            plan.tasks.push_back(varied_point(fmt::format("map_d{}_w{}_{}of{}periods", mu_disc,
-                                                          mu_wall, *config.warmup, *config.periods),
-                                              config));
+            plan.points.push_back(
+                varied_point(settings,
+                             fmt::format("map_d{}_w{}_{}of{}periods", mu_disc, mu_wall,
+                                         *config.warmup, *config.periods),
+                             config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"mu_disc", "mu_wall", "discs"}, rotation_columns()));

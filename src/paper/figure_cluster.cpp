@@ -59,7 +59,7 @@ FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name
     plan.script = "figure_" + name + ".py";
     const std::vector<Point> points = points_of(settings, frictions);
     for (const Point& p : points)
-        plan.tasks.push_back(measured_point(settings, p.friction, p.discs));
+        plan.points.push_back(measured_point(settings, p.friction, p.discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(
             joined(joined({"setting", "mu_disc", "mu_wall", "discs"}, number_columns(names)),
@@ -178,7 +178,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
     plan.script = "figure_" + name + ".py";
     const std::vector<std::int64_t> numbers = numbers_of_the_experiment(settings);
     for (const std::int64_t n : numbers)
-        plan.tasks.push_back(measured_point(settings, high_friction, n));
+        plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         const std::vector<std::string> columns{"theta",           "visits", "varpi_m",
                                                "varpi_m_error",   "wall",   "normalised",
@@ -186,7 +186,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
         const std::vector<std::string> angles{"becoming_pinned", "becoming_free",
                                               "becoming_pinned_by_collisions",
                                               "becoming_free_by_collisions", "share"};
-        std::vector<std::string> heads = joined({"discs", "steady_state"}, columns);
+        std::vector<std::string> heads = joined({"discs", "point", "steady_state"}, columns);
         for (const std::string& angle : angles)
             heads = joined(std::move(heads), {angle, angle + "_error"});
         Table table(heads);
@@ -195,7 +195,8 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
             if (failed(results[k])) continue;
             const Json& measured = results[k]["measured"];
             for (std::size_t r = 0; r < measured["profile"]["theta"].size(); ++r) {
-                std::vector<Table::Cell> row{numbers[k], steadiness(results[k])};
+                std::vector<Table::Cell> row{numbers[k], name_of_point(results[k]),
+                                             steadiness(results[k])};
                 for (const std::string& column : columns)
                     row.emplace_back(number(measured["profile"][column][r]));
                 for (const std::string& angle : angles) {

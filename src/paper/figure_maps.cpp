@@ -13,8 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::int64_t rotating = 28, counterrotating = 48;
-
 /// One table for several N: the number, then these columns of the measurement.
 FigureOutcome write_maps(const std::string& name, const std::string& measurement,
                          const std::vector<std::string>& columns,
@@ -63,7 +61,7 @@ FigureOutcome write_both(const std::string& name, std::int64_t discs, const Json
 FigurePlan plan_both(const PaperSettings& settings, const std::string& name, std::int64_t discs) {
     FigurePlan plan;
     plan.script = "figure_2b.py";
-    plan.tasks = {measured_point(settings, high_friction, discs)};
+    plan.points = {measured_point(settings, high_friction, discs)};
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         return write_both(name, discs, results.front(), out);
     };
@@ -76,7 +74,7 @@ FigurePlan plan_maps(const PaperSettings& settings, const std::string& name,
     plan.script = "figure_" + name + ".py";
     const std::vector<std::int64_t> numbers{rotating, counterrotating};
     for (const std::int64_t n : numbers)
-        plan.tasks.push_back(measured_point(settings, high_friction, n));
+        plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         return write_maps(name, measurement, columns, numbers, results, out);
     };

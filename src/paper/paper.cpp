@@ -14,6 +14,7 @@
 #include "swirl/paper/parts.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/paper/python_script.hpp"
+#include "swirl/paper/several_seeds.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -138,7 +139,8 @@ struct Work {
 
     Work(const std::vector<FigurePlan>& plans, const PaperParts& parts) {
         for (const FigurePlan& plan : plans)
-            for (const PaperTask& task : plan.tasks) tasks.emplace(task.key, task);
+            for (const PaperPoint& point : plan.points)
+                for (const PaperTask& task : point.runs) tasks.emplace(task.key, task);
         for (const auto& [key, task] : tasks) {
             if (auto known = parts.recall(key))
                 results[key] = std::move(*known);
@@ -170,35 +172,52 @@ Json result_of(const PaperTask& task, const PaperControl& control, const PaperPa
     }
 }
 
-/// What a reader must know of the runs of a figure: which of them failed, how many drift.
-std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results) {
+/// What a reader must know of the runs of a figure: which of them failed, how many drift, where
+/// seeds disagree.
+std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results,
+                                    const std::map<std::string, Json>& runs) {
     std::vector<std::string> remarks;
-    std::size_t drifting = 0, too_short = 0, judged = 0;
+    std::int64_t drifting = 0, too_short = 0, in_warmup = 0, judged = 0, disagreeing = 0;
     for (std::size_t k = 0; k < results.size(); ++k) {
-        if (failed(results[k]))
-            remarks.push_back(fmt::format("The run '{}' failed, and its place is empty: {}",
-                                          plan.tasks[k].key,
-                                          results[k]["failed"].get<std::string>()));
-        const Json& verdict = at(results[k], {"steady_state", "verdict"});
-        if (!verdict.is_string()) continue;
-        ++judged;
-        drifting += verdict == "drifting" ? 1 : 0;
-        too_short += verdict == "too short to tell" ? 1 : 0;
+        for (const PaperTask& task : plan.points[k].runs)
+            if (const Json& run = runs.at(task.key)["result"]; failed(run))
+                remarks.push_back(fmt::format("The run '{}' failed, and its place is empty: {}",
+                                              task.key, run["failed"].get<std::string>()));
+        const Json& seeds = at(results[k], {"seeds"});
+        if (!seeds.is_object()) continue;
+        judged += seeds["runs"].get<std::int64_t>();
+        drifting += seeds["drifting"].get<std::int64_t>();
+        too_short += seeds["too_short"].get<std::int64_t>();
+        in_warmup += seeds["ended_in_warmup"].get<std::int64_t>();
+        disagreeing += at(seeds, {"disagree"}) == true ? 1 : 0;
     }
     if (drifting + too_short > 0)
         remarks.push_back(fmt::format(
             "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
             "tell). They are marked in the figure and in the column steady_state.",
             drifting + too_short, judged, drifting, too_short));
+    if (in_warmup > 0)
+        remarks.push_back(fmt::format(
+            "{} of them ended before their warm-up did and are not averaged.", in_warmup));
+    if (disagreeing > 0)
+        remarks.push_back(fmt::format(
+            "At {} of {} points the seeds scatter more than the errors within their runs can "
+            "explain (column scatter); their errors are those between the seeds.",
+            disagreeing, results.size()));
     return remarks;
 }
 
 MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
-                    const std::map<std::string, Json>& results, const fs::path& out) {
+                    const std::map<std::string, Json>& runs, const fs::path& out) {
     std::vector<Json> in_order;
-    for (const PaperTask& task : plan.tasks) in_order.push_back(results.at(task.key)["result"]);
+    for (const PaperPoint& point : plan.points) {
+        std::vector<Json> seeds;
+        for (const PaperTask& task : point.runs) seeds.push_back(runs.at(task.key)["result"]);
+        in_order.push_back(several_seeds(seeds));
+        if (!point.name.empty()) in_order.back()["point"] = point.name;
+    }
     MadeFigure made{figure.name, figure.description, {}};
-    const std::vector<std::string> remarks = remarks_on(plan, in_order);
+    const std::vector<std::string> remarks = remarks_on(plan, in_order, runs);
     try {
         made.outcome = plan.finish(in_order, out);
     } catch (const Failure& failure) {
@@ -222,17 +241,11 @@ void draw(MadeFigure& made, const FigurePlan& plan) {
 
 }  // namespace
 
-PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
-                         const PaperControl& control) {
-    const auto begin = std::chrono::steady_clock::now();
-    const PaperParts parts(settings.out);
-    std::vector<FigurePlan> plans;
-    for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
-    Work work(plans, parts);
-    PaperResult all;
-    all.tasks = work.tasks.size();
-    all.remembered = work.results.size();
+namespace {
 
+/// All pieces that these plans need and that have not been done.
+void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& control,
+                 const PaperParts& parts, PaperResult& all) {
     StudyProgress progress(control, work.cost());
     std::mutex results_mutex;
     try {
@@ -249,11 +262,61 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     } catch (const Interrupted&) {
         throw_interrupted(settings);
     }
-    for (const auto& [key, part] : work.results) all.task_seconds += part["seconds"].get<double>();
+    for (const PaperTask* task : work.left)
+        all.task_seconds += work.results[task->key]["seconds"].get<double>();
     for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
+}
 
-    for (std::size_t f = 0; f < plans.size(); ++f)
-        all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
+/// Twice the seeds for the points that undecided claims rest on; false if there are none, or no
+/// budget for them.
+bool ask_for_more_seeds(PaperSettings& settings, const std::vector<FigurePlan>& plans,
+                        PaperResult& all) {
+    run_python_script("claims.py", {settings.out.string()});
+    const Json found = Json::parse(read_whole_file(settings.out / "verdicts.json"));
+    std::map<std::string, int> seeds;
+    for (const FigurePlan& plan : plans)
+        for (const PaperPoint& point : plan.points)
+            seeds[point.name] = static_cast<int>(point.runs.size());
+    bool more = false;
+    all.undecided_points = 0;
+    for (const Json& name : found["points_to_decide"]) {
+        const auto known = seeds.find(name.get<std::string>());
+        if (known == seeds.end()) continue;
+        if (2 * known->second > settings.most_seeds()) {
+            ++all.undecided_points;
+            continue;
+        }
+        settings.seeds_of_point[known->first] = 2 * known->second;
+        more = true;
+    }
+    return more;
+}
+
+}  // namespace
+
+PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& given,
+                         const PaperControl& control, bool decide) {
+    const auto begin = std::chrono::steady_clock::now();
+    const PaperParts parts(given.out);
+    PaperSettings settings = given;
+    std::vector<FigurePlan> plans;
+    PaperResult all;
+    for (bool first = true;; first = false) {
+        plans.clear();
+        for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
+        Work work(plans, parts);
+        all.tasks = work.tasks.size();
+        if (first) {
+            all.remembered = work.results.size();
+            for (const auto& [key, part] : work.results)
+                all.task_seconds += part["seconds"].get<double>();
+        }
+        work_on_all(work, settings, control, parts, all);
+        all.figures.clear();
+        for (std::size_t f = 0; f < plans.size(); ++f)
+            all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
+        if (!decide || !ask_for_more_seeds(settings, plans, all)) break;
+    }
     // The drawings are independent too, and take a second each.
     on_all_cores(
         plans.size(),
@@ -288,6 +351,9 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"seed", settings.seed},
                      {"events_of_a_run", settings.events_of_a_run()},
                      {"defaults", config_json(paper_run(settings))},
+                     {"seeds_of_a_point", settings.seeds()},
+                     {"most_seeds_of_a_point", settings.most_seeds()},
+                     {"undecided_points", result.undecided_points},
                      {"runs", result.tasks},
                      {"runs_of_earlier_calls", result.remembered},
                      {"runs_that_failed", result.failed},

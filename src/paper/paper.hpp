@@ -7,6 +7,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,14 @@ struct PaperSettings {
     std::optional<std::int64_t> events;  // of a run of the paper; shortens all others likewise
     std::filesystem::path out = "out";
     std::uint64_t seed = 1;
+    /// Of the points, by their names, that need more seeds than others until a claim is decided.
+    std::map<std::string, int> seeds_of_point = {};
+
+    /// Runs at a point of the paper's figures, and of those beyond it.
+    int seeds() const { return quick ? 3 : 8; }
+    int seeds_beyond() const { return quick ? 2 : 3; }
+    /// What a point gets at most, for the sake of a claim: the budget.
+    int most_seeds() const { return 4 * seeds(); }
 
     /// Of one run of the paper: its 10^6, or fewer.
     std::int64_t events_of_a_run() const { return events.value_or(events_by_default()); }
@@ -40,6 +49,18 @@ struct PaperTask {
     std::string served_by = {};
 };
 
+/// A point of a curve or a map: the same work with several seeds, whose results are put together
+/// (several_seeds.hpp); or a single piece.
+struct PaperPoint {
+    std::string name;  // in tables, and of what needs more seeds; empty if it cannot have them
+    std::vector<PaperTask> runs;
+
+    PaperPoint(PaperTask only) : runs{std::move(only)} {}
+    /// `run` makes the piece of a seed. As many as settings.seeds_of_point says, or `seeds`.
+    PaperPoint(const PaperSettings& settings, std::string point, int seeds,
+               const std::function<PaperTask(std::uint64_t seed)>& run);
+};
+
 /// What a figure leaves behind when its tasks are done.
 struct FigureOutcome {
     std::vector<std::string> findings;  // sentences to print
@@ -47,9 +68,9 @@ struct FigureOutcome {
 };
 
 struct FigurePlan {
-    std::vector<PaperTask> tasks;
-    /// Gets the results in the order of the tasks; writes the tables into the folder.
-    /// That of a task whose run failed is {"failed": why}, and leaves a hole.
+    std::vector<PaperPoint> points;
+    /// Gets a result for each point; writes the tables into the folder.
+    /// That of a point whose runs failed is {"failed": why}, and leaves a hole.
     std::function<FigureOutcome(const std::vector<nlohmann::ordered_json>& results,
                                 const std::filesystem::path& out)>
         finish;
@@ -83,15 +104,18 @@ struct MadeFigure {
 struct PaperResult {
     std::vector<MadeFigure> figures;
     std::size_t tasks = 0, remembered = 0, failed = 0;
+    std::size_t undecided_points = 0;  // that got all the seeds of the budget and decided nothing
     double seconds = 0.0;
     double task_seconds = 0.0;  // of all pieces, each on one core, those remembered included
 };
 
-/// Makes the figures: tasks on all cores, tables, drawings. Throws Interrupted when stopped; what
+/// Makes the figures: tasks on all cores, tables, drawings. With `decide`, claims that the tables
+/// leave undecided (figures/claims.py) get twice the seeds at the points they rest on, and again,
+/// until they are decided or the budget is spent. Throws Interrupted when stopped; what
 /// was done until then is remembered. A run that fails leaves a hole in its figures, a figure that
 /// cannot be made is missing; the findings say so, and the rest is made.
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
-                         const PaperControl& control);
+                         const PaperControl& control, bool decide = false);
 
 /// The report of all that was made: OUT/paper.json, and from it and the tables OUT/report.md and
 /// OUT/report.html. Returns the files.

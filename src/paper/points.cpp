@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
 
@@ -11,22 +13,44 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// What the figures of the paper, or a reader of its tables, may ask of one run.
-const std::vector<std::string> measurements_of_the_paper = {"density", "flow", "profile",
-                                                            "pinned",  "slip", "frustration"};
+/// What the figures of the paper, or a reader of its tables, may ask of one run. Maps are large.
+std::vector<std::string> measurements_of_the_paper(std::int64_t discs) {
+    std::vector<std::string> names{"profile", "pinned", "slip", "frustration"};
+    if (discs == rotating || discs == counterrotating)
+        names.insert(names.end(), {"density", "flow"});
+    return names;
+}
 
-std::string key_of(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
-    return fmt::format("{}_N{}_{}events_seed{}", friction.name, discs, settings.events_of_a_run(),
-                       settings.seed);
+std::string name_of(const Friction& friction, std::int64_t discs) {
+    return fmt::format("{}_N{}", friction.name, discs);
+}
+
+std::string key_of(const PaperSettings& settings, const Friction& friction, std::int64_t discs,
+                   std::uint64_t seed) {
+    return fmt::format("{}_{}events_seed{}", name_of(friction, discs), settings.events_of_a_run(),
+                       seed);
 }
 
 }  // namespace
+
+PaperPoint::PaperPoint(const PaperSettings& settings, std::string point, int seeds,
+                       const std::function<PaperTask(std::uint64_t seed)>& run)
+    : name(std::move(point)) {
+    if (const auto more = settings.seeds_of_point.find(name); more != settings.seeds_of_point.end())
+        seeds = std::max(seeds, more->second);
+    for (int s = 0; s < seeds; ++s) runs.push_back(run(settings.seed + std::uint64_t(s)));
+}
 
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
     if (settings.quick) return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 38, 40, 42, 44, 46, 48};
     std::vector<std::int64_t> all;
     for (std::int64_t n = 5; n <= 48; ++n) all.push_back(n);
     return all;
+}
+
+std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings) {
+    if (settings.quick) return {8, 20, 28, 36, 42, 48};
+    return {5, 8, 12, 16, 20, 24, 26, 28, 30, 32, 34, 36, 38, 40, 42, 44, 46, 48};
 }
 
 std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings) {
@@ -47,21 +71,34 @@ RunConfig paper_config(const PaperSettings& settings, const Friction& friction,
     return config;
 }
 
-PaperTask point(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
-    const std::string key = key_of(settings, friction, discs);
-    PaperTask task = run_task("run_" + key, paper_config(settings, friction, discs));
-    task.served_by = "measured_" + key;
-    return task;
+PaperPoint point(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
+    RunConfig config = paper_config(settings, friction, discs);
+    return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
+                config.seed = seed;
+                const std::string key = key_of(settings, friction, discs, seed);
+                PaperTask task = run_task("run_" + key, config);
+                task.served_by = "measured_" + key;
+                return task;
+            }};
 }
 
-PaperTask measured_point(const PaperSettings& settings, const Friction& friction,
-                         std::int64_t discs) {
-    return run_task("measured_" + key_of(settings, friction, discs),
-                    paper_config(settings, friction, discs), measurements_of_the_paper);
+PaperPoint measured_point(const PaperSettings& settings, const Friction& friction,
+                          std::int64_t discs) {
+    RunConfig config = paper_config(settings, friction, discs);
+    return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
+                config.seed = seed;
+                return run_task("measured_" + key_of(settings, friction, discs, seed), config,
+                                measurements_of_the_paper(discs));
+            }};
 }
 
-PaperTask varied_point(const std::string& name, const RunConfig& config) {
-    return run_task(fmt::format("varied_{}_seed{}", name, config.seed), config);
+PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
+                        const RunConfig& config) {
+    RunConfig varied = config;
+    return {settings, name, settings.seeds_beyond(), [&](std::uint64_t seed) {
+                varied.seed = seed;
+                return run_task(fmt::format("varied_{}_seed{}", name, seed), varied);
+            }};
 }
 
 bool failed(const Json& result) { return result.is_object() && result.contains("failed"); }
@@ -83,14 +120,33 @@ std::string steadiness(const Json& result) {
     return verdict.is_string() ? verdict.get<std::string>() : "failed";
 }
 
+std::string name_of_point(const Json& result) {
+    const Json& name = at(result, {"point"});
+    return name.is_string() ? name.get<std::string>() : "";
+}
+
 std::vector<std::string> rotation_columns() {
-    return {"by_event",          "by_event_error",
-            "by_time",           "by_time_error",
-            "rigid_by_event",    "rigid_by_event_error",
-            "rigid_by_time",     "rigid_by_time_error",
-            "effective_samples", "events",
-            "periods",           "warmup_periods",
-            "steady_state",      "seed",
+    return {"by_event",
+            "by_event_error",
+            "by_time",
+            "by_time_error",
+            "rigid_by_event",
+            "rigid_by_event_error",
+            "rigid_by_time",
+            "rigid_by_time_error",
+            "effective_samples",
+            "events",
+            "periods",
+            "warmup_periods",
+            "steady_state",
+            "point",
+            "seeds",
+            "steady_runs",
+            "drifting_runs",
+            "ended_in_warmup",
+            "scatter",
+            "seeds_disagree",
+            "seed",
             "state_hash"};
 }
 
@@ -109,6 +165,11 @@ void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     row.emplace_back(number(at(r, {"periods"})));
     row.push_back(whole(at(r, {"warmup", "periods"})));
     row.emplace_back(steadiness(r));
+    row.emplace_back(name_of_point(r));
+    for (const char* count : {"runs", "steady", "drifting", "ended_in_warmup"})
+        row.push_back(whole(at(r, {"seeds", count})));
+    row.emplace_back(number(at(r, {"seeds", "scatter"})));
+    row.emplace_back(std::int64_t{at(r, {"seeds", "disagree"}) == true});
     row.push_back(whole(at(r, {"config", "seed"})));
     const Json& hash = at(r, {"state_hash"});
     row.emplace_back(hash.is_string() ? hash.get<std::string>() : "");

@@ -34,20 +34,27 @@ inline constexpr Friction frictions_of_5b[] = {high_friction, medium_friction, l
 
 /// N = 5 … 48; a choice of them when it must be quick.
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings);
+/// Fewer of them, for what the paper does not have.
+std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings);
 /// N = 24 … 48, the numbers of the experiment.
 std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings);
 
-/// The paper's 10^6 events, the seed of the study, and nothing else but defaults.
+/// The paper's 10^6 events, the first seed of the study, and nothing else but defaults.
 RunConfig paper_config(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
 
-/// The rotation alone.
-PaperTask point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
-/// The same run with everything measured that the figures need.
-PaperTask measured_point(const PaperSettings& settings, const Friction& friction,
-                         std::int64_t discs);
+/// The rotation alone, for several seeds.
+PaperPoint point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
+/// The same runs with everything measured that the figures need; maps for the numbers of discs that
+/// have some.
+PaperPoint measured_point(const PaperSettings& settings, const Friction& friction,
+                          std::int64_t discs);
 
 /// The same at other parameters than the paper's; `name` says which.
-PaperTask varied_point(const std::string& name, const RunConfig& config);
+PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
+                        const RunConfig& config);
+
+/// The numbers of discs of the maps (2b, 2c, 5c, 5d).
+inline constexpr std::int64_t rotating = 28, counterrotating = 48;
 
 // --- reading results ------------------------------------------------------------------------
 
@@ -66,6 +73,8 @@ Table::Cell whole(const nlohmann::ordered_json& value);
 /// Columns of the rotation, in the order of add_rotation(); empty for a run that failed.
 std::vector<std::string> rotation_columns();
 void add_rotation(std::vector<Table::Cell>& row, const nlohmann::ordered_json& result);
+/// The name of its point, for the claims that rest on it.
+std::string name_of_point(const nlohmann::ordered_json& result);
 
 /// "steady", "drifting", "too short to tell", or "failed".
 std::string steadiness(const nlohmann::ordered_json& result);

@@ -1,7 +1,9 @@
 #include "swirl/paper/paper.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 
@@ -12,6 +14,7 @@
 namespace swirl {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
@@ -27,7 +30,7 @@ class Paper : public ::testing::Test {
     }();
 };
 
-int calls = 0;
+std::atomic<int> calls = 0;
 
 PaperTask sound(const std::string& key) {
     return {key, 1.0, [](const RunControl&) {
@@ -45,7 +48,7 @@ PaperTask failing(const std::string& key) {
 /// Counts its holes.
 FigurePlan three_runs(const PaperSettings&) {
     FigurePlan plan;
-    plan.tasks = {sound("a"), failing("b"), sound("c")};
+    plan.points = {sound("a"), failing("b"), sound("c")};
     plan.finish = [](const std::vector<Json>& results, const fs::path&) {
         FigureOutcome outcome;
         for (const Json& r : results) outcome.findings.push_back(steadiness(r));
@@ -55,7 +58,7 @@ FigurePlan three_runs(const PaperSettings&) {
 }
 FigurePlan impossible(const PaperSettings&) {
     FigurePlan plan;
-    plan.tasks = {sound("c")};
+    plan.points = {sound("c")};
     plan.finish = [](const std::vector<Json>&, const fs::path&) -> FigureOutcome {
         throw Failure("Nothing can be drawn.");
     };
@@ -98,13 +101,78 @@ TEST_F(Paper, EventsShortenWhatIsCountedInSwirlsLikewise) {
     EXPECT_EQ(settings.swirls(100, 1), 200);
 }
 
+PaperTask short_run(std::uint64_t seed) {
+    RunConfig config;
+    config.discs = 5;
+    config.events = 2000;
+    config.seed = seed;
+    PaperTask task = run_task(fmt::format("seed{}", seed), config);
+    task.work = [work = task.work](const RunControl& control) {
+        ++calls;
+        return work(control);
+    };
+    return task;
+}
+
+/// ϖ of one point, 0.1 with an error that falls as seeds are added.
+FigurePlan one_doubtful_point(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.points = {PaperPoint(settings, "no-wall_N40", settings.seeds(), short_run)};
+    const std::size_t seeds = plan.points.front().runs.size();
+    plan.finish = [seeds](const std::vector<Json>&, const fs::path& out) {
+        std::ofstream(out / "figure_5b.csv")
+            << "setting,discs,by_event,by_event_error,point\n"
+            << "no-wall,40,0.1," << 0.3 / double(seeds) << ",no-wall_N40\n";
+        return FigureOutcome{{fmt::format("{} seeds", seeds)}, {}};
+    };
+    return plan;
+}
+
+TEST_F(Paper, AnUndecidedClaimGetsMoreSeedsUntilItIsDecided) {
+    settings.quick = true;  // 3 seeds, and 0.1 is no three errors of 0.1
+    calls = 0;
+    const PaperResult made =
+        make_figures({{"x", "one point", one_doubtful_point}}, settings, {}, true);
+    // 6: 0.1 ± 0.05; 12: 0.1 ± 0.025.
+    EXPECT_THAT(made.figures.front().outcome.findings, Contains("12 seeds"));
+    EXPECT_EQ(made.undecided_points, 0u);
+    EXPECT_EQ(calls, 12);  // none twice
+    EXPECT_THAT(make_figures({{"x", "one point", one_doubtful_point}}, settings, {})
+                    .figures.front()
+                    .outcome.findings,
+                Contains("3 seeds"));
+}
+
+TEST_F(Paper, TheBudgetOfSeedsEnds) {
+    settings.seeds_of_point["no-wall_N40"] = 5;
+    settings.quick = true;
+    const FigurePlan plan = one_doubtful_point(settings);
+    EXPECT_EQ(plan.points.front().runs.size(), 5u);
+    const PaperResult made = make_figures(
+        {{"x", "one point",
+          [](const PaperSettings& s) {
+              FigurePlan hopeless = one_doubtful_point(s);
+              const std::size_t seeds = hopeless.points.front().runs.size();
+              hopeless.finish = [seeds](const std::vector<Json>&, const fs::path& out) {
+                  std::ofstream(out / "figure_5b.csv")
+                      << "setting,discs,by_event,by_event_error,point\n"
+                      << "no-wall,40,0.0,1.0,no-wall_N40\n";
+                  return FigureOutcome{{fmt::format("{} seeds", seeds)}, {}};
+              };
+              return hopeless;
+          }}},
+        settings, {}, true);
+    EXPECT_THAT(made.figures.front().outcome.findings, Contains("10 seeds"));  // 20 are too many
+    EXPECT_EQ(made.undecided_points, 1u);
+}
+
 TEST_F(Paper, EveryFigureSurvivesThatAllItsRunsFail) {
     for (const PaperFigure& figure : paper_figures()) {
         settings.quick = true;
         const FigurePlan plan = figure.plan(settings);
-        if (plan.tasks.empty()) continue;
+        if (plan.points.empty()) continue;
         fs::create_directories(settings.out);
-        const std::vector<Json> results(plan.tasks.size(), Json{{"failed", "why"}});
+        const std::vector<Json> results(plan.points.size(), Json{{"failed", "why"}});
         try {
             for (const fs::path& file : plan.finish(results, settings.out).files)
                 EXPECT_TRUE(fs::exists(file)) << figure.name;

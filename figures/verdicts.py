@@ -1,0 +1,157 @@
+"""The rules by which every claim is judged, in one place.
+
+A number that was measured is a Value: a mean, its standard error (between seeds and within them,
+measure/several_runs.hpp), and the points of the study that it rests on. A claim asks whether a Value
+lies above or below a bound, and three standard errors decide:
+
+    holds           it does, by more than three errors
+    does not hold   it does not, by more than three errors
+    undecided       neither: more seeds would tell, and `swirl paper` spends them on the points of
+                    the Values concerned, until it is decided or the budget of seeds is spent
+    holds in part   of a claim that says several things, some hold and others do not; of a claim
+                    that says one thing this is never the verdict
+
+What the paper leaves open ("roughly", "slightly", "nearly") is a bound with a name, in claims.py.
+"""
+
+import math
+
+HOLDS, IN_PART, FAILS = "holds", "holds in part", "does not hold"
+UNDECIDED = "undecided"
+UNTESTABLE, MISSING = "not testable by simulation", "not made"
+
+# Standard errors that make something certain. There is no other such number.
+Z = 3.0
+
+
+class Value:
+    """A mean, its standard error, and the names of the points that more seeds could be spent on."""
+
+    def __init__(self, mean, error=0.0, points=()):
+        self.mean, self.error, self.points = mean, error, frozenset(points)
+
+    @property
+    def known(self):
+        return self.mean == self.mean and self.error == self.error
+
+    def __sub__(self, other):
+        other = as_value(other)
+        return Value(self.mean - other.mean, math.hypot(self.error, other.error),
+                     self.points | other.points)
+
+    def __mul__(self, factor):
+        return Value(self.mean * factor, self.error * abs(factor), self.points)
+
+    def __abs__(self):
+        return Value(abs(self.mean), self.error, self.points)
+
+    def __neg__(self):
+        return self * -1
+
+
+def as_value(number):
+    return number if isinstance(number, Value) else Value(number)
+
+
+def mean_of(values, weights=None):
+    """The mean of independent values."""
+    values = list(values)
+    weights = list(weights) if weights is not None else [1.0] * len(values)
+    total = sum(weights)
+    return Value(sum(w * v.mean for w, v in zip(weights, values)) / total,
+                 math.sqrt(sum((w * v.error) ** 2 for w, v in zip(weights, values))) / total,
+                 frozenset().union(*(v.points for v in values)))
+
+
+class Part:
+    """The verdict on one statement, and the points that could decide it if it is undecided."""
+
+    def __init__(self, verdict, points=()):
+        self.verdict = verdict
+        self.points = frozenset(points) if verdict == UNDECIDED else frozenset()
+
+    def __eq__(self, other):
+        return self.verdict == (other.verdict if isinstance(other, Part) else other)
+
+    def __repr__(self):
+        return self.verdict
+
+
+def above(value, bound):
+    """Is the value above the bound (a number or another Value)?"""
+    gap = as_value(value) - bound
+    if not gap.known:
+        return Part(UNDECIDED, gap.points)
+    if gap.mean > Z * gap.error:
+        return Part(HOLDS)
+    return Part(FAILS) if gap.mean < -Z * gap.error else Part(UNDECIDED, gap.points)
+
+
+def below(value, bound):
+    return above(-as_value(value), -as_value(bound))
+
+
+def within(value, low, high):
+    """Between two bounds. One bound that fails is enough; both must hold."""
+    return every([above(value, low), below(value, high)])
+
+
+def true(flag):
+    """Of what is no measurement: it is so, or it is not."""
+    return Part(HOLDS if flag else FAILS)
+
+
+def every(statements):
+    """One statement about many places: it must hold in each of them."""
+    statements = list(statements)
+    if any(s.verdict == FAILS for s in statements):
+        return Part(FAILS)
+    open_ones = [s for s in statements if s.verdict == UNDECIDED]
+    if open_ones or not statements:
+        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
+    return Part(HOLDS)
+
+
+def either(statements):
+    """One statement that is true if it holds in any of the places."""
+    statements = list(statements)
+    if any(s.verdict == HOLDS for s in statements):
+        return Part(HOLDS)
+    open_ones = [s for s in statements if s.verdict == UNDECIDED]
+    if open_ones or not statements:
+        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
+    return Part(FAILS)
+
+
+def parts(*statements):
+    """A claim that says several things. Only here can something hold in part."""
+    verdicts = [s.verdict for s in statements]
+    if HOLDS in verdicts and FAILS in verdicts:
+        return Part(IN_PART)
+    open_ones = [s for s in statements if s.verdict == UNDECIDED]
+    if open_ones:
+        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
+    return Part(HOLDS if HOLDS in verdicts else FAILS)
+
+
+# A step back of this share of the whole rise is none.
+STEP_BACK = 0.1
+
+
+def rises(values):
+    """A curve that rises: certainly higher at its end than at its beginning, and with no certain
+    fall between neighbours of more than STEP_BACK of the whole."""
+    values = [v for v in values if v.mean == v.mean]
+    if len(values) < 3:
+        return Part(UNDECIDED, frozenset().union(*(v.points for v in values)))
+    rise = values[-1] - values[0]
+    overall = above(rise, 0.0)
+    if overall.verdict != HOLDS:
+        return overall
+    back = any(below(b - a, -STEP_BACK * rise.mean).verdict == HOLDS
+               for a, b in zip(values, values[1:]))
+    return Part(FAILS if back else HOLDS)
+
+
+def falls(values):
+    return rises([-v for v in values])
