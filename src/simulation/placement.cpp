@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <utility>
 
 #include "swirl/math/random.hpp"
 #include "swirl/math/real.hpp"
@@ -10,6 +12,22 @@
 
 namespace swirl {
 namespace {
+
+/// The caller's question whether to go on, asked every few thousandths of a second.
+class Patience {
+  public:
+    explicit Patience(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
+    bool ended() {
+        if (!ended_ && is_stopped_) ended_ = is_stopped_();
+        return ended_;
+    }
+    /// For loops of short steps.
+    bool ended_at(std::size_t step) { return step % 65536 == 0 ? ended() : ended_; }
+
+  private:
+    const std::function<bool()>& is_stopped_;
+    bool ended_ = false;
+};
 
 constexpr double row_height = 0.86602540378443864676;  // √3/2
 
@@ -39,39 +57,54 @@ std::size_t count_sites(double spacing, double reach) {
     return count;
 }
 
-/// The widest spacing that still has n sites within reach, to one part in 10⁶.
-double widest_spacing(std::size_t n, double reach) {
-    double enough = 0.0, too_wide = 4.0 * reach + 1.0;
+/// The widest spacing that still has n sites, to one part in 10⁶, or whatever it has come to when
+/// patience ends. A lattice narrower than `least` is not looked at; then nothing is found.
+template <class CountSites>
+std::optional<double> widest_spacing(std::size_t n, double widest, double least,
+                                     CountSites count_sites_of, Patience& patience) {
+    double enough = 0.0, too_wide = widest;
     // Halve until it is narrow enough, then bisect.
-    for (double guess = too_wide; enough == 0.0; guess *= 0.5)
-        if (count_sites(guess, reach) >= n)
+    for (double guess = too_wide; enough == 0.0; guess = larger(0.5 * guess, least)) {
+        if (count_sites_of(guess) >= n)
             enough = guess;
+        else if (guess <= least || patience.ended())
+            return std::nullopt;
         else
             too_wide = guess;
-    while (too_wide - enough > 1e-6 * enough) {
+    }
+    while (too_wide - enough > 1e-6 * enough && !patience.ended()) {
         const double middle = 0.5 * (enough + too_wide);
-        (count_sites(middle, reach) >= n ? enough : too_wide) = middle;
+        (count_sites_of(middle) >= n ? enough : too_wide) = middle;
     }
     return enough;
+}
+
+Vec2 turned(const Vec2& site, const Vec2& turn) {
+    return {turn.x * site.x - turn.y * site.y, turn.y * site.x + turn.x * site.y};
+}
+
+/// n of the sites at random, which then are the first n and all there are.
+void choose(std::size_t n, std::vector<Vec2>& sites, Random& random) {
+    for (std::size_t k = 0; k < n; ++k)
+        std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
+    sites.resize(n);
 }
 
 std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Random& random) {
     std::vector<Vec2> sites;
     for_each_site(spacing, reach, [&](const Vec2& site) { sites.push_back(site); });
-    for (std::size_t k = 0; k < n; ++k)
-        std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
-    sites.resize(n);
+    choose(n, sites, random);
     const Vec2 turn = unit_circle(random.uniform());
-    for (Vec2& site : sites)
-        site = {turn.x * site.x - turn.y * site.y, turn.y * site.x + turn.x * site.y};
+    for (Vec2& site : sites) site = turned(site, turn);
     return sites;
 }
 
-/// Moves each disc within its free space, keeping it inside the dish.
-void shake(std::vector<Vec2>& centres, double freedom, double reach, Random& random) {
+/// Moves each disc within its free space, if it may be there.
+template <class IsAllowed>
+void shake(std::vector<Vec2>& centres, double freedom, Random& random, IsAllowed is_allowed) {
     for (Vec2& centre : centres) {
         const Vec2 moved = centre + random.in_disc(freedom);
-        if (dot(moved, moved) <= reach * reach) centre = moved;
+        if (is_allowed(moved)) centre = moved;
     }
 }
 
@@ -111,18 +144,21 @@ class Cells {
 
 /// Pushes overlapping discs apart, and all of them into the dish, until none overlaps: each sweep
 /// moves the two discs of an overlapping pair away from each other by half the overlap and a
-/// little more. False if thousands of sweeps do not suffice.
+/// little more. False if thousands of sweeps do not suffice, or what can be done in some seconds.
 bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
-                double container_radius) {
+                double container_radius, Patience& patience) {
+    long pairs = 300'000'000;
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double margin = 1e-3 * *std::min_element(radii.begin(), radii.end());
-    for (int sweep = 0; sweep < 4000; ++sweep) {
+    for (int sweep = 0; sweep < 4000 && pairs > 0 && !patience.ended(); ++sweep) {
         bool overlap = false;
         // The cells are made for the centres as they are now; a push within the sweep is smaller
         // than the cells, and whoever is missed is found in the next one.
         const Cells cells(centres, container_radius, 2.0 * (largest + margin));
         for (std::size_t i = 0; i < centres.size(); ++i) {
+            if (i % 64 == 0 && (pairs < 0 || patience.ended())) return false;
             cells.near(centres[i], [&](std::size_t j) {
+                --pairs;
                 if (j <= i) return;
                 const double sum = radii[i] + radii[j];
                 const Vec2 s = centres[j] - centres[i];
@@ -162,13 +198,15 @@ class Relaxation {
 
     /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics that is
     /// turned towards the force while it goes downhill, and stopped when it goes uphill. Takes its
-    /// steps off `budget`.
-    bool succeeds(long& budget) {
+    /// steps off `budget`: one for each disc, or for each sixteen discs that were looked at.
+    bool succeeds(long& budget, Patience& patience) {
         double step = 0.1, turn = 0.1;
         int downhill = 0;
-        for (int k = 0; k < longest && budget > 0; ++k) {
-            budget -= static_cast<long>(radii_.size());
-            if (!find_forces()) return true;
+        for (int k = 0; k < longest && budget > 0 && !patience.ended(); ++k) {
+            const bool overlap = find_forces(budget, patience);
+            budget -= std::max(static_cast<long>(radii_.size()), looks_ / 16);
+            if (patience.ended()) return false;
+            if (!overlap) return true;
             double power = 0.0, force2 = 0.0, speed2 = 0.0;
             for (std::size_t i = 0; i < centres_.size(); ++i) {
                 power += dot(force_[i], velocity_[i]);
@@ -204,13 +242,17 @@ class Relaxation {
     static constexpr double balanced = 1e-6;  // forces, in margins²: it will not get better
 
     /// The force on each disc, which is the depth of its overlaps; they are reckoned with a margin,
-    /// so that in the end there are none. False if there are none now.
-    bool find_forces() {
+    /// so that in the end there are none. False if there are none now, true also if there is no
+    /// budget or patience left to tell.
+    bool find_forces(long budget, Patience& patience) {
         bool overlap = false;
+        looks_ = 0;
         std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
         const Cells cells(centres_, container_radius_, width_);
         for (std::size_t i = 0; i < centres_.size(); ++i) {
+            if (i % 64 == 63 && (looks_ > 16 * budget || patience.ended())) return true;
             cells.near(centres_[i], [&](std::size_t j) {
+                ++looks_;
                 if (j <= i) return;
                 const Vec2 s = centres_[j] - centres_[i];
                 const double touch = radii_[i] + radii_[j];
@@ -236,6 +278,7 @@ class Relaxation {
     const std::vector<double>& radii_;
     double container_radius_, margin_, width_;
     std::vector<Vec2> centres_, force_, velocity_;
+    long looks_ = 0;  // at pairs, when the forces were last found
 };
 
 /// Two discs side by side fill a diameter of the dish.
@@ -251,12 +294,124 @@ double sum_of_two_largest(const std::vector<double>& radii) {
 /// Random places relaxed, again and again, until one of them ends without overlap. The budget is
 /// some seconds' worth.
 std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double container_radius,
-                                       Random& random) {
-    for (long budget = 100'000'000; budget > 0;) {
+                                       Random& random, Patience& patience) {
+    for (long budget = 100'000'000; budget > 0 && !patience.ended();) {
         Relaxation relaxation(radii, container_radius, random);
-        if (relaxation.succeeds(budget)) return relaxation.centres();
+        if (relaxation.succeeds(budget, patience)) return relaxation.centres();
     }
     return std::nullopt;
+}
+
+/// A disc this many times as small as the largest has its place in the gaps between the large.
+constexpr double very_unequal = 16.0;
+
+/// Puts n discs of one size, or less, on lattice sites that are free of others, and shakes them.
+/// Adds them to `centres`; false if there are fewer free sites than discs.
+bool fill_gaps(std::size_t n, double radius, double container_radius, std::vector<Vec2>& centres,
+               const std::vector<double>& radii, Random& random, Patience& patience) {
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double reach = container_radius - radius;
+    const Cells cells(centres, container_radius, 2.0 * largest);
+    const Vec2 turn = unit_circle(random.uniform());
+    const auto is_free = [&](const Vec2& p) {
+        bool free = dot(p, p) <= reach * reach;
+        cells.near(p, [&](std::size_t j) {
+            const Vec2 s = centres[j] - p;
+            const double sum = (radii[j] + radius) * (1.0 + 1e-9);
+            free &= dot(s, s) >= sum * sum;
+        });
+        return free;
+    };
+    const auto for_each_free_site = [&](double spacing, auto visit) {
+        std::size_t sites = 0;
+        for_each_site(spacing, reach, [&](const Vec2& site) {
+            if (patience.ended_at(sites++)) return;
+            const Vec2 p = turned(site, turn);
+            if (is_free(p)) visit(p);
+        });
+    };
+    const auto count = [&](double spacing) {
+        std::size_t sites = 0;
+        for_each_free_site(spacing, [&](const Vec2&) { ++sites; });
+        return sites;
+    };
+    const double touching = 2.0 * radius * (1.0 + 1e-9);
+    const auto widest = widest_spacing(n, larger(4.0 * reach / square_root(double(n)), touching),
+                                       touching, count, patience);
+    if (!widest || patience.ended()) return false;
+    const double spacing = 0.5 * (touching + *widest);
+    std::vector<Vec2> sites;
+    for_each_free_site(spacing, [&](const Vec2& site) { sites.push_back(site); });
+    if (sites.size() < n) return false;
+    choose(n, sites, random);
+    shake(sites, 0.49 * (spacing - touching), random, is_free);
+    centres.insert(centres.end(), sites.begin(), sites.end());
+    return true;
+}
+
+std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
+                                       Random& random, Patience& patience);
+
+/// The large discs first, then those that are smaller by far, into the gaps, and so on. Nothing if
+/// one of the sizes does not find room.
+std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
+                                               double container_radius, Random& random,
+                                               Patience& patience) {
+    std::vector<std::size_t> order(radii.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return radii[i] > radii[j]; });
+    std::vector<Vec2> placed;
+    std::vector<double> of_placed;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        const double largest = radii[order[begin]];
+        std::vector<double> alike;
+        for (; end < order.size() && very_unequal * radii[order[end]] > largest; ++end)
+            alike.push_back(radii[order[end]]);
+        if (begin == 0) {
+            const auto centres = place(alike, container_radius, random, patience);
+            if (!centres) return std::nullopt;
+            placed = *centres;
+        } else if (!fill_gaps(alike.size(), largest, container_radius, placed, of_placed, random,
+                              patience)) {
+            return std::nullopt;
+        }
+        of_placed.insert(of_placed.end(), alike.begin(), alike.end());
+    }
+    std::vector<Vec2> centres(radii.size());
+    for (std::size_t k = 0; k < order.size(); ++k) centres[order[k]] = placed[k];
+    return centres;
+}
+
+/// Discs that may fit, without overlap.
+std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
+                                       Random& random, Patience& patience) {
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double smallest = *std::min_element(radii.begin(), radii.end());
+    const double reach = container_radius - largest;
+    const auto widest = widest_spacing(
+        radii.size(), 4.0 * reach + 1.0, 0.0,
+        [&](double spacing) { return count_sites(spacing, reach); }, patience);
+    if (!widest) return std::nullopt;
+    if (*widest > 2.0 * largest) {
+        // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
+        // dish that is all but empty a wider one, with some hundred sites for each disc.
+        const double spacing =
+            larger(largest + 0.5 * smaller(*widest, 3.0 * largest), sparsest * *widest);
+        auto centres = choose_sites(radii.size(), spacing, reach, random);
+        shake(centres, 0.49 * (spacing - 2.0 * largest), random,
+              [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
+        return centres;
+    }
+    if (very_unequal * smallest <= largest) {
+        const auto centres = place_by_size(radii, container_radius, random, patience);
+        if (centres || patience.ended()) return centres;
+    }
+    if (smallest < largest) {
+        auto centres = choose_sites(radii.size(), *widest, reach, random);
+        if (push_apart(centres, radii, container_radius, patience)) return centres;
+    }
+    return relax(radii, container_radius, random, patience);
 }
 
 }  // namespace
@@ -267,9 +422,9 @@ double most_discs_in_dish(double radius, double container_radius) {
 }
 
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
-                                             double container_radius, std::uint64_t seed) {
+                                             double container_radius, std::uint64_t seed,
+                                             const std::function<bool()>& is_stopped) {
     if (radii.empty()) return std::vector<Vec2>{};
-    Random random(seed);
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double smallest = *std::min_element(radii.begin(), radii.end());
     if (!(container_radius >= largest)) return std::nullopt;
@@ -279,23 +434,10 @@ std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
     if (area > container_radius * container_radius) return std::nullopt;
     if (static_cast<double>(radii.size()) > most_discs_in_dish(smallest, container_radius))
         return std::nullopt;
-
-    const double reach = container_radius - largest;
-    const double widest = widest_spacing(radii.size(), reach);
-    if (widest > 2.0 * largest) {
-        // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
-        // dish that is all but empty a wider one, with some hundred sites for each disc.
-        const double spacing =
-            larger(largest + 0.5 * smaller(widest, 3.0 * largest), sparsest * widest);
-        auto centres = choose_sites(radii.size(), spacing, reach, random);
-        shake(centres, 0.49 * (spacing - 2.0 * largest), reach, random);
-        return centres;
-    }
-    if (smallest < largest) {
-        auto centres = choose_sites(radii.size(), widest, reach, random);
-        if (push_apart(centres, radii, container_radius)) return centres;
-    }
-    return relax(radii, container_radius, random);
+    Random random(seed);
+    Patience patience(is_stopped);
+    auto centres = place(radii, container_radius, random, patience);
+    return patience.ended() ? std::nullopt : std::move(centres);
 }
 
 }  // namespace swirl

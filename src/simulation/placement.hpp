@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,15 +17,18 @@ double most_discs_in_dish(double radius, double container_radius);
 
 /// One centre for each radius, relative to the centre of the dish, no two discs closer than
 /// touching and none through the wall. Nothing if they do not fit, or if no arrangement was found
-/// in some seconds (close to the densest packing there is).
+/// in some seconds (close to the densest packing there is), or if `is_stopped`, which is asked
+/// every few hundredths of a second, said so.
 ///
 /// Sites of a triangular lattice about the centre, turned by a random angle, N of them taken at
 /// random, each shaken within its free space: at R = 8.6 this holds up to 55 unit discs, since 55
 /// sites lie within √13 lattice spacings and (R − r)/√13 = 2.108 > 2. A mixture that does not fit
 /// on the lattice of its largest disc starts on a narrower one and is pushed apart until no two
-/// overlap. What is denser still starts from random places and slides down the energy of its
-/// overlaps until there are none; so the paper's dish takes up to 59 discs.
+/// overlap; discs 16 times as small as the largest, or smaller, go onto a lattice of their own in
+/// the gaps that the larger leave. What is denser still starts from random places and slides down
+/// the energy of its overlaps until there are none; so the paper's dish takes up to 59 discs.
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
-                                             double container_radius, std::uint64_t seed);
+                                             double container_radius, std::uint64_t seed,
+                                             const std::function<bool()>& is_stopped = {});
 
 }  // namespace swirl

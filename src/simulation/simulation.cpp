@@ -61,9 +61,29 @@ class AlignedMemory {
 /// How many small discs can touch a large one at once, at most: π / asin(1/(1 + q)) for a ratio q
 /// of the radii, and half as much again for those that are merely near.
 std::uint32_t list_capacity(double ratio) {
-    const double contacts = pi / std::asin(1.0 / (1.0 + ratio));
+    const double contacts = pi / std::asin(1.0 / (1.0 + smaller(ratio, 1e6)));
     const auto wanted = static_cast<std::uint32_t>(1.5 * contacts) + 3;
-    return std::min<std::uint32_t>(longest_list, (wanted + 3) / 4 * 4);
+    return (wanted + 3) / 4 * 4;
+}
+
+/// Discs this many times as large as the smallest keep their whole list with them.
+constexpr double ratio_without_tail = 4.0;
+
+/// Discs closer than twice a disc's skin radius, at most: so many that a list of equal discs fits
+/// in one vector, and a layer around a larger one. Others may add themselves to its list.
+std::uint32_t wanted_neighbours(double ratio) {
+    return 7 + static_cast<std::uint32_t>(pi * (smaller(ratio, 1e6) - 1.0));
+}
+
+/// The discs around one are as many or fewer in most places; if not, they are looked for nearer.
+constexpr std::uint32_t least_candidates = 512;
+
+/// How often the radius can be halved and is not less than the smallest: of each such size one
+/// grid.
+std::uint32_t size_class(double radius, double smallest) {
+    std::uint32_t halvings = 0;
+    for (; radius >= 2.0 * smallest && halvings + 1 < most_grids; radius *= 0.5) ++halvings;
+    return halvings;
 }
 
 struct Radii {
@@ -129,7 +149,9 @@ struct Simulation::Storage {
 
     Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
     void allocate(std::size_t size, NeighbourSearch neighbours);
-    void lay_grid(const InitialState& scene, double largest, int cells_per_side);
+    void lay_grids(const InitialState& scene, const Radii& radii, int cells_per_side);
+    double lay_grid(Grid& grid, double least_width, double side);
+    void lay_lists(const InitialState& scene, const Radii& radii);
     void lay_cells(const InitialState& scene);
     void place(const InitialState& scene);
 };
@@ -161,14 +183,26 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.smallest_radius = radii.smallest;
     state.equal_radii = radii.smallest == radii.largest;
     state.capacity =
-        neighbours == NeighbourSearch::lists ? list_capacity(radii.largest / radii.smallest) : 0;
+        neighbours == NeighbourSearch::lists
+            ? list_capacity(smaller(radii.largest / radii.smallest, ratio_without_tail))
+            : 0;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
     state.prefetches = state.size > 4000;
     allocate(scene.discs.size(), neighbours);
-    if (neighbours == NeighbourSearch::lists) lay_grid(scene, radii.largest, tuning.cells_per_side);
-    if (neighbours == NeighbourSearch::cells) lay_cells(scene);
     place(scene);
+    if (neighbours == NeighbourSearch::lists) {
+        lay_grids(scene, radii, tuning.cells_per_side);
+        lay_lists(scene, radii);
+    }
+    if (neighbours == NeighbourSearch::cells) lay_cells(scene);
+    if (tuning.is_stopped) {
+        state.caller = &tuning.is_stopped;
+        state.is_stopped = [](const void* caller) {
+            return (*static_cast<const std::function<bool()>*>(caller))();
+        };
+    }
     loop->start(state);
+    state.is_stopped = nullptr;
 }
 
 void Simulation::Storage::allocate(std::size_t size, NeighbourSearch neighbours) {
@@ -189,39 +223,121 @@ void Simulation::Storage::allocate(std::size_t size, NeighbourSearch neighbours)
     } while (entries > 1);
 }
 
-/// Cells wide enough that the skins of discs in cells that do not touch never overlap:
-/// |X_i − X_k| < 2 (largest radius + largest skin radius) = the width. On average a cell's worth of
-/// area holds three discs; a small dish is one cell, all pairs.
-void Simulation::Storage::lay_grid(const InitialState& scene, double largest, int cells_per_side) {
+/// Where all discs are of about one size, cells wide enough that the skins of discs in cells that
+/// do not touch never overlap: |X_i − X_k| < 2 (largest radius + largest skin radius) = the width.
+/// On average a cell's worth of area holds three discs. Where they are not, each size has a grid of
+/// its own, and a skin is no larger than with cells for the smallest. A small dish has none.
+void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radii,
+                                    int cells_per_side) {
     double reach = scene.container_radius;
     for (const Leg& leg : legs)
         if (leg.turning != 0.0)
             reach = scene.container_radius + square_root(dot(leg.start, leg.start));
     const double side = 2.0 * reach;
-    const double density = static_cast<double>(state.size) / (pi * reach * reach);
-    double width = larger(2.6 * largest, square_root(3.0 / density));
-    if (cells_per_side > 0) width = side / cells_per_side;
-    width = larger(width, 2.1 * largest);
-    state.cells_per_side = static_cast<std::uint32_t>(larger(1.0, smaller(side / width, 30000.0)));
-    if (cells_per_side == 0 && state.size <= 100) state.cells_per_side = 1;
-    width = side / state.cells_per_side;
-    state.cells_per_length = 1.0 / width;
     state.cell_origin = -reach;
+    constexpr std::uint32_t few = 100;
+    state.has_no_grid = cells_per_side == 1 ? state.size <= least_candidates
+                                            : cells_per_side == 0 && state.size <= few;
+    state.grid_count = 1;
+    state.grids[0].largest_radius = radii.largest;
+    if (state.has_no_grid) {
+        state.largest_skin_radius = 4.0 * side;
+        return;
+    }
+
+    std::array<double, most_grids> largest{};
+    std::array<std::size_t, most_grids> discs{};
+    for (const Disc& d : scene.discs) {
+        const std::uint32_t size = size_class(d.radius, radii.smallest);
+        largest[size] = larger(largest[size], d.radius);
+        ++discs[size];
+    }
+    std::array<std::uint32_t, most_grids> row{};
+    state.grid_count = 0;
+    for (std::uint32_t size = 0; size < most_grids; ++size) {
+        row[size] = state.grid_count;
+        if (discs[size] > 0) state.grids[state.grid_count++].largest_radius = largest[size];
+    }
+    for (DiscKind& kind : kinds) kind.grid = row[size_class(kind.radius, radii.smallest)];
+
+    const double area = pi * reach * reach;
+    double width = larger(2.6 * largest[0], square_root(3.0 * area / state.size));
+    if (cells_per_side > 0) width = side / cells_per_side;
+    width = lay_grid(state.grids[0], larger(width, 2.1 * largest[0]), side);
     // A hair less than the cells allow, for the rounding of positions into cells.
-    state.largest_skin_radius =
-        state.cells_per_side == 1 ? 4.0 * side : (0.5 * width - largest) * (1.0 - 1e-6);
-    state.cell_heads = memory.add<std::uint32_t>(state.cells_per_side * state.cells_per_side);
+    state.largest_skin_radius = (0.5 * width - largest[0]) * (1.0 - 1e-6);
+    for (std::uint32_t size = 1; size < most_grids; ++size) {
+        if (discs[size] == 0) continue;
+        const double three = square_root(3.0 * area / static_cast<double>(discs[size]));
+        lay_grid(state.grids[row[size]],
+                 larger(2.0 * (largest[size] + state.largest_skin_radius), three), side);
+    }
+}
+
+/// No narrower than told; says how wide.
+double Simulation::Storage::lay_grid(Grid& grid, double least_width, double side) {
+    grid.cells_per_side =
+        static_cast<std::uint32_t>(larger(1.0, smaller(side / least_width, 30000.0)));
+    grid.cells_per_length = grid.cells_per_side / side;
+    grid.heads = memory.add<std::uint32_t>(static_cast<std::size_t>(grid.cells_per_side) *
+                                           grid.cells_per_side);
+    return side / grid.cells_per_side;
+}
+
+/// Room for the lists of discs that are much larger than others: for all that may lie around them.
+void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radii) {
+    std::vector<double> sorted;
+    for (const Disc& d : scene.discs) sorted.push_back(d.radius);
+    std::sort(sorted.begin(), sorted.end());
+    const auto list_room = [&](double radius) {
+        const auto smaller_ones = static_cast<std::uint32_t>(
+            std::lower_bound(sorted.begin(), sorted.end(), radius / ratio_without_tail) -
+            sorted.begin());
+        return std::min(list_capacity(radius / radii.smallest),
+                        list_capacity(ratio_without_tail) + smaller_ones);
+    };
+    for (DiscKind& kind : kinds)
+        kind.wanted_neighbours = wanted_neighbours(kind.radius / radii.smallest);
+
+    const std::uint32_t longest = list_room(radii.largest);
+    CandidateColumns& candidates = state.candidates;
+    candidates.room = std::max(least_candidates, (2 * longest + 7) / 8 * 8);
+    candidates.gap = memory.add<double>(candidates.room);
+    candidates.reach = memory.add<double>(candidates.room);
+    candidates.X = memory.add<float>(candidates.room);
+    candidates.Y = memory.add<float>(candidates.room);
+    candidates.disc = memory.add<std::uint32_t>(candidates.room);
+    candidates.chosen = memory.add<std::uint32_t>(candidates.room);
+    candidates.rebuilt = memory.add<std::uint32_t>(candidates.room);
+
+    if (longest <= state.capacity) return;
+    const auto tail_room = [&](std::uint32_t i) {
+        const std::uint32_t room = list_room(scene.discs[i].radius);
+        return room <= state.capacity ? 0 : (room - state.capacity + 7) / 8 * 8;
+    };
+    constexpr std::uint32_t entries = sizeof(ListTail) / sizeof(std::uint32_t);
+    state.tail_places = memory.add<std::uint32_t>(state.size);
+    std::uint32_t end = 1;
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (tail_room(i) == 0) continue;
+        state.tail_places[i] = end;
+        end += 1 + tail_room(i) / entries;
+    }
+    state.tails = memory.add<ListTail>(end);
+    for (std::uint32_t i = 0; i < state.size; ++i)
+        if (state.tail_places[i] != 0) state.tail(i).room = tail_room(i);
 }
 
 /// Two cells more than the dish needs on each side, so that a disc in a cell always has eight
 /// around.
 void Simulation::Storage::lay_cells(const InitialState& scene) {
     const double width = cell_width * state.smallest_radius;
-    state.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
-    state.cells_per_length = 1.0 / width;
-    state.cell_origin = -0.5 * width * state.cells_per_side;
+    Grid& grid = state.grids[0];
+    grid.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
+    grid.cells_per_length = 1.0 / width;
+    state.cell_origin = -0.5 * width * grid.cells_per_side;
     state.cells =
-        memory.add<Cell>(static_cast<std::size_t>(state.cells_per_side) * state.cells_per_side);
+        memory.add<Cell>(static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side);
 }
 
 void Simulation::Storage::place(const InitialState& scene) {
@@ -230,7 +346,8 @@ void Simulation::Storage::place(const InitialState& scene) {
         const Disc& d = scene.discs[i];
         const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
                                                     static_cast<std::uint32_t>(kinds.size()));
-        if (is_new) kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
+        if (is_new)
+            kinds.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia, 0, 0});
         state.discs[i] = {
             d.position, d.velocity, d.time, d.radius, d.spin, 0, row->second & 0xffffffu, 0, 0};
         state.cold(i).angle = d.angle;
@@ -253,7 +370,8 @@ Simulation::Simulation(const InitialState& scene, const Progress& progress, cons
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
     if (!storage_->state.discs_overlap) return;
     // The cells of a thin gas are made for discs that do not; lists take any.
-    const Tuning lists{tuning.cells_per_side, tuning.width, NeighbourSearch::lists};
+    Tuning lists = tuning;
+    lists.neighbours = NeighbourSearch::lists;
     storage_ = std::make_unique<Storage>(scene, progress, lists);
 }
 Simulation::~Simulation() = default;

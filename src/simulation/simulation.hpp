@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct Tuning {
     /// A search that the scene does not allow (all pairs for many, cells for very unequal discs or
     /// on a turning path) gives way to lists.
     NeighbourSearch neighbours = NeighbourSearch::best;
+    /// Asked now and then while a simulation is made, which takes seconds where there are millions
+    /// of discs. Once it has said yes, the simulation knows where its discs are and no more: no
+    /// event may be asked of it.
+    std::function<bool()> is_stopped = {};
 };
 
 /// Work of the loop besides the events themselves.

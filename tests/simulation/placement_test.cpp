@@ -111,6 +111,29 @@ TEST(Placement, MixturesArePlaced) {
     expect_placed(many, std::sqrt(2500.0 * 1.25 / 0.65), 1);
 }
 
+TEST(Placement, SmallDiscsFillTheGapsBetweenLargeOnes) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        // The small ones cover six tenths of what two large ones leave.
+        std::vector<double> radii(2, 1.0);
+        radii.resize(2 + 6000, 0.01);
+        expect_placed(radii, 1.42 * std::sqrt(2.0 + 0.6 / 0.6), seed);
+        // Three sizes, each far from the next, in any order.
+        std::vector<double> three;
+        for (int i = 0; i < 3000; ++i) three.push_back(i % 300 == 0 ? 1.0 : i % 10 ? 0.002 : 0.04);
+        expect_placed(three, 4.2, seed);
+    }
+}
+
+TEST(Placement, EndsWhenItIsStopped) {
+    for (const std::size_t discs : {std::size_t{60}, std::size_t{1000000}}) {
+        int questions = 0;
+        const auto is_stopped = [&] { return ++questions >= 3; };
+        const double R = discs == 60 ? 8.6 : std::sqrt(1e6 / 0.7);
+        EXPECT_FALSE(place_discs(std::vector<double>(discs, 1.0), R, 1, is_stopped));
+        EXPECT_EQ(questions, 3);
+    }
+}
+
 TEST(Placement, AMillionDiscsAtPacking070InSeconds) {
     const std::vector<double> radii(1000000, 1.0);
     const std::clock_t start = std::clock();

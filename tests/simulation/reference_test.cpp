@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "simulation/plain_grid.hpp"
 #include "simulation/scenes.hpp"
@@ -114,6 +115,77 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
     // Too unequal for cells: lists take their place.
     expect_same_trajectory(mixture_dish(), 5000, tuning(NeighbourSearch::cells));
 }
+// One reference for all searches and widths: it looks at all pairs for every event.
+void expect_same_trajectories(const InitialState& scene, int events) {
+    std::vector<Simulation> engines;
+    for (const Width width : {Width::baseline, Width::avx2, Width::avx512}) {
+        if (!has_width(width)) continue;
+        for (const int cells : {0, 1, 3, 7, 1000})
+            engines.emplace_back(scene, Progress{}, Tuning{cells, width});
+        engines.emplace_back(scene, Progress{}, Tuning{0, width, NeighbourSearch::cells});
+        engines.emplace_back(scene, Progress{}, Tuning{0, width, NeighbourSearch::all_pairs});
+    }
+    Reference plain(scene);
+    for (int k = 0; k < events; ++k) {
+        const Event expected = plain.step();
+        for (std::size_t e = 0; e < engines.size(); ++e) {
+            const Event found = engines[e].step();
+            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k << " of " << e;
+            ASSERT_EQ(expected.i, found.i) << "event " << k << " of " << e;
+            ASSERT_EQ(expected.j, found.j) << "event " << k << " of " << e;
+            ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
+            ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
+        }
+    }
+    for (const Simulation& engine : engines)
+        EXPECT_EQ(engine.state_hash(), engines.front().state_hash());
+    // With the grids that are chosen by density, lists are rebuilt one at a time.
+    EXPECT_LT(engines.front().loop_counts().full_rebuilds, 3u);
+}
+// In a tenth of a per cent of all events the large disc collides; its list has hundreds of others.
+TEST(VeryUnequalDiscs, EngineIsTheReferenceBitForBitWithEverySearchAndWidth) {
+    const int events = sanitized ? 100 : 2000;
+    expect_same_trajectories(large_among_small(4, 250, 0.1, 3.0), events);
+    expect_same_trajectories(large_among_small(1, 300, 0.01, 1.04), events);
+    expect_same_trajectories(large_among_small(20, 60, 0.1, 5.3), events);
+}
+// Seventeen kinds of disc, each 1.4 times as large as the last: a grid for every second one.
+TEST(VeryUnequalDiscs, EngineIsTheReferenceBitForBitForManySizes) {
+    std::vector<Disc> kinds;
+    for (double radius = 1.0; radius > 1.0 / 300.0; radius /= 1.4) {
+        Disc disc = unit_disc();
+        disc.radius = radius;
+        disc.mass = radius * radius;
+        disc.inertia = paper_inertia * disc.mass * disc.mass;
+        kinds.push_back(disc);
+    }
+    expect_same_trajectories(
+        state_of(kinds, 170, 6.0, polygon_path(paper_amplitude, paper_period, paper_sides), 0.7,
+                 0.4),
+        sanitized ? 100 : 2000);
+}
+TEST(VeryUnequalDiscs, EngineIsThePlainGridBitForBitAmongThousands) {
+    if (sanitized) GTEST_SKIP() << "fifty thousand events";
+    expect_same_trajectory<PlainGrid>(large_among_small(20, 2000, 0.1, 8.165), 50000, {});
+    expect_same_trajectory<PlainGrid>(large_among_small(2, 3000, 0.01, 2.05), 20000, {});
+}
+// Who is stopped while lists are made knows where the discs are.
+TEST(Stop, EndsTheMakingOfAMillionListsAndLeavesTheDiscs) {
+    const InitialState scene = gas_at_rest(20000, 0.7);
+    int questions = 0;
+    Tuning tuning;
+    tuning.is_stopped = [&] { return ++questions >= 5; };
+    for (const NeighbourSearch search : {NeighbourSearch::lists, NeighbourSearch::cells}) {
+        questions = 0;
+        tuning.neighbours = search;
+        const Simulation simulation(scene, {}, tuning);
+        EXPECT_GE(questions, 5);
+        EXPECT_LE(questions, 10);  // then nobody goes on
+        EXPECT_EQ(simulation.disc(19999).position.x, scene.discs[19999].position.x);
+        EXPECT_EQ(simulation.events().total(), 0u);
+    }
+}
+
 // More discs on one spot than a cell has room for, flying apart.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
     InitialState scene = gas_at_rest(60, 0.2);

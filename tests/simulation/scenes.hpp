@@ -59,6 +59,31 @@ inline InitialState mixture_dish(std::size_t n = 40) {
                     n, 10.0, polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
 }
 
+/// Large discs in a sea of small ones of the same material, in a dish that swirls. The small ones
+/// come first.
+inline InitialState large_among_small(std::size_t large, std::size_t small, double small_radius,
+                                      double container_radius) {
+    const double r = small_radius;
+    std::vector<double> radii(small, r);
+    radii.resize(small + large, 1.0);
+    const auto centres = place_discs(radii, container_radius, 1);
+    if (!centres) throw std::runtime_error("the test's discs do not fit");
+    const double scale = container_radius / paper_container_radius;
+    InitialState scene{{},
+                       polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides),
+                       container_radius,
+                       {0.7},
+                       {0.4}};
+    Random random(2);
+    const Leg& leg = scene.path.legs.front();
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double m = radii[i] * radii[i], inertia = paper_inertia * m * m;
+        scene.discs.push_back({leg.start + (*centres)[i], leg.velocity + random.in_disc(0.1), 0.0,
+                               0.0, 0.0, radii[i], m, inertia});
+    }
+    return scene;
+}
+
 /// An elastic gas of smooth discs in a dish that stands still.
 inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double speed = 1.0) {
     return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),

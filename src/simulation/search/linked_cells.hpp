@@ -35,9 +35,9 @@ struct Candidates {
 
 SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
                                      Candidates& candidates) {
-    const Cell* row = state.cells + state.skins[i].cell - state.cells_per_side - 1;
+    const Cell* row = state.cells + state.skins[i].cell - state.grids[0].cells_per_side - 1;
     std::uint32_t count = 0;
-    for (int y = 0; y < 3; ++y, row += state.cells_per_side) {
+    for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side) {
         for (int x = 0; x < 3; ++x) {
             // The whole cell, so that nothing depends on how many there are but the place of the
             // next.
@@ -58,7 +58,7 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
         disc.flight().position_at(t) - state.comoving_frame.position_at(t) - Vec2{mine.X, mine.Y};
     const Vec2 v = disc.velocity - state.comoving_frame.velocity;
     const Lanes<2> speed = two_lanes(v.x, v.y), from = two_lanes(offset.x, offset.y);
-    const Lanes<2> zero(0.0), half(0.5 / state.cells_per_length);
+    const Lanes<2> zero(0.0), half(0.5 / state.grids[0].cells_per_length);
     const Lanes<2> way = select(speed > zero, half - from, half + from);
     // At rest in one direction, whatever the sign of its zero: never.
     const Lanes<2> rate = larger(select(speed > zero, speed, -speed), zero);
@@ -105,15 +105,14 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
         return;
     }
     cell.disc[cell.count++] = i;
-    const double width = 1.0 / state.cells_per_length;
+    const std::uint32_t side = state.grids[0].cells_per_side;
+    const double width = 1.0 / state.grids[0].cells_per_length;
     const auto centre = [&](std::uint32_t row) {
         return static_cast<float>(state.cell_origin + (row + 0.5) * width);
     };
     Skin& place = state.skins[i];
-    place = {centre(number % state.cells_per_side),
-             centre(number / state.cells_per_side),
-             static_cast<float>(0.71 * width),
-             {number}};
+    place = {
+        centre(number % side), centre(number / side), static_cast<float>(0.71 * width), {number}};
     HotDisc& disc = state.discs[i];
     disc.far_from_wall = beyond_reach<double>(reach_short_of_wall(state), {place.X, place.Y},
                                               place.skin_radius, disc.radius) < 0.0;
@@ -122,7 +121,7 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
 /// Disc i has come to an edge and enters the cell beyond.
 [[gnu::noinline]] static void enter_next_cell(EngineState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
-    const std::uint32_t side = state.cells_per_side;
+    const std::uint32_t side = state.grids[0].cells_per_side;
     const std::uint32_t step[4] = {1u, 0u - 1u, side, 0u - side};
     const std::uint32_t to = state.skins[i].cell + step[state.cold(i).partner - leaves_skin];
     leave(state, i);
@@ -147,20 +146,26 @@ static bool overlaps(const EngineState& state, std::uint32_t i) {
 
 static void predict_all(EngineState& state, double t) {
     empty_queue(state);
-    for (std::uint32_t i = 0; i < state.size; ++i) predict<Held::for_a_while, 1>(state, {i}, t);
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
+        predict<Held::for_a_while, 1>(state, {i}, t);
+    }
 }
 
 static void start(EngineState& state) {
     state.comoving_frame = container_flight(state.legs[state.leg]);
-    for (std::uint32_t c = 0; c < state.cells_per_side * state.cells_per_side; ++c)
+    const Grid& grid = state.grids[0];
+    for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         state.cells[c].count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Vec2 at = state.discs[i].flight().position_at(state.clock) -
                         state.comoving_frame.position_at(state.clock);
-        enter(state, i, cell_row(state, at.y) * state.cells_per_side + cell_row(state, at.x));
+        enter(state, i, cell_number(state, grid, at.x, at.y));
     }
-    for (std::uint32_t i = 0; i < state.size && !state.discs_overlap; ++i)
+    for (std::uint32_t i = 0; i < state.size && !state.discs_overlap; ++i) {
+        if (state.stops_at(i)) return;
         state.discs_overlap = overlaps(state, i);
+    }
     if (!state.discs_overlap) predict_all(state, state.clock);
 }
 

@@ -32,11 +32,14 @@ static_assert(sizeof(HotDisc) == 64);
 struct DiscKind {
     double radius, mass, inertia;
     double inverse_mass, inverse_inertia;
+    std::uint32_t grid;               // row of EngineState::grids
+    std::uint32_t wanted_neighbours;  // verlet_skin.hpp
 };
 
 /// What only a disc's own events read: the partner of its pending event, its angle, and its
 /// neighbour list, every disc k with |X_i − X_k| < r_i + r_k + h_i + h_k (verlet_skin.hpp). There
-/// are no lists where all pairs are looked at, or cells.
+/// are no lists where all pairs are looked at, or cells. A list longer than `capacity`, that of a
+/// disc much larger than others, goes on in a ListTail.
 struct ColdDisc {
     std::uint32_t partner;             // a disc; itself for the wall; or one of the marks below
     std::uint32_t partner_collisions;  // HotDisc::collisions of the partner when this was predicted
@@ -73,7 +76,33 @@ struct Cell {
 };
 static_assert(sizeof(Cell) == 32);  // read and written as one piece of eight numbers
 
-inline constexpr std::uint32_t longest_list = 64;
+/// Followed by `room` disc numbers, a multiple of 8, unused ones being `EngineState::size`.
+struct alignas(16) ListTail {
+    std::uint32_t length, room, unused[2];
+
+    std::uint32_t* neighbours() { return reinterpret_cast<std::uint32_t*>(this + 1); }
+    const std::uint32_t* neighbours() const {
+        return reinterpret_cast<const std::uint32_t*>(this + 1);
+    }
+};
+
+/// Square cells over the dish, in the co-moving frame, for discs of about one size: the largest of
+/// them is less than twice as large as the smallest.
+struct Grid {
+    std::uint32_t cells_per_side;
+    double cells_per_length;
+    double largest_radius;
+    std::uint32_t* heads;  // of each cell the first disc, or EngineState::size
+};
+inline constexpr std::uint32_t most_grids = 48;
+
+/// Room for the discs around one whose list is being rebuilt (verlet_skin.hpp).
+struct CandidateColumns {
+    std::uint32_t room;  // a multiple of 8
+    double *gap, *reach;
+    float *X, *Y;
+    std::uint32_t *disc, *chosen, *rebuilt;
+};
 
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
@@ -104,16 +133,28 @@ struct EngineState {
     // The frame in which the skins rest: the mean motion of the discs, renewed with every leg.
     Flight<double> comoving_frame;
 
-    // Square cells over the dish, in the co-moving frame (verlet_skin.hpp).
-    std::uint32_t cells_per_side;
-    double cells_per_length, cell_origin;
-    std::uint32_t* cell_heads;
+    // A grid for each size of disc that there is (verlet_skin.hpp), from the smallest on; or one
+    // for all, if the discs are few or equal; or that of a thin gas (linked_cells.hpp).
+    Grid grids[most_grids];
+    std::uint32_t grid_count;
+    bool has_no_grid;  // few enough to look at all of them when a list is rebuilt
+    double cell_origin;
     Cell* cells;
+
+    // The ends of lists that are longer than `capacity`, in units of 16 bytes from the first, which
+    // has no room and belongs to all whose list has no tail. Null where nobody's has.
+    ListTail* tails;
+    std::uint32_t* tail_places;
+    CandidateColumns candidates;
     bool discs_overlap;        // at the start: then cells may be too small (linked_cells.hpp)
     bool overlapped_at_start;  // anybody, or with the wall; asked where invariants are checked
     double smallest_radius;
     bool equal_radii;
-    double largest_skin_radius;  // the cells next door must hold everybody within reach
+    double largest_skin_radius;
+
+    // While all lists and predictions are made for the first time: whether to leave it at that.
+    bool (*is_stopped)(const void* caller);
+    const void* caller;
 
     const Leg* legs;
     std::uint32_t leg, leg_count;
@@ -131,6 +172,11 @@ struct EngineState {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
     }
+    /// Asked in loops over all discs, every thousand of them.
+    SWIRL_INLINE bool stops_at(std::uint32_t i) const {
+        return i % 1024 == 0 && is_stopped != nullptr && is_stopped(caller);
+    }
+    SWIRL_INLINE ListTail& tail(std::uint32_t i) const { return tails[tail_places[i]]; }
     /// Whether a pending event happens: its partner has not collided since it was predicted. The
     /// wall's always does; that of a disc which leaves its skin is none.
     SWIRL_INLINE bool is_valid(const PendingEvent& event) const {
@@ -143,7 +189,8 @@ struct EngineState {
 /// The event loop, compiled for one vector width; all of them give the same bits.
 struct EventLoop {
     const char* width;
-    /// Makes all lists and all predictions from the discs as they stand.
+    /// Makes all lists and all predictions from the discs as they stand; some of them only, if it
+    /// is stopped.
     void (*start)(EngineState&);
     /// Executes the next event.
     Event (*step)(EngineState&);

@@ -96,6 +96,10 @@ SWIRL_INLINE bool is_on_list(const EngineState& state, std::uint32_t i, std::uin
     const std::uint32_t* const list = state.cold(i).neighbours();
     for (std::uint32_t slot = 0; slot < state.discs[i].neighbours; ++slot)
         if (list[slot] == k) return true;
+    if (state.tails == nullptr) return false;
+    const ListTail& tail = state.tail(i);
+    for (std::uint32_t slot = 0; slot < tail.length; ++slot)
+        if (tail.neighbours()[slot] == k) return true;
     return false;
 }
 /// How far the disc is at time t from the centre of its skin or its cell.
@@ -125,7 +129,7 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
 /// and by the rounding of the cell's centre to single precision. Cells are wide enough for that.
 [[maybe_unused]] static void check_cells(const EngineState& state, double t) {
     const double half =
-        0.5 / state.cells_per_length * (1.0 + 1e-8) + 0x1p-22 * state.container_radius;
+        0.5 / state.grids[0].cells_per_length * (1.0 + 1e-8) + 0x1p-22 * state.container_radius;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Vec2 offset = offset_in_skin(state, i, t);
         const Cell& cell = state.cells[state.skins[i].cell];

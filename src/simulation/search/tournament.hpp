@@ -27,8 +27,8 @@ SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 /// Fetches what a prediction for disc i will read, or, in a thin gas, the first of each cell.
 SWIRL_INLINE void prefetch_neighbours(const EngineState& state, std::uint32_t i) {
     if (state.cells) {
-        const Cell* row = state.cells + state.skins[i].cell - state.cells_per_side - 1;
-        for (int y = 0; y < 3; ++y, row += state.cells_per_side)
+        const Cell* row = state.cells + state.skins[i].cell - state.grids[0].cells_per_side - 1;
+        for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side)
             for (int x = 0; x < 3; ++x) prefetch(&state.discs[row[x].disc[0]]);
         return;
     }

@@ -17,15 +17,32 @@ namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace lists {
 
-/// The tail of a list that is longer than one vector.
+/// The end of a long list, which is kept apart from it.
+[[gnu::noinline]] static PendingEvent earliest_in_tail(const EngineState& state, PendingEvent first,
+                                                       double t) {
+    if (state.tails == nullptr) return first;
+    const HotDisc& disc = state.discs[first.disc];
+    const ListTail& tail = state.tail(first.disc);
+    for (std::uint32_t k = 0; k < tail.length; k += 8) {
+        const std::uint32_t* const list = tail.neighbours() + k;
+        const Others<8> others = load_others<8>(state, list);
+        first = earlier<8>(list, contact_times<Held::for_a_while>(disc, others, t), first);
+    }
+    return first;
+}
+
+/// The rest of a list that is longer than one vector.
 SWIRL_INLINE PendingEvent earliest_beyond_eight(const EngineState& state, PendingEvent first,
                                                 double t) {
     const HotDisc& disc = state.discs[first.disc];
     const std::uint32_t* const list = state.cold(first.disc).neighbours();
-    for (std::uint32_t k = 8; k < disc.neighbours; k += 4) {
+    const std::uint32_t length = disc.neighbours;
+    for (std::uint32_t k = 8; k < length; k += 4) {
         const Others<4> others = load_others<4>(state, list + k);
         first = earlier<4>(list + k, contact_times<Held::for_a_while>(disc, others, t), first);
     }
+    if (length == state.capacity) [[unlikely]]
+        return earliest_in_tail(state, first, t);
     return first;
 }
 
@@ -51,7 +68,10 @@ SWIRL_INLINE void predict(EngineState& state, const std::uint32_t (&who)[D], dou
 
 [[gnu::noinline]] static void predict_all(EngineState& state, double t) {
     empty_queue(state);
-    for (std::uint32_t i = 0; i < state.size; ++i) predict<Held::for_a_while, 1>(state, {i}, t);
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
+        predict<Held::for_a_while, 1>(state, {i}, t);
+    }
 }
 
 SWIRL_INLINE SkinRadiusRange skin_radius_range(const EngineState& state) {
@@ -76,8 +96,8 @@ static void rebuild_all_narrow(EngineState& state, double t) {
         return;
     }
     ++state.overflows;
-    std::uint32_t rebuilt[256];
-    const std::uint32_t count = resolve_overflow(state, i, t, skin_radius_range(state), rebuilt);
+    const std::uint32_t count = resolve_overflow(state, i, t, skin_radius_range(state));
+    const std::uint32_t* const rebuilt = state.candidates.rebuilt;
     for (std::uint32_t k = 0; k < count; ++k) {
         take_out(state, rebuilt[k]);
         predict<Held::for_a_while, 1>(state, {rebuilt[k]}, t);
@@ -92,6 +112,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     renew_comoving_frame(state, state.legs[state.leg].position_at(state.clock), state.clock);
     rebuild_all_narrow(state, state.clock);
     for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
         if (build_list(state, i, state.clock, recentre_skin(state, i, state.clock),
                        skin_radius_range(state)))
             continue;
@@ -166,8 +187,8 @@ static void renew_all_leaving(EngineState& state) {
 /// brought back to the container when it has moved away by more than a cell.
 static void renew_all(EngineState& state, const Vec2& origin) {
     const Vec2 drift = origin - state.legs[0].start;
-    const bool gone = square_root(dot(drift, drift)) * state.cells_per_length > 1.0;
-    if (state.cells_per_side > 1 && gone) {
+    const bool gone = square_root(dot(drift, drift)) * state.grids[0].cells_per_length > 1.0;
+    if (!state.has_no_grid && gone) {
         renew_comoving_frame(state, state.legs[0].start, 0.0);
         rebuild_all_narrow(state, 0.0);
     } else {

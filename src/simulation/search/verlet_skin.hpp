@@ -10,8 +10,14 @@
 //
 // The skin radius adapts by itself: h_i is half the gap to the nearest disc but
 // `wanted_neighbours`, so that a list fits in one vector. In a gas that is a long way, in the pack
-// a short one; the dish has both at once. (Lists rebuilt one disc at a time: Smallenburg 2022,
+// a short one; the dish has both at once. A disc much larger than the smallest has more of them, as
+// many as fit around it. (Lists rebuilt one disc at a time: Smallenburg 2022,
 // doi:10.1140/epje/s10189-022-00180-8, there with one skin radius for all.)
+//
+// Who may be on a list is found in square cells. Discs of about one size have a grid of their own:
+// cells as wide as the largest disc would hold thousands of the smallest (Ogarko and Luding 2012,
+// doi:10.1063/1.3692069, and Krijgsman, Ogarko and Luding 2014, doi:10.1007/s40571-014-0020-9, on
+// hierarchical grids).
 #pragma once
 
 #include "swirl/math/lanes.hpp"
@@ -21,9 +27,6 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// Discs closer than twice a disc's skin radius, at most. Others may add themselves to its list, up
-/// to the capacity.
-inline constexpr std::uint32_t wanted_neighbours = 7;
 /// Rounding errors of positions are 10⁻¹³; this keeps them out of the argument above.
 inline constexpr double skin_margin = 1e-9;
 
@@ -72,35 +75,65 @@ static void note_far_from_wall(EngineState& state, std::uint32_t i, double t) {
         beyond_reach(reach_far_from_wall(state, t), s, skin_radius, state.discs[i].radius) < 0.0;
 }
 
-SWIRL_INLINE std::uint32_t cell_row(const EngineState& state, double x) {
-    const double k = (x - state.cell_origin) * state.cells_per_length;
+SWIRL_INLINE std::uint32_t cell_row(const EngineState& state, const Grid& grid, double x) {
+    const double k = (x - state.cell_origin) * grid.cells_per_length;
     if (!(k > 0.0)) return 0;
     const auto row = static_cast<std::uint32_t>(k);
-    return row < state.cells_per_side ? row : state.cells_per_side - 1;
+    return row < grid.cells_per_side ? row : grid.cells_per_side - 1;
 }
-SWIRL_INLINE std::uint32_t& cell_head(const EngineState& state, const Skin& at) {
-    return state.cell_heads[cell_row(state, at.Y) * state.cells_per_side + cell_row(state, at.X)];
+SWIRL_INLINE std::uint32_t cell_number(const EngineState& state, const Grid& grid, double x,
+                                       double y) {
+    return cell_row(state, grid, y) * grid.cells_per_side + cell_row(state, grid, x);
+}
+SWIRL_INLINE const Grid& grid_of(const EngineState& state, std::uint32_t i) {
+    return state.grids[state.grid_count == 1 ? 0 : state.kinds[state.discs[i].kind].grid];
+}
+SWIRL_INLINE std::uint32_t& cell_head(const EngineState& state, std::uint32_t i) {
+    const Grid& grid = grid_of(state, i);
+    return grid.heads[cell_number(state, grid, state.skins[i].X, state.skins[i].Y)];
 }
 SWIRL_INLINE void enter_cell(EngineState& state, std::uint32_t i) {
-    std::uint32_t& head = cell_head(state, state.skins[i]);
+    std::uint32_t& head = cell_head(state, i);
     state.skins[i].next_in_cell = head;
     head = i;
 }
 SWIRL_INLINE void leave_cell(EngineState& state, std::uint32_t i) {
-    std::uint32_t* link = &cell_head(state, state.skins[i]);
+    std::uint32_t* link = &cell_head(state, i);
     while (*link != i) link = &state.skins[*link].next_in_cell;
     *link = state.skins[i].next_in_cell;
 }
 
 SWIRL_INLINE bool is_full(const EngineState& state, std::uint32_t i) {
-    return state.discs[i].neighbours == state.capacity;
+    if (state.discs[i].neighbours != state.capacity) return false;
+    return state.tails == nullptr || state.tail(i).length == state.tail(i).room;
 }
 SWIRL_INLINE void add_neighbour(EngineState& state, std::uint32_t i, std::uint32_t k) {
     const std::uint32_t length = state.discs[i].neighbours;
+    if (length == state.capacity) {
+        ListTail& tail = state.tail(i);
+        tail.neighbours()[tail.length++] = k;
+        return;
+    }
     state.cold(i).neighbours()[length] = k;
     state.discs[i].neighbours = (length + 1) & 127u;
 }
+/// From a list that has a tail, whose last takes the place of k.
+[[gnu::noinline]] static void remove_from_tailed_list(EngineState& state, std::uint32_t i,
+                                                      std::uint32_t k) {
+    ListTail& tail = state.tail(i);
+    const std::uint32_t last = tail.neighbours()[--tail.length];
+    tail.neighbours()[tail.length] = state.size;
+    if (last == k) return;
+    std::uint32_t* const list = state.cold(i).neighbours();
+    const std::uint32_t slot = place_in_list(list, state.capacity, k);
+    if (list[slot] == k)
+        list[slot] = last;
+    else
+        tail.neighbours()[place_in_list(tail.neighbours(), tail.room, k)] = last;
+}
 SWIRL_INLINE void remove_neighbour(EngineState& state, std::uint32_t i, std::uint32_t k) {
+    if (state.tails != nullptr && state.tail(i).length > 0)
+        return remove_from_tailed_list(state, i, k);
     std::uint32_t* const list = state.cold(i).neighbours();
     const std::uint32_t last = state.discs[i].neighbours - 1;
     const std::uint32_t slot = place_in_list(list, state.capacity, k);
@@ -116,68 +149,13 @@ SWIRL_INLINE void clear_list(EngineState& state, std::uint32_t i) {
         list[slot] = state.size;
     }
     state.discs[i].neighbours = 0;
-}
-
-/// The discs around one of them: `gap` is |X_i − X_k| − r_i − r_k and `reach` is h_k. Both are
-/// padded to a multiple of eight with discs that are infinitely far.
-struct Candidates {
-    static constexpr std::uint32_t room = 512;
-    alignas(64) double gap[room];
-    alignas(64) double reach[room];
-    float X[room], Y[room];
-    std::uint32_t disc[room];
-    std::uint32_t count, padded;
-};
-
-SWIRL_INLINE void add(const EngineState& state, Candidates& candidates, std::uint32_t k) {
-    const Skin& other = state.skins[k];
-    candidates.disc[candidates.count] = k;
-    candidates.X[candidates.count] = other.X;
-    candidates.Y[candidates.count] = other.Y;
-    candidates.reach[candidates.count] = other.skin_radius;
-}
-
-/// Collects every disc that two skins may reach across to. False if there are too many to hold.
-SWIRL_INLINE bool collect_candidates(const EngineState& state, std::uint32_t i,
-                                     Candidates& candidates) {
-    const Skin& mine = state.skins[i];
-    candidates.count = 0;
-    if (state.cells_per_side == 1) {
-        if (state.size > Candidates::room) return false;
-        for (std::uint32_t k = 0; k < state.size; ++k, ++candidates.count)
-            add(state, candidates, k);
-        candidates.count = i;
-        add(state, candidates, state.size - 1);  // the last one takes our place
-        candidates.count = state.size - 1;
-    } else {
-        const std::uint32_t cx = cell_row(state, mine.X), cy = cell_row(state, mine.Y);
-        const std::uint32_t last = state.cells_per_side - 1;
-        for (std::uint32_t y = cy - (cy > 0); y <= cy + (cy < last); ++y)
-            for (std::uint32_t x = cx - (cx > 0); x <= cx + (cx < last); ++x)
-                for (std::uint32_t k = state.cell_heads[y * state.cells_per_side + x];
-                     k != state.size; k = state.skins[k].next_in_cell) {
-                    if (candidates.count == Candidates::room) return false;
-                    add(state, candidates, k);
-                    candidates.count += k != i;
-                }
+    if (state.tails == nullptr) return;
+    ListTail& tail = state.tail(i);
+    for (std::uint32_t slot = 0; slot < tail.length; ++slot) {
+        remove_neighbour(state, tail.neighbours()[slot], i);
+        tail.neighbours()[slot] = state.size;
     }
-    candidates.padded = (candidates.count + 7u) & ~7u;
-    const double X = mine.X, Y = mine.Y, radii = state.discs[i].radius + state.smallest_radius;
-    for (std::uint32_t n = 0; n < candidates.padded; ++n) {
-        const double dx = static_cast<double>(candidates.X[n]) - X;
-        const double dy = static_cast<double>(candidates.Y[n]) - Y;
-        candidates.gap[n] = square_root(dx * dx + dy * dy) - radii;
-    }
-    // Where all are alike, nobody's disc is looked at: in a large dish each is far away in memory.
-    if (!state.equal_radii)
-        for (std::uint32_t n = 0; n < candidates.count; ++n)
-            candidates.gap[n] -= state.discs[candidates.disc[n]].radius - state.smallest_radius;
-    for (std::uint32_t n = candidates.count; n < candidates.padded; ++n) {
-        candidates.gap[n] = never;
-        candidates.reach[n] = 0.0;
-        candidates.disc[n] = state.size;
-    }
-    return true;
+    tail.length = 0;
 }
 
 /// The bounds of h_i; below `least` there is no room for a disc on the lists of those around it.
@@ -185,14 +163,142 @@ struct SkinRadiusRange {
     double least, largest;
 };
 
+/// The discs around one of them: `gap` is |X_i − X_k| − r_i − r_k and `reach` is h_k. Both are
+/// padded to a multiple of eight with discs that are infinitely far. Who is not among them is
+/// beyond the reach of a skin of radius `farthest`, and farther away than twice that.
+struct Candidates : CandidateColumns {
+    explicit Candidates(const EngineState& state) : CandidateColumns(state.candidates) {}
+    std::uint32_t count, padded;
+    double farthest;
+};
+
+/// Writes down disc k as candidate n.
+SWIRL_INLINE void note(const EngineState& state, const CandidateColumns& candidates,
+                       std::uint32_t n, std::uint32_t k) {
+    const Skin& other = state.skins[k];
+    candidates.disc[n] = k;
+    candidates.X[n] = other.X;
+    candidates.Y[n] = other.Y;
+    candidates.reach[n] = other.skin_radius;
+}
+
+SWIRL_INLINE void pad(const EngineState& state, Candidates& candidates) {
+    candidates.padded = (candidates.count + 7u) & ~7u;
+    for (std::uint32_t n = candidates.count; n < candidates.padded; ++n) {
+        candidates.gap[n] = never;
+        candidates.reach[n] = 0.0;
+        candidates.disc[n] = state.size;
+    }
+}
+
+/// Everybody within so much of disc i, whatever their sizes. False if there are too many to hold.
+static bool collect_within(const EngineState& state, std::uint32_t i, double farthest,
+                           Candidates& candidates) {
+    const Skin& mine = state.skins[i];
+    const double X = mine.X, Y = mine.Y, radius = state.discs[i].radius;
+    candidates.farthest = farthest;
+    candidates.count = 0;
+    for (std::uint32_t g = 0; g < state.grid_count; ++g) {
+        const Grid& grid = state.grids[g];
+        const double width = 1.0 / grid.cells_per_length;
+        const double way =
+            (radius + grid.largest_radius + farthest + state.largest_skin_radius) * (1.0 + 1e-6);
+        const std::uint32_t bottom = cell_row(state, grid, Y - way);
+        const std::uint32_t top = cell_row(state, grid, Y + way);
+        for (std::uint32_t y = bottom; y <= top; ++y) {
+            // In a row the circle is narrower; the outermost rows go on beyond the grid.
+            const double low = state.cell_origin + y * width;
+            const double up = y == 0 || y + 1 == grid.cells_per_side
+                                  ? 0.0
+                                  : larger(larger(low - Y, Y - (low + width)), 0.0);
+            const double across = square_root(larger(way * way - up * up, 0.0)) + 1e-6 * width;
+            const std::uint32_t left = cell_row(state, grid, X - across);
+            const std::uint32_t right = cell_row(state, grid, X + across);
+            for (std::uint32_t x = left; x <= right; ++x)
+                for (std::uint32_t k = grid.heads[y * grid.cells_per_side + x]; k != state.size;
+                     k = state.skins[k].next_in_cell) {
+                    const Skin& other = state.skins[k];
+                    const double dx = other.X - X, dy = other.Y - Y;
+                    const double gap =
+                        square_root(dx * dx + dy * dy) - (radius + state.discs[k].radius);
+                    if (k == i || !(gap < farthest + larger(farthest, double(other.skin_radius))))
+                        continue;
+                    if (candidates.count == candidates.room) return false;
+                    note(state, candidates, candidates.count, k);
+                    candidates.gap[candidates.count++] = gap;
+                }
+        }
+    }
+    pad(state, candidates);
+    return true;
+}
+/// So far as there is room for. False if even the narrowest skin reaches too many.
+[[gnu::noinline]] static bool collect_within(const EngineState& state, std::uint32_t i,
+                                             const SkinRadiusRange& range, Candidates& candidates) {
+    for (double farthest = range.largest;; farthest = larger(0.5 * farthest, range.least)) {
+        if (collect_within(state, i, farthest, candidates)) return true;
+        if (!(farthest > range.least)) return false;
+    }
+}
+
+/// Those in the cell of disc i and in the eight around, where one grid holds all; without a grid
+/// everybody. Returns how many, or more than there is room for.
+SWIRL_INLINE std::uint32_t collect_next_door(const EngineState& state, std::uint32_t i,
+                                             const CandidateColumns& candidates) {
+    const std::uint32_t nobody = state.size;
+    if (state.has_no_grid) {
+        for (std::uint32_t k = 0; k < nobody; ++k) note(state, candidates, k, k);
+        note(state, candidates, i, nobody - 1);  // the last one takes our place
+        return nobody - 1;
+    }
+    const Grid& grid = state.grids[0];
+    const Skin& mine = state.skins[i];
+    const std::uint32_t cx = cell_row(state, grid, mine.X), cy = cell_row(state, grid, mine.Y);
+    const std::uint32_t last = grid.cells_per_side - 1;
+    std::uint32_t count = 0;
+    for (std::uint32_t y = cy - (cy > 0); y <= cy + (cy < last); ++y)
+        for (std::uint32_t x = cx - (cx > 0); x <= cx + (cx < last); ++x)
+            for (std::uint32_t k = grid.heads[y * grid.cells_per_side + x]; k != nobody;
+                 k = state.skins[k].next_in_cell) {
+                if (count == candidates.room) return count + 1;
+                note(state, candidates, count, k);
+                count += k != i;
+            }
+    return count;
+}
+
+/// Collects every disc that two skins may reach across to. False if there are too many to hold.
+SWIRL_INLINE bool collect_candidates(const EngineState& state, std::uint32_t i,
+                                     const SkinRadiusRange& range, Candidates& candidates) {
+    if (state.grid_count > 1) return collect_within(state, i, range, candidates);
+    const CandidateColumns columns = state.candidates;
+    const std::uint32_t count = collect_next_door(state, i, columns);
+    if (count > columns.room) return collect_within(state, i, range, candidates);
+    const Skin& mine = state.skins[i];
+    const std::uint32_t padded = (count + 7u) & ~7u;
+    const double X = mine.X, Y = mine.Y, radii = state.discs[i].radius + state.smallest_radius;
+    for (std::uint32_t n = 0; n < padded; ++n) {
+        const double dx = static_cast<double>(columns.X[n]) - X;
+        const double dy = static_cast<double>(columns.Y[n]) - Y;
+        columns.gap[n] = square_root(dx * dx + dy * dy) - radii;
+    }
+    candidates.count = count;
+    // Where all are alike, nobody's disc is looked at: in a large dish each is far away in memory.
+    if (!state.equal_radii)
+        for (std::uint32_t n = 0; n < candidates.count; ++n)
+            candidates.gap[n] -= state.discs[candidates.disc[n]].radius - state.smallest_radius;
+    pad(state, candidates);
+    candidates.farthest = range.largest;
+    return true;
+}
+
 /// Half the gap to the nearest disc that is to stay off the list, to a fifth: if everybody does the
 /// same, no one's skin is at the cost of the others'. Starts from the skin radius the disc had.
-SWIRL_INLINE double fair_skin_radius(const Candidates& candidates, double before,
-                                     const SkinRadiusRange& range) {
-    if (candidates.count <= wanted_neighbours) return range.largest;
+SWIRL_INLINE double fair_skin_radius(const Candidates& candidates, std::uint32_t wanted,
+                                     double before, const SkinRadiusRange& range) {
+    if (candidates.count <= wanted) return range.largest;
     const auto too_many = [&](double skin_radius) {
-        return count_below(candidates.gap, candidates.padded, 2.0 * skin_radius) >
-               wanted_neighbours;
+        return count_below(candidates.gap, candidates.padded, 2.0 * skin_radius) > wanted;
     };
     double skin_radius = smaller(larger(before, 2.0 * range.least), range.largest);
     if (too_many(skin_radius)) {
@@ -210,14 +316,14 @@ static void centre_skin(EngineState& state, std::uint32_t i, double t) {
     const Vec2 at = Flight<double>{disc.position, disc.velocity, disc.time}.position_at(t) -
                     state.comoving_frame.position_at(t);
     state.skins[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, {state.size}};
-    if (state.cells_per_side > 1) enter_cell(state, i);
+    if (!state.has_no_grid) enter_cell(state, i);
 }
 
 /// Takes disc i off all lists and centres its skin on it. Returns the skin radius it had.
 static double recentre_skin(EngineState& state, std::uint32_t i, double t) {
     const double before = state.skins[i].skin_radius;
     clear_list(state, i);
-    if (state.cells_per_side > 1) leave_cell(state, i);
+    if (!state.has_no_grid) leave_cell(state, i);
     centre_skin(state, i, t);
     return before;
 }
@@ -226,10 +332,12 @@ static double recentre_skin(EngineState& state, std::uint32_t i, double t) {
 /// skin radius are passed over: they find i when they build theirs. False if a list overflows.
 static bool build_list(EngineState& state, std::uint32_t i, double t, double before,
                        const SkinRadiusRange& range) {
-    Candidates candidates;
-    if (!collect_candidates(state, i, candidates)) return false;
-    double skin_radius = fair_skin_radius(candidates, before, range);
-    std::uint32_t chosen[longest_list];
+    Candidates candidates(state);
+    if (!collect_candidates(state, i, range, candidates)) return false;
+    const DiscKind& kind = state.kinds[state.equal_radii ? 0 : state.discs[i].kind];
+    double skin_radius = fair_skin_radius(candidates, kind.wanted_neighbours, before,
+                                          {range.least, candidates.farthest});
+    const std::uint32_t most = state.capacity + (state.tails == nullptr ? 0 : state.tail(i).room);
     for (;;) {
         std::uint32_t count = 0;
         bool room = true;
@@ -239,17 +347,17 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
             for (; bits != 0; bits &= bits - 1) {
                 const std::uint32_t n = block + __builtin_ctz(bits);
                 if (candidates.reach[n] == 0.0) continue;
-                if (count == state.capacity || is_full(state, candidates.disc[n])) {
+                if (count == most || is_full(state, candidates.disc[n])) {
                     room = false;
                     break;
                 }
-                chosen[count++] = candidates.disc[n];
+                candidates.chosen[count++] = candidates.disc[n];
             }
         }
         if (room) {
             for (std::uint32_t k = 0; k < count; ++k) {
-                add_neighbour(state, i, chosen[k]);
-                add_neighbour(state, chosen[k], i);
+                add_neighbour(state, i, candidates.chosen[k]);
+                add_neighbour(state, candidates.chosen[k], i);
             }
             break;
         }
@@ -264,19 +372,20 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
 }
 
 /// Makes room for the list of disc i, which overflowed: whoever's skin reaches it is recentred and
-/// its list rebuilt. Writes the numbers of all discs whose lists have changed; returns how many, 0
-/// if it is all of them.
+/// its list rebuilt. Writes the numbers of all discs whose lists have changed into
+/// EngineState::candidates.rebuilt; returns how many, 0 if it is all of them.
 static std::uint32_t resolve_overflow(EngineState& state, std::uint32_t i, double t,
-                                      const SkinRadiusRange& range, std::uint32_t (&rebuilt)[256]) {
-    constexpr std::uint32_t room = 256;
+                                      const SkinRadiusRange& range) {
+    const std::uint32_t room = state.candidates.room;
+    std::uint32_t* const rebuilt = state.candidates.rebuilt;
     rebuilt[0] = i;
     std::uint32_t count = 1;
     for (std::uint32_t next = 0; next < count; ++next) {
         const std::uint32_t k = rebuilt[next];
         // Who was recentred again after its list was built is among them twice.
         if (state.skins[k].skin_radius != 0.0f || build_list(state, k, t, 0.0, range)) continue;
-        Candidates candidates;
-        if (!collect_candidates(state, k, candidates)) return 0;
+        Candidates candidates(state);
+        if (!collect_candidates(state, k, range, candidates)) return 0;
         for (std::uint32_t n = 0; n < candidates.count; ++n) {
             if (candidates.reach[n] == 0.0 ||
                 candidates.gap[n] - candidates.reach[n] >= range.least)
@@ -292,15 +401,27 @@ static std::uint32_t resolve_overflow(EngineState& state, std::uint32_t i, doubl
 
 /// Everybody's list anew.
 static void rebuild_all_lists(EngineState& state, double t, const SkinRadiusRange& range) {
-    for (std::uint32_t c = 0; c < state.cells_per_side * state.cells_per_side; ++c)
-        state.cell_heads[c] = state.size;
+    for (std::uint32_t g = 0; g < state.grid_count; ++g) {
+        const Grid& grid = state.grids[g];
+        for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
+            grid.heads[c] = state.size;
+    }
     for (std::uint32_t i = 0; i < state.size; ++i) {
         for (std::uint32_t slot = 0; slot < state.capacity; ++slot)
             state.cold(i).neighbours()[slot] = state.size;
         state.discs[i].neighbours = 0;
+        if (state.tails != nullptr) {
+            ListTail& tail = state.tail(i);
+            for (std::uint32_t slot = 0; slot < tail.room; ++slot)
+                tail.neighbours()[slot] = state.size;
+            tail.length = 0;
+        }
         centre_skin(state, i, t);
     }
-    for (std::uint32_t i = 0; i < state.size; ++i) build_list(state, i, t, 0.0, range);
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
+        build_list(state, i, t, 0.0, range);
+    }
 }
 
 }  // namespace SWIRL_TARGET
