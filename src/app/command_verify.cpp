@@ -238,8 +238,9 @@ void verify_event_log(const std::string& file, bool quiet) {
     EventLogReader log(file);
     const RunConfig config = config_in(file, log.provenance("parameters"));
     Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
-    const InitialState scene = make_initial_state(config);
-    Simulation simulation(scene);
+    const InitialState scene = make_initial_state(config, &stop_signal());
+    Simulation simulation(scene, {}, stopped_by(&stop_signal()));
+    if (stop_signal().load()) throw Interrupted("Stopped before the first event.");
     verify_beginning(log, scene, simulation, comparison);
     Replay replay(log.initial(), log.swirl_end());
     constexpr std::uint64_t at_once = 1 << 16;

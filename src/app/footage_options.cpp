@@ -7,6 +7,7 @@
 
 #include "swirl/app/config_file.hpp"
 #include "swirl/app/run_options.hpp"
+#include "swirl/app/stop_signal.hpp"
 #include "swirl/draw/film.hpp"
 #include "swirl/draw/label.hpp"
 #include "swirl/run/failure.hpp"
@@ -144,12 +145,12 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     if (texts.slip && texts.beside)
         throw WrongCall("--rolling-ball and --beside show different things: give one.");
     if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
-    std::vector<Footage> dishes{simulated(config)};
+    std::vector<Footage> dishes{simulated(config, &stop_signal())};
     if (texts.beside) {
         RunConfig other = config;
         other.discs = *texts.beside;
         if (const auto wrong = problem(other)) throw WrongCall(*wrong);
-        dishes.insert(dishes.begin(), simulated(other));
+        dishes.insert(dishes.begin(), simulated(other, &stop_signal()));
     }
     return dishes;
 }

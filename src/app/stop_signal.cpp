@@ -39,6 +39,10 @@ const std::atomic<bool>& stop_signal() {
         action.sa_flags = SA_RESTART;
         sigaction(SIGINT, &action, nullptr);
         sigaction(SIGTERM, &action, nullptr);
+        // The terminal is gone; but who was started by nohup(1) goes on.
+        struct sigaction inherited {};
+        sigaction(SIGHUP, nullptr, &inherited);
+        if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
         return true;
     }();
     (void)installed;

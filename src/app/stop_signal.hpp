@@ -1,5 +1,5 @@
-// Ctrl-C and SIGTERM end the work cleanly: they set a flag that the work looks at. A second one
-// ends the program at once, unless it comes so soon that it must be the same keystroke.
+// Ctrl-C, SIGTERM and SIGHUP end the work cleanly: they set a flag that the work looks at. A second
+// one ends the program at once, unless it comes so soon that it must be the same keystroke.
 #pragma once
 
 #include <atomic>

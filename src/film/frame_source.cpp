@@ -75,14 +75,29 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
     return labels;
 }
 
-Footage simulated(const RunConfig& config) {
+Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     Footage footage;
     const ContainerPath path = make_path(config);
-    footage.open = [config]() -> Reel {
-        auto simulation = std::make_shared<Simulation>(make_initial_state(config));
-        return [simulation, period = config.period](double swirls) {
-            const double whole = std::floor(swirls);
-            simulation->advance_to(static_cast<std::int64_t>(whole), (swirls - whole) * period);
+    footage.open = [config, stop]() -> Reel {
+        const auto refuse_stopped = [stop] {
+            if (stop && stop->load(std::memory_order_relaxed))
+                throw Interrupted("Stopped before the moment that was to be shown.");
+        };
+        auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
+                                                       stopped_by(stop));
+        refuse_stopped();
+        // A few hundred thousand events at once.
+        const double step = 3000.0 / static_cast<double>(config.discs);
+        return [=, period = config.period](double swirls) {
+            const auto advance_to = [&](double moment) {
+                const double whole = std::floor(moment);
+                simulation->advance_to(static_cast<std::int64_t>(whole), (moment - whole) * period);
+                refuse_stopped();
+            };
+            const double now =
+                static_cast<double>(simulation->swirls()) + simulation->clock() / period;
+            for (double k = 1.0; now + k * step < swirls; ++k) advance_to(now + k * step);
+            advance_to(swirls);
             return simulation->snapshot();
         };
     };

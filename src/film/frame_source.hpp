@@ -2,6 +2,7 @@
 // engine, from a recorded file, or from the minimal model of one rolling ball.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -46,7 +47,7 @@ struct Footage {
 };
 
 /// Exact states at exact times.
-Footage simulated(const RunConfig& config);
+Footage simulated(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
 
 /// The paper's minimal model (physics/rolling_ball.hpp) in the paper's container or another one.
 Footage rolling(const RollingBall& ball, double amplitude, double period);

@@ -393,8 +393,12 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
         for (; frame < config.frames && !stopped(); ++frame) {
             auto instant = std::make_shared<Instant>();
             instant->swirls = time_of_frame(config, frame);
+            try {
+                for (Camera& camera : cameras) camera.advance_to(instant->swirls);
+            } catch (const Interrupted&) {
+                break;
+            }
             for (Camera& camera : cameras) {
-                camera.advance_to(instant->swirls);
                 instant->now.push_back(camera.now());
                 instant->past.push_back(camera.past());
                 instant->pinned.push_back(camera.pinned());

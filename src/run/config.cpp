@@ -113,13 +113,22 @@ double container_speed(const RunConfig& c) {
     return 2.0 * c.amplitude * c.sides * std::sin(pi / c.sides) / c.period;
 }
 
-InitialState make_initial_state(const RunConfig& c) {
+Tuning stopped_by(const std::atomic<bool>* stop) {
+    Tuning tuning;
+    if (stop) tuning.is_stopped = [stop] { return stop->load(std::memory_order_relaxed); };
+    return tuning;
+}
+
+InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {
     const auto n = static_cast<std::size_t>(c.discs);
     const std::size_t second = c.mixture ? static_cast<std::size_t>(c.mixture->count) : 0;
     std::vector<double> radii(n, c.radius);
     for (std::size_t i = n - second; i < n; ++i) radii[i] = c.mixture->radius;
 
-    const auto centres = place_discs(radii, c.container_radius, c.seed);
+    const auto centres =
+        place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);
+    if (!centres && stop && stop->load())
+        throw Interrupted("Stopped before the discs had their places.");
     if (!centres)
         throw WrongCall(fmt::format(
             "{} discs of radius {}{} could not be placed in a container of radius {} without "
@@ -153,6 +162,7 @@ InitialState make_initial_state(const RunConfig& c) {
                                leg.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0, radii[i],
                                mass, inertia});
     }
+    if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
     return scene;
 }
 

@@ -2,6 +2,7 @@
 // and the initial state.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 
@@ -17,8 +18,12 @@ std::optional<std::string> problem(const RunConfig& config);
 ContainerPath make_path(const RunConfig& config);
 
 /// The initial state: discs placed without overlap, with small random velocities relative to the
-/// container, all from the seed. Throws WrongCall if the discs do not fit.
-InitialState make_initial_state(const RunConfig& config);
+/// container, all from the seed. Throws WrongCall if the discs do not fit, Interrupted if `stop` is
+/// set meanwhile; places may be sought for seconds.
+InitialState make_initial_state(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
+
+/// How a simulation is made that gives up when `stop` is set (simulation.hpp).
+Tuning stopped_by(const std::atomic<bool>* stop);
 
 /// Speed of the container along its path: 2AM sin(π/M)/T on the polygon, AΩ on the circle.
 double container_speed(const RunConfig& config);

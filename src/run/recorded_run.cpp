@@ -81,7 +81,7 @@ void set_aside(const std::filesystem::path& checkpoint) {
 class Recorder {
   public:
     Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
-             const Observation* observation)
+             const Observation* observation, const std::atomic<bool>* stop)
         : config_(config),
           files_(files),
           observation_(observation),
@@ -91,7 +91,7 @@ class Recorder {
         if (files.resume && std::filesystem::exists(files.checkpoint))
             resume();
         else
-            start(provenance);
+            start(provenance, stop);
     }
 
     RunResult operator()(RunControl control) {
@@ -114,15 +114,15 @@ class Recorder {
     }
 
   private:
-    void start(Provenance provenance) {
+    void start(Provenance provenance, const std::atomic<bool>* stop) {
         if (files_.overwrite) set_aside(files_.checkpoint);
         provenance.emplace_back(run_entry, run_name_);
         provenance.emplace_back("frames", frames_json(files_).dump());
         for (const auto& file : {files_.trajectory, files_.event_log})
             if (!file.empty() && !files_.overwrite) refuse_foreign_recording(file, run_name_);
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
-        const InitialState scene = make_initial_state(config_);
-        const Snapshot first = Simulation(scene).snapshot();
+        const InitialState scene = make_initial_state(config_, stop);
+        const Snapshot first = Simulation(scene, {}, stopped_by(stop)).snapshot();
         if (!files_.trajectory.empty())
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
         if (!files_.event_log.empty())
@@ -217,7 +217,7 @@ class Recorder {
 
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance) {
-    return Recorder(config, files, provenance, control.observation)(control);
+    return Recorder(config, files, provenance, control.observation, control.stop)(control);
 }
 
 void forget_checkpoint(const RunFiles& files) {

@@ -19,8 +19,12 @@ namespace {
 /// corners of the path are met at different phases.
 constexpr int rotation_samples = 64;
 
-/// Events between two looks at the clock and at the stop flag.
-constexpr int events_between_looks = 256;
+/// Events between two looks at the clock and at the stop flag: an average by event looks at all
+/// discs after each of them.
+int events_between_looks(std::size_t discs) {
+    constexpr std::size_t discs_looked_at = 1 << 22;
+    return static_cast<int>(std::clamp<std::size_t>(discs_looked_at / discs, 1, 256));
+}
 constexpr std::chrono::milliseconds progress_interval(100);
 
 constexpr std::uint64_t least_collapse_window = 2000;
@@ -65,8 +69,9 @@ struct Moment {
 };
 
 /// The simulation at its beginning, or where the text of a state says.
-Simulation begin(const RunConfig& config, const std::optional<std::string>& state) {
-    InitialState scene = make_initial_state(config);
+Simulation begin(const RunConfig& config, const std::optional<std::string>& state,
+                 const std::atomic<bool>* stop) {
+    InitialState scene = make_initial_state(config, stop);
     Moment moment;
     if (state) {
         StateReader read(*state);
@@ -76,7 +81,11 @@ Simulation begin(const RunConfig& config, const std::optional<std::string>& stat
             throw FileError("The saved state is that of another run.");
         scene.discs = moment.discs;
     }
-    return Simulation(scene, moment.progress);
+    Simulation simulation(scene, moment.progress, stopped_by(stop));
+    if (stop && stop->load())
+        throw Interrupted(state ? "Stopped before the run went on; its checkpoint is as it was."
+                                : "Stopped before the first event.");
+    return simulation;
 }
 
 }  // namespace
@@ -85,12 +94,12 @@ Run::Run(const RunConfig& config, RunControl control)
     : config_(config),
       control_(std::move(control)),
       path_(make_path(config)),
-      simulation_(begin(config, control_.resume)),
+      simulation_(begin(config, control_.resume, control_.stop)),
       snapshot_(simulation_.snapshot()),
       event_(),
       rotation_times_(sample_times(rotation_samples)),
       observation_times_(sample_times(samples_per_period)),
-      events_to_look_up_(events_between_looks),
+      events_to_look_up_(events_between_looks(simulation_.size())),
       events_at_mark_(simulation_.events().total()),
       periods_at_mark_(periods()),
       next_question_(least_blocks_of_a_steady_state),
@@ -174,7 +183,7 @@ void Run::pass_event() {
 
 /// Between two events, now and then: false if the run is to stop.
 bool Run::look_up() {
-    events_to_look_up_ = events_between_looks - 1;
+    events_to_look_up_ = events_between_looks(simulation_.size()) - 1;
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
     refuse_collapse(stopped ? least_collapse_window : collapse_window());
     if (stopped) return false;

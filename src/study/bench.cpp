@@ -11,6 +11,7 @@
 #include "swirl/files/table.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/simulation/placement.hpp"
@@ -64,7 +65,11 @@ const std::vector<BenchScene>& bench_scenes() {
     return all;
 }
 
-InitialState state_of(const BenchScene& scene) {
+void check(const std::atomic<bool>* stop) {
+    if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
+}
+
+InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     const auto n = static_cast<double>(scene.discs);
     const double mu = scene.kind == Kind::gas ? 0.0 : 1.0;
     InitialState initial{{}, {}, 0.0, {mu}, {mu}};
@@ -74,7 +79,9 @@ InitialState state_of(const BenchScene& scene) {
     initial.container_radius =
         scene.kind == Kind::dish ? paper_container_radius : square_root(n / scene.packing);
     const std::vector<double> radii(static_cast<std::size_t>(scene.discs), 1.0);
-    const auto centres = place_discs(radii, initial.container_radius, 1);
+    const auto centres =
+        place_discs(radii, initial.container_radius, 1, stopped_by(stop).is_stopped);
+    check(stop);
     if (!centres) throw Failure("The discs of a benchmark did not fit into their dish.");
     Random random(2);
     const Leg& leg = initial.path.legs.front();
@@ -89,10 +96,6 @@ InitialState state_of(const BenchScene& scene) {
 std::uint64_t settling(const BenchScene& scene) {
     if (scene.kind == Kind::dish) return scene.discs < 10 ? 5000 : 100000;
     return static_cast<std::uint64_t>(5 * scene.discs);
-}
-
-void check(const std::atomic<bool>* stop) {
-    if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
 }
 
 /// Counts per second of the processor over at least `seconds` of it.
@@ -164,9 +167,15 @@ double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSe
 }
 
 BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& settings) {
-    const InitialState initial = state_of(scene);
-    Simulation engine(initial, {}, {0, width});
-    engine.run(settling(scene));
+    const InitialState initial = state_of(scene, settings.stop);
+    Tuning tuning = stopped_by(settings.stop);
+    tuning.width = width;
+    Simulation engine(initial, {}, tuning);
+    constexpr std::uint64_t at_once = 100'000;
+    for (std::uint64_t done = 0, all = settling(scene); done < all; done += at_once) {
+        check(settings.stop);
+        engine.run(std::min(at_once, all - done));
+    }
     const bool collisions_only = scene.kind == Kind::gas;
     const auto counted = [&] {
         const EventCounts e = engine.events();
@@ -219,7 +228,7 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
 /// What it costs to look after every event at N = 48: time of step, refresh and look, over that of
 /// the run alone, less one.
 double by_event_cost(const BenchSettings& settings) {
-    const InitialState initial = state_of(bench_scenes().front());
+    const InitialState initial = state_of(bench_scenes().front(), settings.stop);
     Simulation alone(initial), watched(initial);
     alone.run(100000);
     watched.run(100000);

@@ -223,6 +223,8 @@ class SweepWork {
             if (!do_point(point, claim)) return;
         } catch (const FileError& error) {
             throw;  // the folder is in trouble, not the point
+        } catch (const Interrupted&) {
+            return;
         } catch (const std::exception& error) {
             failure = error.what();
         }

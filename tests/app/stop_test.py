@@ -1,0 +1,116 @@
+"""A stop signal is heard within a second, whatever the program is at: in the search for places, while
+lists are made, between events. Counted is processor time, since the machine may have other work."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+from program import InFolder, SWIRL
+
+PER_SECOND = os.sysconf("SC_CLK_TCK")
+
+
+def processor_seconds(pid):
+    """Of all its threads; None if it has ended."""
+    try:
+        with open(f"/proc/{pid}/stat") as stat:
+            fields = stat.read().rsplit(")", 1)[1].split()
+    except FileNotFoundError:
+        return None
+    if fields[0] == "Z":
+        return None
+    return (int(fields[11]) + int(fields[12])) / PER_SECOND
+
+
+class Started:
+    def __init__(self, folder, *arguments, **more):
+        self.process = subprocess.Popen([SWIRL, *map(str, arguments)], stdin=subprocess.DEVNULL,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        cwd=folder, env=dict(os.environ, NO_COLOR="1"), **more)
+
+    def wait_for(self, seconds):
+        """Until it has worked for so long; False if it has ended before."""
+        while (done := processor_seconds(self.process.pid)) is not None:
+            if done >= seconds:
+                return True
+            time.sleep(0.005)
+        return False
+
+    def stop(self, sent=signal.SIGTERM):
+        """Exit code, errors, and the processor time that it took from the signal on."""
+        at_signal = processor_seconds(self.process.pid)
+        self.process.send_signal(sent)
+        pid, used = self.process.pid, 0.0
+        while (now := processor_seconds(pid)) is not None:
+            used = now - at_signal
+            if used > 20:
+                self.process.kill()
+            time.sleep(0.002)
+        _, errors = self.process.communicate()
+        return self.process.returncode, errors, used
+
+
+class Stop(InFolder):
+    def expect_heard(self, moments, *arguments, sent=signal.SIGTERM):
+        heard = 0
+        for moment in moments:
+            with self.subTest(arguments=arguments, moment=moment):
+                started = Started(self.folder, *arguments)
+                if not started.wait_for(moment):
+                    started.process.communicate()
+                    continue
+                code, errors, used = started.stop(sent)
+                self.assertEqual(code, 130, errors)
+                self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
+                self.assertLess(used, 1.0)
+                heard += 1
+        return heard
+
+    def test_while_places_are_sought(self):
+        self.assertGreaterEqual(
+            self.expect_heard([0.1, 0.5], "run", "--discs", 60, "--events", 100), 1)
+
+    def test_while_a_million_discs_are_made_ready_and_run(self):
+        radius = 8.6 * (1e6 / 48) ** 0.5
+        self.assertGreaterEqual(
+            self.expect_heard([0.1, 0.4, 0.8, 1.2, 1.8, 2.6], "run", "--discs", 1000000,
+                              "--container-radius", radius, "--quiet"), 6)
+
+    def test_while_a_small_disc_is_pushed_from_the_gaps(self):
+        # So dense that the small ones find no lattice: pairs are pushed apart for seconds.
+        self.expect_heard([0.5], "run", "--discs", 3020, "--mixture", "3000:0.1",
+                          "--container-radius", 7.6, "--events", 100)
+
+    def test_in_the_way_to_a_distant_moment_of_a_picture(self):
+        self.assertEqual(
+            self.expect_heard([0.5], "picture", "--at", 1e7, "--out", self.path("a.png")), 1)
+        self.assertEqual(self.left_behind(), [])
+
+    def test_a_hang_up_keeps_a_checkpoint_like_any_other(self):
+        for sent in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+            with self.subTest(sent=sent):
+                name = f"{sent.name}.json"
+                started = Started(self.folder, "run", "--events", 1e12, "--json", self.path(name), "--resume",
+                                  "--quiet")
+                self.assertTrue(started.wait_for(0.3))
+                code, errors, used = started.stop(sent)
+                self.assertEqual(code, 130, errors)
+                self.assertIn("--resume goes on from", errors)
+                checkpoint = re.search(r"goes on from '([^']+)'", errors).group(1)
+                self.assertTrue(os.path.exists(checkpoint), checkpoint)
+                self.assertLess(used, 1.0)
+
+    def test_who_was_started_by_nohup_goes_on_after_a_hang_up(self):
+        started = Started(self.folder, "run", "--events", 1e12, "--quiet",
+                          preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        self.assertTrue(started.wait_for(0.2))
+        started.process.send_signal(signal.SIGHUP)
+        self.assertTrue(started.wait_for(0.5))
+        self.assertEqual(started.stop()[0], 130)
+
+
+if __name__ == "__main__":
+    unittest.main()
