@@ -204,6 +204,11 @@ std::string remarks_on(const CollectedSweep& collected) {
             "In {} of {} rows the replicas scatter more than the errors of their own blocks can "
             "explain (column scatter, in units of those); the errors are those between them.\n",
             collected.disagreeing, collected.rows);
+    if (collected.without_swirl > 0)
+        text += fmt::format(
+            "{} of the runs made no whole swirl after the warm-up; there is nothing to average of "
+            "them. More --events would be right.\n",
+            collected.without_swirl);
     if (collected.not_steady > 0)
         text += fmt::format(
             "In {} of {} rows a run was not shown to be steady (column steady_state).\n",

@@ -44,6 +44,12 @@ std::string drift_sentence(const char* what, const SteadyState& steady) {
         what, steady.warm_up);
 }
 
+std::string no_swirl_sentence(const RunResult& r) {
+    return fmt::format("The run made {:.2f} swirls{}; averages are over whole ones{}.", r.periods,
+                       r.warmup > 0 ? fmt::format(", of which {} are warm-up", r.warmup) : "",
+                       r.complete ? ", and more --events would be right" : "");
+}
+
 /// Nothing to be said of a single disc, which has no rotation about itself.
 std::string too_short_sentence(const RunResult& r) {
     return fmt::format(
@@ -85,6 +91,9 @@ std::string sense_of_rotation(const Estimate& e) {
 std::string headline(const RunResult& r) {
     const Estimate& e = r.rotation.by_event;
     if (r.config.discs == 1) return "1 disc has no rotation about its own centre of mass.";
+    if (!r.has_whole_swirl())
+        return fmt::format("{} discs made no whole swirl{}, so nothing is averaged.",
+                           r.config.discs, r.warmup > 0 ? " after the warm-up" : "");
     const std::string who = fmt::format("{} discs {}", r.config.discs, sense_of_rotation(e));
     if (std::isnan(e.mean)) return who + ".";
     return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", who, with_error(e),
@@ -96,7 +105,7 @@ std::string report(const RunResult& r) {
     const auto line = [&](std::string_view name, const std::string& value) {
         text += fmt::format("  {:<12}{}\n", name, value);
     };
-    if (r.config.discs > 1) {
+    if (r.config.discs > 1 && r.has_whole_swirl()) {
         line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
                                   with_error(r.rotation.rigid_by_time)));
         line("errors",
@@ -124,13 +133,15 @@ std::vector<std::string> warnings(const RunResult& r) {
         all.push_back(
             fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
                         r.periods, with_commas(r.events.total())));
+    if (!r.has_whole_swirl() && r.config.amplitude > 0.0) all.push_back(no_swirl_sentence(r));
     if (frictionless(r.config) && r.config.amplitude > 0.0 && r.config.restitution == 1.0)
         all.push_back(energy_sentence(r));
     else if (r.steady.verdict == SteadyState::Verdict::drifting)
         all.push_back(drift_sentence("rotation", r.steady));
     else if (r.steady_spin.verdict == SteadyState::Verdict::drifting)
         all.push_back(drift_sentence("mean spin of the discs", r.steady_spin));
-    else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1)
+    else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
+             r.has_whole_swirl())
         all.push_back(too_short_sentence(r));
     return all;
 }

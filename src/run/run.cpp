@@ -271,9 +271,6 @@ RunResult Run::result() {
     result_.complete = complete();
     result_.seconds = seconds();
     sample_rotation_by_event();
-    // A run too short for a single whole swirl still has a mean, though no error.
-    if (warm_ && after_warmup_.by_event().empty()) after_warmup_.close_block();
-    if (!warm_ && in_warmup_.by_event().empty()) in_warmup_.close_block();
     if (!warm_ && config_.warmup && result_.complete)
         throw Failure(fmt::format(
             "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "

@@ -303,7 +303,7 @@ class SweepWork {
 constexpr const char* estimators[] = {"by_event", "by_time", "rigid_by_event", "rigid_by_time"};
 
 struct PointResult {
-    bool there = false;
+    bool there = false, has_whole_swirl = true;
     /// The four estimators of the rotation, then the numbers that were measured.
     std::vector<MeasuredNumber> quantities;
     double energy = 0.0, periods = 0.0;
@@ -372,6 +372,9 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         if (const auto measured = json.find("measured"); measured != json.end())
             for (auto& quantity : measured_numbers(*measured))
                 result.quantities.push_back(std::move(quantity));
+        // A single disc never has a rotation.
+        result.has_whole_swirl = json.at("config").at("discs") == 1 ||
+                                 !std::isnan(result.quantities.front().estimate.mean);
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
         result.state_hash = json.at("state_hash").get<std::string>();
@@ -589,6 +592,8 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     }
     columns.push_back("state_hash");
     CollectedSweep collected{Table(columns)};
+    for (const PointResult& result : results)
+        if (result.there && !result.has_whole_swirl) ++collected.without_swirl;
 
     const auto replicas = static_cast<std::size_t>(plan.replicas);
     for (std::size_t first = 0; first < results.size(); first += replicas) {

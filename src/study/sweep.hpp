@@ -95,6 +95,8 @@ struct CollectedSweep {
     std::size_t rows = 0;
     std::size_t disagreeing = 0;  // whose replicas scatter more than their own errors can explain
     std::size_t not_steady = 0;   // with a replica that drifts or is too short to tell
+    /// Runs without a whole swirl after the warm-up: there is nothing to average of them.
+    std::size_t without_swirl = 0;
 };
 
 /// One row for each combination of parameters: mean over the replicas that are done, and its

@@ -134,6 +134,18 @@ class Words(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("no rotation about its own centre", done.stdout)
 
+    def test_without_a_whole_swirl_nothing_is_averaged(self):
+        said = swirl("run", "--events", 300).stdout
+        self.assertIn("48 discs made no whole swirl, so nothing is averaged.", said)
+        self.assertIn("more --events would be right", said)
+        self.assertNotIn("ϖ/Ω", said)
+        result = result_of("--events", 300, "--measure", "slip")
+        for estimator in result["rotation"].values():
+            self.assertEqual((estimator["mean"], estimator["error"], estimator["blocks"]),
+                             (None, None, 0))
+        self.assertIsNone(result["measured"]["slip"]["cluster"]["mean"])
+        self.assertIn("averages are over whole ones", " ".join(result["warnings"]))
+
     def test_no_friction_says_how_fast_the_energy_grows_on_the_polygon(self):
         arguments = ("--mu", 0, "--discs", 12, "--periods", 40)
         said = swirl("run", *arguments).stdout

@@ -164,6 +164,18 @@ class Sweep(InFolder):
                       swirl("sweep", "--out", self.path("a"), "--status").stdout)
         self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
 
+    def test_a_run_without_a_whole_swirl_has_an_empty_row(self):
+        done = swirl("sweep", "--discs", "5,48", "--events", 2000, "--measure", "slip", "--out",
+                     self.path("a"), "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        collected = swirl("collect", self.path("a"), "--csv", "-")
+        self.assertIn("1 of the runs made no whole swirl", collected.stderr)
+        header, five, many = [line.split(",") for line in collected.stdout.splitlines()]
+        for name in ("by_event", "by_event_error", "by_time", "rigid_by_time", "slip.cluster"):
+            self.assertNotEqual(five[header.index(name)], "")
+            self.assertEqual(many[header.index(name)], "")
+        self.assertNotEqual(many[header.index("energy")], "")
+
     def test_another_plan_in_the_same_folder_is_refused(self):
         self.whole()
         done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "swirl/run/run.hpp"
 
 namespace swirl {
 namespace {
@@ -17,6 +20,13 @@ TEST(WithError, HasAsManyDigitsAsTheErrorSupports) {
     EXPECT_EQ(with_error(37.84, 21.0), "38 ± 21");
     EXPECT_EQ(with_error(0.5, 0.0099), "0.500 ± 0.010");
     EXPECT_EQ(with_error(-2.34e-17, 4.1e-18), "−2.3e-17 ± 4e-18");
+}
+
+/// Of the first ten.
+double events_per_swirl(RunConfig config) {
+    config.periods = 10;
+    config.warmup = 0;
+    return static_cast<double>(run(config).events.total()) / 10.0;
 }
 
 TEST(WithError, SaysWhatIsNotKnown) {
@@ -38,9 +48,46 @@ TEST(WithCommas, GroupsByThousands) {
     EXPECT_EQ(with_commas(1234567), "1,234,567");
 }
 
+TEST(Headline, OfARunWithoutAWholeSwirlIsNoAverage) {
+    RunConfig config;
+    config.events = 300;
+    const RunResult short_run = run(config);
+    EXPECT_LT(short_run.periods, 1.0);
+    EXPECT_EQ(headline(short_run), "48 discs made no whole swirl, so nothing is averaged.");
+    EXPECT_THAT(warnings(short_run), testing::ElementsAre(testing::AllOf(
+                                         testing::HasSubstr("The run made 0.16 swirls"),
+                                         testing::HasSubstr("more --events would be right"))));
+    EXPECT_EQ(report(short_run).find("rigid"), std::string::npos);
+    for (const Estimate& e :
+         {short_run.rotation.by_event, short_run.rotation.by_time,
+          short_run.rotation.rigid_by_event, short_run.rotation.rigid_by_time}) {
+        EXPECT_TRUE(std::isnan(e.mean));
+        EXPECT_TRUE(std::isnan(e.error));
+        EXPECT_EQ(e.blocks, 0u);
+    }
+    // One whole swirl is warm-up, and the next was not completed.
+    config.discs = 5;
+    config.warmup = 1;
+    config.events = static_cast<std::int64_t>(1.5 * events_per_swirl(config));
+    const RunResult another = run(config);
+    EXPECT_GT(another.periods, 1.0);
+    EXPECT_LT(another.periods, 2.0);
+    EXPECT_EQ(headline(another),
+              "5 discs made no whole swirl after the warm-up, so nothing is averaged.");
+}
+
+TEST(Headline, OfASingleWholeSwirlIsItsAverage) {
+    RunConfig config;
+    config.discs = 5;
+    config.periods = 1;
+    config.warmup = 0;
+    EXPECT_THAT(headline(run(config)), testing::HasSubstr("ϖ/Ω = "));
+}
+
 TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     RunResult result;
     result.complete = true;
+    result.rotation.by_event.blocks = 100;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     EXPECT_TRUE(warnings(result).empty());
     result.complete = false;

@@ -228,11 +228,11 @@ TEST(Run, StoppedIsIncompleteAndSaysWhatThereIs) {
     RunControl control;
     control.stop = &stop;
     swirl::Run run(config, control);
-    for (int events = 0; run.next_event(); stop = ++events >= 5000) run.pass_event();
+    for (int events = 0; run.next_event(); stop = ++events >= 20000) run.pass_event();
     const RunResult result = run.result();
     EXPECT_FALSE(result.complete);
-    EXPECT_GE(result.events.total(), 5000u);
-    EXPECT_LT(result.events.total(), 6000u);
+    EXPECT_GE(result.events.total(), 20000u);
+    EXPECT_LT(result.events.total(), 21000u);
     EXPECT_TRUE(std::isfinite(result.rotation.by_event.mean));
 }
 
