@@ -90,7 +90,7 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width) {
 }
 
 void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event) {
-    if (event.kind == EventKind::path_vertex)
+    if (event.kind == EventKind::path_vertex || snapshot.on_floor)
         centre_ = centre_of(snapshot, *kernel_);
     else
         push(centre_, event);

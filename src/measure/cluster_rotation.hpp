@@ -22,9 +22,10 @@
 // A sample after every event must cost less than the event. The centre of mass is therefore not
 // summed up each time: discs that collide push each other, so only the wall changes its velocity,
 // by −J/M, and between two such pushes it moves uniformly. What rounding makes of that is forgotten
-// at every path vertex, where it is summed up anew. Eight discs are treated side by side, always
-// with eight partial sums added up in the same order, so the bits of the result do not depend on
-// the width of the processor's vectors.
+// at every path vertex, where it is summed up anew. (Spheres on a floor are pushed by it all the
+// time; their centre of mass is summed up after every event.) Eight discs are treated side by side,
+// always with eight partial sums added up in the same order, so the bits of the result do not
+// depend on the width of the processor's vectors.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +69,7 @@ class ClusterRotation {
 
     /// Call after every event, with the snapshot brought up to date.
     void follow(const Snapshot& snapshot, const Event& event) {
-        if (event.kind != EventKind::disc_disc) follow_centre(snapshot, event);
+        if (event.kind != EventKind::disc_disc || snapshot.on_floor) follow_centre(snapshot, event);
     }
     /// One sample of the average by event: call once for every event that was followed. Whoever is
     /// in a hurry does so just before the snapshot is brought up to date for the next event: a wide

@@ -169,7 +169,7 @@ void PinnedLoose::merge(const PinnedLoose& other) {
 }
 
 void PinnedByCollisions::sample(const Event& event, const Snapshot& after) {
-    if (event.kind == EventKind::path_vertex) return;
+    if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
     if (last_.size() != after.size()) {
         last_.assign(after.size(), {});
         longest_.assign(after.size(), {});

@@ -41,7 +41,7 @@ class SpinFrustration {
     void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
     /// A collision, for the share that sticks.
     void sample(const Event& event) {
-        if (event.kind == EventKind::path_vertex) return;
+        if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
         BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }

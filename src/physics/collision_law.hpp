@@ -29,12 +29,37 @@
 //
 // This is Walton's three-parameter law (e, μ, β): Herbst, Cafiero, Zippelius, Herrmann, Luding,
 // cond-mat/0501223; with e = 1, β = 0 it is the paper's.
+//
+// Spheres on a floor (floor.hpp) touch at their equators, and the contact slips upwards as well:
+// ω × (±R n) has the vertical part ±R (ω_x n_y − ω_y n_x) = ±R h, so j passes i at the rates
+//
+//     s_t = (v_j − v_i)·r + R_i ω_i + R_j ω_j  (ω_z)      s_z = −(R_i h_i + R_j h_j).
+//
+// Two spheres that roll towards each other both have h > 0 and rub; a rolling sphere meets the wall
+// with s_z equal to its speed into the wall. The sphere stays on the floor, which takes vertical
+// impulses as it carries the weight; so against J_z only the spins give way, both by
+// −(R/I) J_z (n_y, −n_x). Each component has an effective mass of its own, and what brings both
+// slips to zero is
+//
+//     J* = −(m_t s_t, m_z s_z),    1/m_t = 1/m_i + 1/m_j + R_i²/I_i + R_j²/I_j,
+//                                  1/m_z = R_i²/I_i + R_j²/I_j.
+//
+// With J_stick = |J*| all is as above, along J*: J = J*/|J*| min(μ J_n, (1 + β) |J*|). Discs are
+// the case of one component, J*/|J*| = ∓1.
+//
+// Energy: an impulse J brings s_t J_t + J_t²/2m_t + s_z J_z + J_z²/2m_z (and −u J_n + J_n²/2m_n =
+// −(1 − e²) m_n u²/2 along the normal; no component works on another's velocity). For J = λ J* that
+// is −(λ − λ²/2)(m_t s_t² + m_z s_z²), and 0 ≤ λ ≤ 1 + β ≤ 2: nothing on the way from 0 to 2 J*
+// brings energy, and J* itself takes the most.
+//
+// Limits of the spheres: they do not hop; the floor's own friction does not notice J_z.
 #pragma once
 
 #include "swirl/math/real.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/physics/contact.hpp"
 #include "swirl/physics/disc.hpp"
+#include "swirl/physics/floor.hpp"
 
 namespace swirl {
 
@@ -60,31 +85,119 @@ struct Body {
     double inverse_mass, inverse_inertia;
 };
 
+/// Of a sphere also the spins (ω_x, ω_y).
+struct SphereBody : Body {
+    Vec2 rolling_spin;
+};
+
 /// The wall: nothing moves it. It does not turn.
 SWIRL_INLINE constexpr Body wall_body(const Vec2& velocity) {
     return {velocity, 0.0, 0.0, 0.0, 0.0};
 }
+SWIRL_INLINE constexpr SphereBody wall_for_spheres(const Vec2& velocity) {
+    return {wall_body(velocity), {0.0, 0.0}};
+}
 
-/// Two bodies about to collide: the speed at which they close in, the slip of the contact, and the
-/// effective masses against which the two impulses work.
-struct Approach {
-    double speed, slip;
-    double normal_mass, tangential_mass;
+/// How a contact slips and the effective mass against which friction works, or the impulse of
+/// friction: along r, for discs.
+struct Tangential {
+    double t;
+};
+/// Along r and along z, for spheres.
+struct TangentialAndVertical {
+    double t, z;
 };
 
-SWIRL_INLINE constexpr Impulse impulse(const Approach& approach, const Surface& surface) {
+/// Two bodies about to collide: the speed at which they close in, the slip of the contact, and the
+/// effective masses against which the impulses work.
+template <class Components = Tangential>
+struct Approach {
+    double speed;
+    Components slip;
+    double normal_mass;
+    Components tangential_mass;
+};
+
+// What discs and spheres differ in.
+namespace law {
+
+/// −(1 + β) J*: as the slip goes.
+SWIRL_INLINE constexpr Tangential times(double one_plus_beta, const Tangential& mass,
+                                        const Tangential& slip) {
+    return {one_plus_beta * mass.t * slip.t};
+}
+SWIRL_INLINE constexpr TangentialAndVertical times(double one_plus_beta,
+                                                   const TangentialAndVertical& mass,
+                                                   const TangentialAndVertical& slip) {
+    return {one_plus_beta * mass.t * slip.t, one_plus_beta * mass.z * slip.z};
+}
+SWIRL_INLINE constexpr double size(const Tangential& a) { return magnitude(a.t); }
+SWIRL_INLINE double size(const TangentialAndVertical& a) {
+    return square_root(a.t * a.t + a.z * a.z);
+}
+/// So much friction against it.
+SWIRL_INLINE constexpr Tangential against(const Tangential& a, double strength) {
+    return {select(a.t > 0.0, -strength, strength)};
+}
+SWIRL_INLINE TangentialAndVertical against(const TangentialAndVertical& a, double strength) {
+    const double length = size(a);
+    if (length == 0.0) return {0.0, 0.0};
+    // The direction first: with z = 0 it is exactly ∓1, and discs have the same bits.
+    return {-(a.t / length) * strength, -(a.z / length) * strength};
+}
+
+SWIRL_INLINE constexpr Impulse impulse(double normal, const Tangential& J, bool sticks) {
+    return {normal, J.t, sticks};
+}
+SWIRL_INLINE constexpr Impulse impulse(double normal, const TangentialAndVertical& J, bool sticks) {
+    return {normal, J.t, sticks, J.z};
+}
+
+SWIRL_INLINE constexpr Tangential slip(const Body&, const Body&, const Vec2&, double horizontal) {
+    return {horizontal};
+}
+SWIRL_INLINE constexpr TangentialAndVertical slip(const SphereBody& i, const SphereBody& j,
+                                                  const Vec2& normal, double horizontal) {
+    return {horizontal,
+            -(i.radius * cross(i.rolling_spin, normal) + j.radius * cross(j.rolling_spin, normal))};
+}
+
+/// `lever` is R²/I of both together.
+SWIRL_INLINE constexpr Tangential mass(const Body&, double inverse_masses, double lever) {
+    return {1.0 / (inverse_masses + lever)};
+}
+SWIRL_INLINE constexpr TangentialAndVertical mass(const SphereBody&, double inverse_masses,
+                                                  double lever) {
+    return {1.0 / (inverse_masses + lever), 1.0 / lever};
+}
+
+SWIRL_INLINE constexpr void roll(Body&, const Vec2&, double) {}
+SWIRL_INLINE constexpr void roll(SphereBody& sphere, const Vec2& tangent, double vertical) {
+    sphere.rolling_spin =
+        sphere.rolling_spin - (sphere.radius * vertical * sphere.inverse_inertia) * tangent;
+}
+
+}  // namespace law
+
+template <class Components>
+SWIRL_INLINE constexpr Impulse impulse(const Approach<Components>& approach,
+                                       const Surface& surface) {
     const double normal =
         (1.0 + surface.restitution) * approach.normal_mass * larger(approach.speed, 0.0);
     const double coulomb = surface.mu * normal;
-    const double stick = (1.0 + surface.tangential_restitution) * approach.tangential_mass *
-                         magnitude(approach.slip);
+    const Components sticking =
+        law::times(1.0 + surface.tangential_restitution, approach.tangential_mass, approach.slip);
+    const double stick = law::size(sticking);
     const double strength = smaller(coulomb, stick);
-    return {normal, select(approach.slip > 0.0, -strength, strength), stick <= coulomb};
+    return law::impulse(normal, law::against(sticking, strength), stick <= coulomb);
 }
 
-/// Applies the law. `separation` points from the centre of i to the centre of j (or, for the wall,
-/// from the centre of the dish to the disc: outwards); only its direction is used.
-SWIRL_INLINE Impulse collide(Body& i, Body& j, const Vec2& separation, const Surface& surface) {
+/// Applies the law to two discs (Body) or two spheres (SphereBody), or one and the wall.
+/// `separation` points from the centre of i to the centre of j (or, for the wall, from the centre
+/// of the dish to the disc: outwards); only its direction is used.
+template <class AnyBody>
+SWIRL_INLINE Impulse collide(AnyBody& i, AnyBody& j, const Vec2& separation,
+                             const Surface& surface) {
     // All contacts of a pair have the same distance to the last digits, so its rounding error is
     // not random: √ of a number just below or above 4 is always rounded down. Each error enters
     // the kick J_n n = −(1 + e) m (s·v / s·s) s once up and once down, and so the energy staggers
@@ -99,11 +212,12 @@ SWIRL_INLINE Impulse collide(Body& i, Body& j, const Vec2& separation, const Sur
     // The sign of the approach is that of separation · relative, the same product that decided in
     // contact_time.hpp that the two are approaching; so a contact found there always has J_n > 0.
     const double inverse_masses = i.inverse_mass + j.inverse_mass;
+    const double lever =
+        i.radius * i.radius * i.inverse_inertia + j.radius * j.radius * j.inverse_inertia;
+    const double horizontal = dot(relative, tangent) + (i.radius * i.spin + j.radius * j.spin);
     const Approach approach{-(dot(separation, relative) / square) * distance,
-                            dot(relative, tangent) + (i.radius * i.spin + j.radius * j.spin),
-                            1.0 / inverse_masses,
-                            1.0 / (inverse_masses + (i.radius * i.radius * i.inverse_inertia +
-                                                     j.radius * j.radius * j.inverse_inertia))};
+                            law::slip(i, j, normal, horizontal), 1.0 / inverse_masses,
+                            law::mass(i, inverse_masses, lever)};
     const Impulse J = impulse(approach, surface);
 
     const Vec2 kick = J.normal * normal + J.tangential * tangent;
@@ -111,7 +225,28 @@ SWIRL_INLINE Impulse collide(Body& i, Body& j, const Vec2& separation, const Sur
     j.velocity = j.velocity + j.inverse_mass * kick;
     i.spin = i.spin + i.radius * J.tangential * i.inverse_inertia;
     j.spin = j.spin + j.radius * J.tangential * j.inverse_inertia;
+    law::roll(i, tangent, J.vertical);
+    law::roll(j, tangent, J.vertical);
     return J;
+}
+
+/// Spheres on a floor that are pressed together (one slides into another, or rolls along the wall)
+/// hop on each other, and a hop of the speed u takes the time 2u/a for a relative acceleration a.
+/// Each hop leaves some slip on the floor, which ends and takes u down, to 3/7 of a solid sphere's
+/// at the wall, be the collision elastic or not: infinitely many hops in a finite time. A real
+/// contact lasts t_c and stores the energy that the pressing force needs to act for so long. So
+/// here a collision within t_c of the last one is elastic, and parts the two with no less than
+/// μ_f g t_c/2, the speed of a hop of t_c under the force of the floor. The energy in question,
+/// m (μ_f g t_c)²/8, is what the choice of t_c decides about (docs/spheres.md).
+SWIRL_INLINE Surface at_contact_on_floor(Surface surface, double since_last, const Floor& floor,
+                                         const Vec2& separation, const Vec2& relative_velocity) {
+    if (floor.deceleration == 0.0) return at_contact(surface, since_last);
+    if (!(since_last < surface.contact_duration)) return surface;
+    const double approach =
+        -dot(separation, relative_velocity) / square_root(dot(separation, separation));
+    const double least = 0.5 * floor.deceleration * surface.contact_duration;
+    surface.restitution = approach > 0.0 ? larger(1.0, smaller(least / approach, 1e100)) : 1.0;
+    return surface;
 }
 
 }  // namespace swirl

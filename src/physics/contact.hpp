@@ -16,7 +16,8 @@ struct Surface {
 /// Impulses on body j, along n and along r; body i receives the opposite.
 struct Impulse {
     double normal, tangential;
-    bool sticks;  // friction sufficed to stop the slip
+    bool sticks;            // friction sufficed to stop the slip
+    double vertical = 0.0;  // of spheres: along z; for them `tangential` is the horizontal part
 };
 
 }  // namespace swirl

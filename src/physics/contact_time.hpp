@@ -11,11 +11,19 @@
 // the two are approaching does the same without a tolerance (Bannerman, Strobl, Formella, Pöschel
 // 2014, arXiv:1211.6718): separating means never; touching, or overlapping by a rounding error, and
 // approaching means now. The roots are taken in the form in which nothing cancels.
+//
+// Spheres that slide on the floor fly parabolas (floor.hpp). If their accelerations are the same,
+// as when both roll, that quadratic holds for them, too. If not, with g half the difference,
+// |s + v τ + g τ²|² = σ² is a quartic, and the first time at which it comes down to zero is asked
+// of quartic.hpp: the same rules, and again the states alone decide. Nobody slides for ever, and
+// when one begins to roll its flight is another, so the quartic need not be followed beyond.
 #pragma once
 
+#include "swirl/math/quartic.hpp"
 #include "swirl/math/real.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
+#include "swirl/physics/floor.hpp"
 
 namespace swirl {
 
@@ -105,6 +113,95 @@ static inline double time_of_turning_wall_contact(const Flight<double>& disc, co
         t = t + wait;
     }
     return t < leg.end ? t : never;
+}
+
+/// The answer of what can be told without solving a quartic: it cannot.
+inline constexpr double ask_the_quartic = -1.0;
+
+/// |s + v τ + g τ²|² − σ².
+template <class Real>
+struct Room {
+    Real c0, c1, c2, c3, c4;
+
+    SWIRL_INLINE Room(const BasicVec2<Real>& s, const BasicVec2<Real>& v, const BasicVec2<Real>& g,
+                      const Real& sigma)
+        : c0(dot(s, s) - sigma * sigma),
+          c1(Real(2.0) * dot(s, v)),
+          c2(dot(v, v) + Real(2.0) * dot(s, g)),
+          c3(Real(2.0) * dot(v, g)),
+          c4(dot(g, g)) {}
+};
+
+/// Most spheres that are looked at do not meet within the horizon, and a bound tells: with what is
+/// negative of the coefficients alone, τ = h makes f or f' as small as it can be. Where neither is
+/// below zero they do not meet: f stays above it, or never falls. For a vector of spheres the
+/// others are marked, and solved one by one.
+template <class Real>
+SWIRL_INLINE Real contact_or_quartic(const BasicVec2<Real>& s, const BasicVec2<Real>& v,
+                                     const BasicVec2<Real>& g, const Real& sum_of_radii,
+                                     const Real& horizon) {
+    const Room<Real> f(s, v, g, sum_of_radii);
+    const Real zero(0.0);
+    const Real d1 = smaller(f.c1, zero), d2 = smaller(f.c2, zero), d3 = smaller(f.c3, zero);
+    const Real lowest = f.c0 + horizon * (d1 + horizon * (d2 + horizon * d3));
+    const Real slowest = f.c1 + horizon * (Real(2.0) * d2 + Real(3.0) * horizon * d3);
+    // Written so that nobody, whose position is NaN, is met by nobody.
+    const auto may_meet = (zero >= lowest) & (zero >= slowest);
+    const auto uniform = (g.x == zero) & (g.y == zero);
+    return select(uniform, time_until_contact(s, v, sum_of_radii),
+                  select(may_meet, Real(ask_the_quartic), Real(never)));
+}
+
+/// With what is asked of `contact_or_quartic`: the answer of the quartic.
+SWIRL_INLINE double contact_on_parabolas(const Vec2& s, const Vec2& v, const Vec2& g,
+                                         double sum_of_radii, double horizon) {
+    const Room<double> f(s, v, g, sum_of_radii);
+    return first_fall({f.c0, f.c1, f.c2, f.c3, f.c4}, horizon,
+                      0x1p-52 * sum_of_radii * sum_of_radii);
+}
+
+/// Two spheres as seen from each other, from the later of the times at which they are known until
+/// the first of them begins to roll.
+template <class Real>
+struct Encounter {
+    Real now;
+    BasicVec2<Real> s, v, g;
+    Real sum_of_radii, horizon;
+
+    SWIRL_INLINE Encounter(const Parabola<Real>& i, const Parabola<Real>& j, const Real& i_rolls,
+                           const Real& j_rolls, const Real& sum)
+        : now(larger(i.time, j.time)),
+          s(j.position_at(now) - i.position_at(now)),
+          v(j.velocity_at(now) - i.velocity_at(now)),
+          g(Real(0.5) * (j.acceleration - i.acceleration)),
+          sum_of_radii(sum),
+          horizon(smaller(i_rolls, j_rolls) - now) {}
+
+    SWIRL_INLINE Real wait_or_quartic() const {
+        return contact_or_quartic(s, v, g, sum_of_radii, horizon);
+    }
+};
+
+SWIRL_INLINE double time_of_contact(const Encounter<double>& e) {
+    const double wait = e.wait_or_quartic();
+    return e.now + (wait == ask_the_quartic
+                        ? contact_on_parabolas(e.s, e.v, e.g, e.sum_of_radii, e.horizon)
+                        : wait);
+}
+
+/// Sphere and wall, on a straight leg. The room is clearance² − |s|².
+SWIRL_INLINE double time_of_wall_contact(const Parabola<double>& sphere, double begins_to_roll,
+                                         const Leg& leg, double clearance) {
+    const Flight<double> container{leg.start, leg.velocity, leg.begin};
+    if (sphere.acceleration.x == 0.0 && sphere.acceleration.y == 0.0)
+        return time_of_wall_contact(Flight<double>{sphere.position, sphere.velocity, sphere.time},
+                                    container, clearance);
+    const double now = larger(sphere.time, leg.begin);
+    const Vec2 s = sphere.position_at(now) - container.position_at(now);
+    const Vec2 v = sphere.velocity_at(now) - container.velocity;
+    const Room<double> f(s, v, 0.5 * sphere.acceleration, clearance);
+    return now + first_fall({-f.c0, -f.c1, -f.c2, -f.c3, -f.c4}, begins_to_roll - now,
+                            0x1p-52 * clearance * clearance);
 }
 
 inline double time_of_contact(const Disc& i, const Disc& j) {

@@ -1,5 +1,6 @@
 // A disc, and how it moves between collisions: in a straight line at constant speed, turning at
-// constant rate. There is no friction with the floor (paper, SI "Overview").
+// constant rate. There is no friction with the floor (paper, SI "Overview"). A sphere, seen from
+// above, is a disc with two spins more; what the floor does to it is in floor.hpp.
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -25,6 +26,9 @@ struct Disc {
     Vec2 position, velocity;
     double angle, spin, time;  // spin: the paper's ω_i, positive counter-clockwise
     double radius, mass, inertia;
+    // Of spheres alone; a disc has none of it.
+    Vec2 rolling_spin{0.0, 0.0};  // (ω_x, ω_y)
+    double last_collision = 0.0;  // when; `time` is also that of other changes
 
     constexpr Flight<double> flight() const { return {position, velocity, time}; }
 
@@ -48,7 +52,8 @@ inline constexpr double solid_inertia(double mass, double radius) {
 
 /// Kinetic energy of translation and spin, in the frame in which the velocities are given.
 constexpr double kinetic_energy(const Disc& d) {
-    return 0.5 * (d.mass * dot(d.velocity, d.velocity) + d.inertia * d.spin * d.spin);
+    return 0.5 * (d.mass * dot(d.velocity, d.velocity) + d.inertia * d.spin * d.spin +
+                  d.inertia * dot(d.rolling_spin, d.rolling_spin));
 }
 
 }  // namespace swirl

@@ -7,6 +7,7 @@
 #include "swirl/physics/contact.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
+#include "swirl/physics/floor.hpp"
 
 namespace swirl {
 
@@ -16,6 +17,8 @@ struct InitialState {
     ContainerPath path;
     double container_radius;
     Surface disc_surface, wall_surface;
+    Shape shape = Shape::disc;
+    Floor floor{};  // of spheres
 };
 
 }  // namespace swirl

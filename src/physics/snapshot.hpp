@@ -4,6 +4,9 @@
 // Columns, one entry per disc. Each disc's state is kept at its own time `held_at`, and moves
 // uniformly from there; a look at time `clock` brings it forward. So an observer who looks after
 // every event is handed two changed discs, not N. In recorded data held_at = clock.
+//
+// Spheres on a floor may be accelerated; who asks the columns alone is handed up_to_date(), where
+// everybody is held now.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +15,7 @@
 
 #include "swirl/math/vec2.hpp"
 #include "swirl/physics/disc.hpp"
+#include "swirl/physics/floor.hpp"
 
 namespace swirl {
 
@@ -25,20 +29,42 @@ struct Snapshot {
     // spin and angle are NaN where they are not known (a camera's tracks).
     std::vector<double> x, y, vx, vy, angle, spin, held_at;
     std::vector<double> radius, mass, inertia;
+    // Of spheres, empty for discs: the other two spins, and what the floor does.
+    std::vector<double> spin_x, spin_y, ax, ay;
+    bool on_floor = false;  // it pushes, so that the centre of mass does not move uniformly
 
+    bool are_spheres() const { return !ax.empty(); }
     std::size_t size() const { return x.size(); }
     double time() const { return static_cast<double>(swirls) * period + clock; }
 
     Vec2 position(std::size_t i) const {
         const double elapsed = clock - held_at[i];
-        return {x[i] + elapsed * vx[i], y[i] + elapsed * vy[i]};
+        const Vec2 p{x[i] + elapsed * vx[i], y[i] + elapsed * vy[i]};
+        if (!are_spheres()) return p;
+        const double half_square = 0.5 * elapsed * elapsed;
+        return {p.x + half_square * ax[i], p.y + half_square * ay[i]};
     }
-    Vec2 velocity(std::size_t i) const { return {vx[i], vy[i]}; }
+    Vec2 velocity(std::size_t i) const {
+        if (!are_spheres()) return {vx[i], vy[i]};
+        const double elapsed = clock - held_at[i];
+        return {vx[i] + elapsed * ax[i], vy[i] + elapsed * ay[i]};
+    }
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
 
     Disc disc(std::size_t i) const {
-        return {{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
-                held_at[i],   radius[i],      mass[i],  inertia[i]};
+        Disc d{{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
+               held_at[i],   radius[i],      mass[i],  inertia[i]};
+        if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
+        return d;
+    }
+    /// Everybody held now.
+    Snapshot up_to_date() const {
+        Snapshot now = *this;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const Vec2 a = are_spheres() ? Vec2{ax[i], ay[i]} : Vec2{0.0, 0.0};
+            now.set(i, moved_to(disc(i), {a, never}, clock));
+        }
+        return now;
     }
     /// What changes in the course of a simulation.
     void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
@@ -51,8 +77,15 @@ struct Snapshot {
         spin[i] = new_spin;
         held_at[i] = flight.time;
     }
+    void set_floor_motion(std::size_t i, const Vec2& rolling_spin, const Vec2& acceleration) {
+        spin_x[i] = rolling_spin.x;
+        spin_y[i] = rolling_spin.y;
+        ax[i] = acceleration.x;
+        ay[i] = acceleration.y;
+    }
     void set(std::size_t i, const Disc& d) {
         set_motion(i, d.flight(), d.angle, d.spin);
+        if (are_spheres()) set_floor_motion(i, d.rolling_spin, {0.0, 0.0});
         radius[i] = d.radius;
         mass[i] = d.mass;
         inertia[i] = d.inertia;
@@ -60,6 +93,10 @@ struct Snapshot {
     void resize(std::size_t n) {
         for (auto* column : {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
             column->resize(n);
+    }
+    void resize_for_spheres(std::size_t n) {
+        resize(n);
+        for (auto* column : {&spin_x, &spin_y, &ax, &ay}) column->resize(n);
     }
 };
 

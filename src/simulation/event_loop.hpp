@@ -20,6 +20,11 @@
 //     leg_ended(state, t)                predicts what depends on the container's course anew
 //     check(state, t)                    asks what the search promises (internal_check.hpp)
 //
+//     Bodies                             Discs; or Spheres (resolve.hpp): their search has this
+//
+// Spheres on a floor have a fourth kind of event, which the loop of discs does not ask about: one
+// begins to roll.
+//
 // Included by one file per vector width, and compiled with that width's instructions. So that the
 // linker cannot mix them up, nothing in here may leave a symbol of its own: functions are inlined
 // or static, and a test looks at the objects.
@@ -33,6 +38,23 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
+template <class Search>
+struct BodiesOf {
+    using Type = Discs;
+};
+template <class Search>
+requires requires { typename Search::Bodies; }
+struct BodiesOf<Search> {
+    using Type = typename Search::Bodies;
+};
+template <class Search>
+using Bodies = typename BodiesOf<Search>::Type;
+
+template <class Search>
+SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
+    return Bodies<Search>::have_floor && event.partner == the_floor;
+}
+
 /// The next event that happens.
 template <class Search>
 SWIRL_INLINE PendingEvent next_event(EngineState& state) {
@@ -40,7 +62,7 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
     for (;;) {
         const PendingEvent next = Search::next(state);
         if (next.time >= end) return {end, state.size, state.size};
-        if (state.is_valid(next)) return next;
+        if (is_of_floor<Search>(next) || state.is_valid(next)) return next;
         Search::predict_again(state, next);
     }
 }
@@ -48,7 +70,10 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
 /// In the build that checks invariants, and only there.
 template <class Search>
 SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
-    if constexpr (internal_checks) {
+    if constexpr (internal_checks && Bodies<Search>::have_floor) {
+        promise::time_never_goes_back(next.time >= state.clock);
+        if (is_time_to_check(state)) Search::check(state, next.time);
+    } else if constexpr (internal_checks) {
         check_order(state, next);
         if (!is_time_to_check(state)) return;
         check_discs(state, next.time);
@@ -59,7 +84,7 @@ SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
 /// Not inlined: the collisions, which are most events, have the registers to themselves.
 template <class Search>
 [[gnu::noinline]] static Event end_leg(EngineState& state) {
-    const Event event = take_next_leg(state);
+    const Event event = take_next_leg<Bodies<Search>>(state);
     Search::leg_ended(state, event.clock);
     return event;
 }
@@ -73,12 +98,17 @@ SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
     const PendingEvent due = Search::take_out(state, next);
     check<Search>(state, due);
     state.clock = due.time;
-    if (due.is_with_wall()) {
-        const Event event = collide_with_wall(state, due.disc, due.time);
+    if (is_of_floor<Search>(due)) {
+        const Event event = Bodies<Search>::begin_to_roll(state, due.disc, due.time);
         Search::predict_changed(state, {due.disc}, due.time);
         return event;
     }
-    const Event event = collide_discs(state, due.first(), due.second(), due.time);
+    if (due.is_with_wall()) {
+        const Event event = collide_with_wall<Bodies<Search>>(state, due.disc, due.time);
+        Search::predict_changed(state, {due.disc}, due.time);
+        return event;
+    }
+    const Event event = collide_discs<Bodies<Search>>(state, due.first(), due.second(), due.time);
     Search::predict_changed(state, {due.first(), due.second()}, due.time);
     return event;
 }

@@ -12,8 +12,12 @@
 
 namespace swirl {
 
-/// `disc` meets `partner`, or the wall: then `partner` is the disc itself. When the leg ends both
-/// are N, the number of discs.
+/// In the place of a partner: the sphere no longer slides on the floor. Larger than the number of
+/// any disc.
+inline constexpr std::uint32_t the_floor = 0xffffff10u;
+
+/// `disc` meets `partner`, or the wall: then `partner` is the disc itself; or it begins to roll.
+/// When the leg ends both are N, the number of discs.
 struct PendingEvent {
     double time;
     std::uint32_t disc, partner;

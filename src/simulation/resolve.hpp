@@ -11,38 +11,158 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-SWIRL_INLINE Body body_of(const EngineState& state, const HotDisc& d) {
-    const DiscKind& kind = state.kinds[d.kind];
-    return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
-}
+/// What an event needs of a disc: it flies straight, and the floor is none of its business.
+struct Discs {
+    using Body = swirl::Body;
+    static constexpr bool have_floor = false;
 
-/// Brings disc i to time t and gives it its new velocities.
-SWIRL_INLINE void write_back(EngineState& state, std::uint32_t i, const Vec2& position, double t,
-                             const Body& body) {
-    HotDisc& disc = state.discs[i];
-    state.cold(i).angle = state.cold(i).angle + (t - disc.time) * disc.spin;
-    store_four(&disc.position.x, position.x, position.y, body.velocity.x, body.velocity.y);
-    *reinterpret_cast<Double2*>(&disc.time) = Double2{t, disc.radius};
-    disc.spin = body.spin;
-    ++disc.collisions;
-}
+    SWIRL_INLINE static Vec2 position_at(const EngineState& state, std::uint32_t i, double t) {
+        return state.discs[i].flight().position_at(t);
+    }
+    SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double) {
+        const HotDisc& d = state.discs[i];
+        const DiscKind& kind = state.kinds[d.kind];
+        return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
+    }
+    SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_body(velocity); }
+    SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
+        return state.discs[i].time;
+    }
+    SWIRL_INLINE static bool feel_every_leg(const EngineState&) { return false; }
+
+    /// How two meet, or one and the wall.
+    SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
+                                           double since_last, const Vec2&, const Vec2&) {
+        return swirl::at_contact(surface, since_last);
+    }
+
+    /// Brings disc i to time t and gives it its new velocities.
+    SWIRL_INLINE static void write_back(EngineState& state, std::uint32_t i, const Vec2& position,
+                                        double t, const Body& body) {
+        HotDisc& disc = state.discs[i];
+        state.cold(i).angle = state.cold(i).angle + (t - disc.time) * disc.spin;
+        store_four(&disc.position.x, position.x, position.y, body.velocity.x, body.velocity.y);
+        *reinterpret_cast<Double2*>(&disc.time) = Double2{t, disc.radius};
+        disc.spin = body.spin;
+        ++disc.collisions;
+    }
+    /// All clocks restart.
+    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i, bool) {
+        HotDisc& disc = state.discs[i];
+        state.cold(i).angle = state.cold(i).angle + (state.clock - disc.time) * disc.spin;
+        disc.position = disc.flight().position_at(state.clock);
+        disc.time = 0.0;
+        ++disc.collisions;
+    }
+    static Event begin_to_roll(EngineState&, std::uint32_t, double);  // they do not
+};
+
+/// And of a sphere: it may slide, and its flight follows from its state and the floor's velocity.
+struct Spheres {
+    using Body = SphereBody;
+    static constexpr bool have_floor = true;
+
+    SWIRL_INLINE static Disc load(const EngineState& state, std::uint32_t i) {
+        const HotDisc& d = state.discs[i];
+        const DiscKind& kind = state.kinds[d.kind];
+        const SphereState& sphere = state.spheres[i];
+        return {d.position,
+                d.velocity,
+                state.cold(i).angle,
+                d.spin,
+                d.time,
+                d.radius,
+                kind.mass,
+                kind.inertia,
+                sphere.rolling_spin,
+                sphere.last_collision};
+    }
+    /// And how it moves from now on.
+    SWIRL_INLINE static void store(EngineState& state, std::uint32_t i, const Disc& sphere) {
+        HotDisc& d = state.discs[i];
+        d.position = sphere.position;
+        d.velocity = sphere.velocity;
+        d.time = sphere.time;
+        d.spin = sphere.spin;
+        ++d.collisions;
+        state.cold(i).angle = sphere.angle;
+        state.spheres[i] = {floor_motion(sphere, state.floor, state.legs[state.leg].velocity),
+                            sphere.rolling_spin, sphere.last_collision};
+    }
+    SWIRL_INLINE static Parabola<double> flight(const EngineState& state, std::uint32_t i) {
+        const HotDisc& d = state.discs[i];
+        return {d.position, d.velocity, state.spheres[i].motion.acceleration, d.time};
+    }
+
+    SWIRL_INLINE static Vec2 position_at(const EngineState& state, std::uint32_t i, double t) {
+        return flight(state, i).position_at(t);
+    }
+    SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double t) {
+        const Disc d = moved_to(load(state, i), state.spheres[i].motion, t);
+        const DiscKind& kind = state.kinds[state.discs[i].kind];
+        return {{d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia},
+                d.rolling_spin};
+    }
+    SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_for_spheres(velocity); }
+    SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
+        return state.spheres[i].last_collision;
+    }
+    SWIRL_INLINE static Surface at_contact(const EngineState& state, const Surface& surface,
+                                           double since_last, const Vec2& separation,
+                                           const Vec2& relative_velocity) {
+        return at_contact_on_floor(surface, since_last, state.floor, separation, relative_velocity);
+    }
+    /// The floor takes another velocity.
+    SWIRL_INLINE static bool feel_every_leg(const EngineState& state) {
+        return state.floor.deceleration != 0.0;
+    }
+
+    SWIRL_INLINE static void write_back(EngineState& state, std::uint32_t i, const Vec2& position,
+                                        double t, const Body& body) {
+        Disc sphere = load(state, i);
+        sphere.angle = sphere.angle + (t - sphere.time) * sphere.spin;
+        sphere.position = position;
+        sphere.velocity = body.velocity;
+        sphere.spin = body.spin;
+        sphere.rolling_spin = body.rolling_spin;
+        sphere.time = sphere.last_collision = t;
+        store(state, i, sphere);
+    }
+    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i,
+                                              bool clocks_restart) {
+        Disc sphere = moved_to(load(state, i), state.spheres[i].motion, state.clock);
+        if (clocks_restart) sphere.time = sphere.last_collision = 0.0;
+        store(state, i, sphere);
+    }
+    SWIRL_INLINE static Event begin_to_roll(EngineState& state, std::uint32_t i, double t) {
+        store(state, i,
+              set_rolling(load(state, i), state.spheres[i].motion, state.legs[state.leg].velocity));
+        ++state.begun_to_roll;
+        return {state.swirls, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
+    }
+};
 
 /// Discs i < j meet at time t.
+template <class Bodies>
 SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint32_t j, double t) {
-    const Vec2 at_i = state.discs[i].flight().position_at(t);
-    const Vec2 at_j = state.discs[j].flight().position_at(t);
-    const Body before_i = body_of(state, state.discs[i]), before_j = body_of(state, state.discs[j]);
+    using Body = typename Bodies::Body;
+    const Vec2 at_i = Bodies::position_at(state, i, t);
+    const Vec2 at_j = Bodies::position_at(state, j, t);
+    const Body before_i = Bodies::body_at(state, i, t), before_j = Bodies::body_at(state, j, t);
     Body body_i = before_i, body_j = before_j;
     const Vec2 s = at_j - at_i;
-    const double since_last = t - larger(state.discs[i].time, state.discs[j].time);
+    const double since_last =
+        t - larger(Bodies::last_collision(state, i), Bodies::last_collision(state, j));
     state.elastic_by_tc += is_elastic_by_tc_model(state.disc_surface, since_last);
-    const Impulse impulse = collide(body_i, body_j, s, at_contact(state.disc_surface, since_last));
-    if constexpr (internal_checks)
+    const Surface surface = Bodies::at_contact(state, state.disc_surface, since_last, s,
+                                               body_j.velocity - body_i.velocity);
+    const Impulse impulse = collide(body_i, body_j, s, surface);
+    if constexpr (internal_checks && !Bodies::have_floor)
         check_disc_collision({before_i, body_i, before_i.velocity},
                              {before_j, body_j, before_i.velocity}, s, state.disc_surface, impulse,
                              state.overlapped_at_start);
-    write_back(state, i, at_i, t, body_i);
-    write_back(state, j, at_j, t, body_j);
+    Bodies::write_back(state, i, at_i, t, body_i);
+    Bodies::write_back(state, j, at_j, t, body_j);
     ++state.disc_disc;
     const double distance = square_root(dot(s, s));
     return {state.swirls,
@@ -55,20 +175,24 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
             body_i.radius + body_j.radius - distance};
 }
 
+template <class Bodies>
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
+    using Body = typename Bodies::Body;
     const Leg& leg = state.legs[state.leg];
-    const Vec2 at = state.discs[i].flight().position_at(t);
-    const Body before = body_of(state, state.discs[i]);
-    Body body = before, wall = wall_body(leg.velocity_at(t));
+    const Vec2 at = Bodies::position_at(state, i, t);
+    const Body before = Bodies::body_at(state, i, t);
+    Body body = before, wall = Bodies::wall(leg.velocity_at(t));
     const Vec2 s = at - leg.position_at(t);
-    const double since_last = t - state.discs[i].time;
+    const double since_last = t - Bodies::last_collision(state, i);
     state.elastic_by_tc += is_elastic_by_tc_model(state.wall_surface, since_last);
-    const Impulse impulse = collide(body, wall, s, at_contact(state.wall_surface, since_last));
-    if constexpr (internal_checks)
+    const Surface surface =
+        Bodies::at_contact(state, state.wall_surface, since_last, s, wall.velocity - body.velocity);
+    const Impulse impulse = collide(body, wall, s, surface);
+    if constexpr (internal_checks && !Bodies::have_floor)
         check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
                              state.container_radius - body.radius, state.wall_surface, impulse,
                              state.overlapped_at_start);
-    write_back(state, i, at, t, body);
+    Bodies::write_back(state, i, at, t, body);
     ++state.disc_wall;
     const double distance = square_root(dot(s, s));
     return {state.swirls,
@@ -83,20 +207,17 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
 
 /// The container takes its next leg. With the last leg of a swirl everybody is brought up to date
 /// and all clocks restart, so that times stay short and precise however long the run; state.clock
-/// is then 0.
+/// is then 0. Who feels the floor is brought up to date with every leg.
+template <class Bodies>
 SWIRL_INLINE Event take_next_leg(EngineState& state) {
     state.clock = state.legs[state.leg].end;
     ++state.path_vertex;
     const Event event{state.swirls, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-    if (++state.leg < state.leg_count) return event;
-    for (std::uint32_t i = 0; i < state.size; ++i) {
-        HotDisc& disc = state.discs[i];
-        state.cold(i).angle = state.cold(i).angle + (state.clock - disc.time) * disc.spin;
-        disc.position = disc.flight().position_at(state.clock);
-        disc.time = 0.0;
-        ++disc.collisions;
-    }
-    state.leg = 0;
+    const bool is_last = ++state.leg == state.leg_count;
+    if (!is_last && !Bodies::feel_every_leg(state)) return event;
+    if (is_last) state.leg = 0;
+    for (std::uint32_t i = 0; i < state.size; ++i) Bodies::bring_up_to_date(state, i, is_last);
+    if (!is_last) return event;
     state.clock = 0.0;
     ++state.swirls;
     return event;

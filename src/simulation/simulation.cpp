@@ -118,6 +118,8 @@ bool is_thin_gas(const InitialState& scene) {
            });
 }
 
+bool are_spheres(const InitialState& scene) { return scene.shape == Shape::sphere; }
+
 NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, const Tuning& tuning,
                                std::uint32_t few) {
     const bool few_enough = scene.discs.size() <= few;
@@ -154,6 +156,8 @@ struct Simulation::Storage {
     void lay_lists(const InitialState& scene, const Radii& radii);
     void lay_cells(const InitialState& scene);
     void place(const InitialState& scene);
+    void allocate_spheres(std::size_t size);
+    void place_spheres(const InitialState& scene);
 };
 
 Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
@@ -163,9 +167,10 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
     const NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
-    loop = neighbours == NeighbourSearch::all_pairs ? &loops.all_pairs[(state.size - 1) / 8]
-           : neighbours == NeighbourSearch::cells   ? &loops.cells
-                                                    : &loops.lists;
+    loop = are_spheres(scene)                         ? &loops.few_spheres[(state.size - 1) / 16]
+           : neighbours == NeighbourSearch::all_pairs ? &loops.all_pairs[(state.size - 1) / 8]
+           : neighbours == NeighbourSearch::cells     ? &loops.cells
+                                                      : &loops.lists;
     state.legs = legs.data();
     state.leg_count = static_cast<std::uint32_t>(legs.size());
     state.leg = progress.leg;
@@ -179,6 +184,8 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.disc_wall = progress.events.disc_wall;
     state.path_vertex = progress.events.path_vertex;
     state.elastic_by_tc = progress.events.elastic_by_tc;
+    state.begun_to_roll = progress.events.begins_to_roll;
+    state.floor = scene.floor;
 
     state.smallest_radius = radii.smallest;
     state.equal_radii = radii.smallest == radii.largest;
@@ -188,6 +195,13 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
             : 0;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
     state.prefetches = state.size > 4000;
+    if (are_spheres(scene)) {
+        allocate_spheres(scene.discs.size());
+        place(scene);
+        place_spheres(scene);
+        loop->start(state);
+        return;
+    }
     allocate(scene.discs.size(), neighbours);
     place(scene);
     if (neighbours == NeighbourSearch::lists) {
@@ -366,6 +380,28 @@ void Simulation::Storage::place(const InitialState& scene) {
     }
 }
 
+void Simulation::Storage::allocate_spheres(std::size_t size) {
+    state.discs = memory.add<HotDisc>(size + 1);
+    state.cold_discs = memory.add<unsigned char>((size + 1) * state.cold_bytes);
+    state.spheres = memory.add<SphereState>(size);
+    state.spheres_side_by_side = memory.add<SpheresSideBySide>(1);
+}
+
+void Simulation::Storage::place_spheres(const InitialState& scene) {
+    const Vec2 floor_velocity = legs[state.leg].velocity;
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        const Disc& d = scene.discs[i];
+        state.spheres[i] = {floor_motion(d, scene.floor, floor_velocity), d.rolling_spin,
+                            d.last_collision};
+    }
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    for (std::uint32_t k = 0; k < SpheresSideBySide::most; ++k) {
+        all.x[k] = all.y[k] = std::numeric_limits<double>::quiet_NaN();
+        all.radius[k] = k < state.size ? state.discs[k].radius : 0.0;
+        all.meeting[k] = all.wall[k] = all.rolls[k] = never;
+    }
+}
+
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
     if (!storage_->state.discs_overlap) return;
@@ -395,7 +431,8 @@ double Simulation::clock() const { return storage_->state.clock; }
 std::size_t Simulation::size() const { return storage_->state.size; }
 EventCounts Simulation::events() const {
     const EngineState& state = storage_->state;
-    return {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc};
+    return {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc,
+            state.begun_to_roll};
 }
 Progress Simulation::progress() const {
     const EngineState& state = storage_->state;
@@ -411,17 +448,32 @@ Disc Simulation::disc(std::size_t i) const {
     const EngineState& state = storage_->state;
     const HotDisc& d = state.discs[i];
     const DiscKind& kind = state.kinds[d.kind];
-    return {d.position, d.velocity,  state.cold(static_cast<std::uint32_t>(i)).angle,
-            d.spin,     d.time,      kind.radius,
-            kind.mass,  kind.inertia};
+    Disc disc{d.position, d.velocity,  state.cold(static_cast<std::uint32_t>(i)).angle,
+              d.spin,     d.time,      kind.radius,
+              kind.mass,  kind.inertia};
+    if (state.spheres != nullptr) {
+        disc.rolling_spin = state.spheres[i].rolling_spin;
+        disc.last_collision = state.spheres[i].last_collision;
+    }
+    return disc;
 }
 
 Snapshot Simulation::snapshot() const {
     Snapshot s;
-    s.resize(size());
-    s.period = storage_->state.period;
-    s.container_radius = storage_->state.container_radius;
-    for (std::size_t i = 0; i < s.size(); ++i) s.set(i, disc(i));
+    const EngineState& state = storage_->state;
+    if (state.spheres != nullptr)
+        s.resize_for_spheres(size());
+    else
+        s.resize(size());
+    s.on_floor = state.spheres != nullptr && state.floor.deceleration != 0.0;
+    s.period = state.period;
+    s.container_radius = state.container_radius;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        s.set(i, disc(i));
+        if (state.spheres == nullptr) continue;
+        const SphereState& sphere = state.spheres[i];
+        s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
+    }
     refresh(s, Event{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0});
     return s;
 }
@@ -436,11 +488,14 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     const auto hand_over = [&](std::uint32_t i) {
         const HotDisc& d = state.discs[i];
         s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
+        if (state.spheres == nullptr) return;
+        const SphereState& sphere = state.spheres[i];
+        s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
     };
     if (event.kind != EventKind::path_vertex) {
         hand_over(event.i);
         if (event.j != event.i) hand_over(event.j);
-    } else if (state.leg == 0) {
+    } else if (state.leg == 0 || s.on_floor) {
         for (std::uint32_t i = 0; i < state.size; ++i) hand_over(i);
     }
 }
@@ -465,6 +520,8 @@ std::uint64_t Simulation::state_hash() const {
         for (const double x :
              {d.position.x, d.position.y, d.velocity.x, d.velocity.y, d.angle, d.spin, d.time})
             mix_double(x);
+        if (state.spheres == nullptr) continue;
+        for (const double x : {d.rolling_spin.x, d.rolling_spin.y, d.last_collision}) mix_double(x);
     }
     return hash;
 }

@@ -17,8 +17,9 @@ namespace swirl {
 
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
-    std::uint64_t elastic_by_tc = 0;  // of the collisions, those made elastic by the TC model
-    std::uint64_t total() const { return disc_disc + disc_wall + path_vertex; }
+    std::uint64_t elastic_by_tc = 0;   // of the collisions, those made elastic by the TC model
+    std::uint64_t begins_to_roll = 0;  // of spheres on a floor
+    std::uint64_t total() const { return disc_disc + disc_wall + path_vertex + begins_to_roll; }
 };
 
 /// How far a trajectory has come. Together with the discs, each at its own time, this is all there
@@ -58,8 +59,12 @@ struct LoopCounts {
     const char* width = "";
 };
 
+/// All pairs of spheres are looked at; there are no lists of theirs yet.
+inline constexpr std::size_t most_spheres = 64;
+
 class Simulation {
   public:
+    /// Of spheres no more than `most_spheres`, and on a polygon.
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();

@@ -249,5 +249,103 @@ TEST(TimeOfWallContact, ADiscSlidingAlongTheWallHitsItLater) {
     EXPECT_LT(t, 1e-6);  // 2⁻²⁶ clearance/speed: within the rounding error of the wall
 }
 
+struct SlidingPair {
+    Parabola<double> i, j;
+    double i_rolls, j_rolls, sum;
+    Encounter<double> encounter() const { return {i, j, i_rolls, j_rolls, sum}; }
+    double distance2(double t) const {
+        const Vec2 s = j.position_at(t) - i.position_at(t);
+        return dot(s, s);
+    }
+};
+SlidingPair draw_sliding_pair() {
+    const Flyer a = draw_flyer();
+    const Vec2 from = draw_vector(4.0);
+    const Parabola<double> i{a.position, a.velocity, draw_vector(2.0), a.time};
+    const Parabola<double> j{a.position + from, draw_vector(3.0), draw_vector(2.0),
+                             a.time + draw(0.0, 0.3)};
+    const SlidingPair p{i, j, j.time + draw(0.01, 2.0), j.time + draw(0.01, 2.0), draw(0.3, 2.0)};
+    RC_PRE(p.distance2(j.time) > p.sum * p.sum);
+    return p;
+}
+
+RC_GTEST_PROP(TimeOfContactOnParabolas, IsTheFirstAtWhichTheyTouch, ()) {
+    const SlidingPair p = draw_sliding_pair();
+    const double found = time_of_contact(p.encounter());
+    const double from = p.j.time, until = std::min(p.i_rolls, p.j_rolls);
+    const double end = std::min(found, until);
+    for (int k = 0; k < 1000; ++k)
+        RC_ASSERT(p.distance2(from + (end - from) * k / 1000.0) >
+                  p.sum * p.sum - rounding_of_squares);
+    if (found == never) return;
+    RC_ASSERT(found <= until + 1e-15);
+    RC_ASSERT(std::abs(p.distance2(found) - p.sum * p.sum) < rounding_of_squares);
+}
+
+// What is told of eight at once is what is told of each, and the bound is on the safe side.
+RC_GTEST_PROP(TimeOfContactOnParabolas, EightAtOnceAreAsOneByOne, ()) {
+    const Parabola<double> i = draw_sliding_pair().i;
+    alignas(64) double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], rolls[8], sum[8], told[8];
+    Parabola<double> j[8];
+    for (int k = 0; k < 8; ++k) {
+        const SlidingPair p = draw_sliding_pair();
+        j[k] = p.j;
+        if (k % 3 == 0) j[k].acceleration = i.acceleration;
+        x[k] = p.j.position.x, y[k] = p.j.position.y;
+        vx[k] = p.j.velocity.x, vy[k] = p.j.velocity.y;
+        ax[k] = j[k].acceleration.x, ay[k] = j[k].acceleration.y;
+        time[k] = p.j.time, rolls[k] = std::max(p.j_rolls, i.time), sum[k] = p.sum;
+    }
+    using Eight = Lanes<8>;
+    const auto all = [](double number) { return Eight(number); };
+    const double i_rolls = i.time + 20.0;
+    const Encounter<Eight> eight({{all(i.position.x), all(i.position.y)},
+                                  {all(i.velocity.x), all(i.velocity.y)},
+                                  {all(i.acceleration.x), all(i.acceleration.y)},
+                                  all(i.time)},
+                                 {{Eight::load(x), Eight::load(y)},
+                                  {Eight::load(vx), Eight::load(vy)},
+                                  {Eight::load(ax), Eight::load(ay)},
+                                  Eight::load(time)},
+                                 all(i_rolls), Eight::load(rolls), Eight::load(sum));
+    eight.wait_or_quartic().store(told);
+    for (int k = 0; k < 8; ++k) {
+        const Encounter<double> one(i, j[k], i_rolls, rolls[k], sum[k]);
+        RC_ASSERT(same_bits(one.wait_or_quartic(), told[k]));
+        if (told[k] == never && k % 3 != 0)
+            RC_ASSERT(contact_on_parabolas(one.s, one.v, one.g, one.sum_of_radii, one.horizon) ==
+                      never);
+    }
+}
+
+RC_GTEST_PROP(TimeOfContactOnParabolas, WithoutRelativeAccelerationItIsTheDiscsBitForBit, ()) {
+    const Pair p = draw_meeting_pair();
+    const Parabola<double> i{p.i.position, p.i.velocity, {0.0, 0.0}, p.i.time};
+    const Parabola<double> j{p.j.position, p.j.velocity, {0.0, 0.0}, p.j.time};
+    RC_ASSERT(same_bits(time_of_contact(Encounter<double>(i, j, never, never, p.sum)),
+                        time_of_contact(p.i, p.j, p.sum)));
+}
+
+RC_GTEST_PROP(TimeOfWallContactOnParabolas, IsTheFirstAtWhichItTouches, ()) {
+    const Leg leg{0.0, 1000.0, draw_vector(1.0), draw_vector(1.0), 0.0};
+    const double clearance = 7.6;
+    const Vec2 inside = draw_vector(5.0);
+    const Parabola<double> sphere{leg.position_at(1.5) + inside, draw_vector(3.0), draw_vector(2.0),
+                                  1.5};
+    const double rolls = 1.5 + draw(0.01, 3.0);
+    const double found = time_of_wall_contact(sphere, rolls, leg, clearance);
+    const auto from_centre = [&](double t) {
+        const Vec2 s = sphere.position_at(t) - leg.position_at(t);
+        return dot(s, s);
+    };
+    const double end = std::min(found, rolls);
+    for (int k = 0; k < 1000; ++k)
+        RC_ASSERT(from_centre(1.5 + (end - 1.5) * k / 1000.0) <
+                  clearance * clearance + rounding_of_squares);
+    if (found == never) return;
+    RC_ASSERT(found <= rolls + 1e-15);
+    RC_ASSERT(std::abs(from_centre(found) - clearance * clearance) < rounding_of_squares);
+}
+
 }  // namespace
 }  // namespace swirl

@@ -9,6 +9,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
+#include "swirl/physics/floor.hpp"
 #include "swirl/simulation/pending_event.hpp"
 
 namespace swirl {
@@ -27,6 +28,13 @@ struct alignas(64) HotDisc {
     SWIRL_INLINE Flight<double> flight() const { return {position, velocity, time}; }
 };
 static_assert(sizeof(HotDisc) == 64);
+
+/// What spheres have besides: what the floor does to them, and the rest of their state.
+struct alignas(64) SphereState {
+    FloorMotion motion;
+    Vec2 rolling_spin;
+    double last_collision;
+};
 
 /// What discs of one kind share.
 struct DiscKind {
@@ -114,6 +122,15 @@ struct alignas(64) SideBySide {
     PendingEvent next;    // the first of all
 };
 
+/// The same of a few spheres (few_spheres.hpp), with their accelerations and when they begin to
+/// roll, which is an event of theirs and ends what is known of their flight.
+struct alignas(64) SpheresSideBySide {
+    static constexpr std::uint32_t most = 64;
+    double x[most], y[most], vx[most], vy[most], ax[most], ay[most], time[most], radius[most];
+    double meeting[most], wall[most], rolls[most];
+    PendingEvent next;  // the first of all
+};
+
 struct EngineState {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
     std::uint32_t capacity;  // of a neighbour list; a multiple of 4
@@ -168,6 +185,12 @@ struct EngineState {
     std::uint64_t invalidated, list_rebuilds, overflows,
         full_rebuilds;  // bookkeeping of the loop, for docs/performance.md
 
+    // Of spheres alone.
+    SphereState* spheres;
+    SpheresSideBySide* spheres_side_by_side;
+    Floor floor;
+    std::uint64_t begun_to_roll;
+
     SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
@@ -204,6 +227,7 @@ struct EventLoops {
     EventLoop lists, cells;
     EventLoop all_pairs[SideBySide::most / 8];
     std::uint32_t few;  // up to this many discs, all pairs are the faster (docs/performance.md)
+    EventLoop few_spheres[SpheresSideBySide::most / 16];  // for up to 16, 32 … spheres
 };
 
 extern const EventLoops event_loops_baseline;

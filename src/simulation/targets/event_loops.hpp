@@ -3,6 +3,7 @@
 
 #include "swirl/simulation/event_loop.hpp"
 #include "swirl/simulation/search/all_pairs.hpp"
+#include "swirl/simulation/search/few_spheres.hpp"
 #include "swirl/simulation/search/linked_cells.hpp"
 #include "swirl/simulation/search/verlet_lists.hpp"
 
@@ -13,17 +14,21 @@ constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
 #if defined(SWIRL_INTERNAL_CHECKS)
     // The longest serves everybody: the sanitizers need a minute to compile each.
     const EventLoop all_pairs = event_loop<AllPairs<SideBySide::most / 8>>(width);
+    const EventLoop few_spheres = event_loop<FewSpheres<SpheresSideBySide::most / 8>>(width);
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
             {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},
-            few};
+            few,
+            {few_spheres, few_spheres, few_spheres, few_spheres}};
 #else
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
             {event_loop<AllPairs<1>>(width), event_loop<AllPairs<2>>(width),
              event_loop<AllPairs<3>>(width), event_loop<AllPairs<4>>(width),
              event_loop<AllPairs<5>>(width)},
-            few};
+            few,
+            {event_loop<FewSpheres<2>>(width), event_loop<FewSpheres<4>>(width),
+             event_loop<FewSpheres<6>>(width), event_loop<FewSpheres<8>>(width)}};
 #endif
 }
 

@@ -1,0 +1,130 @@
+// Spheres that roll and slide on the floor of the dish. (The paper's experiment has spheres; its
+// simulation has discs that nothing rubs from below.) The floor moves with the velocity u of the
+// container and does not turn.
+//
+//        ___            The sphere touches the floor at −R ẑ, where it slips at the rate
+//      /  ω  \              c = v − u + ω × (−R ẑ) = v − u − R ω × ẑ
+//     |   ·→ v|               = (v_x − u_x − R ω_y,  v_y − u_y + R ω_x).
+//   ___\_____/___ →u    It presses on the floor with m g.
+//
+// Sliding, |c| > 0: friction is −μ_f m g ĉ, with the torque (−R ẑ) × (−μ_f m g ĉ), so
+//     dv/dt = −μ_f g ĉ =: a,      dω/dt = (μ_f m g R / I) ẑ × ĉ = (m R / I) (a_y, −a_x),
+//     dc/dt = a − R (dω/dt) × ẑ = −μ_f g (1 + m R²/I) ĉ.
+// While the floor's velocity does not change, ĉ does not either: the centre flies a parabola until
+// c is 0, after t = |c| / (μ_f g (1 + m R²/I)); 2|c| / (7 μ_f g) for a solid sphere.
+// Rolling, c = 0: the friction that would be needed is 0, so it stays; straight and uniform.
+// End of a leg: u jumps by Δu, c by −Δu. Who rolled slides for a moment; rolling again it has
+// gained
+//     Δv = Δu / (1 + m R²/I), 2/7 Δu for a solid sphere.
+// ω_z is no business of the floor: a point has no lever.
+//
+// Limits: one coefficient for sliding and sticking, no resistance to rolling, none to pivoting; a
+// floor that does not turn its velocity while somebody slides: polygons, not the exact circle.
+// Without a floor (μ_f g = 0) a sphere flies as a disc does.
+#pragma once
+
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
+
+namespace swirl {
+
+/// What the engine's bodies are. A disc has one spin and no floor; a sphere has three.
+enum class Shape : unsigned char { disc, sphere };
+
+/// Moments of inertia of spheres.
+inline constexpr double solid_sphere_inertia(double mass, double radius) {
+    return 0.4 * mass * radius * radius;
+}
+inline constexpr double shell_inertia(double mass, double radius) {
+    return mass * radius * radius / 1.5;
+}
+
+struct Floor {
+    double deceleration = 0.0;  // μ_f g, of a body that slides without turning; 0 is no floor
+};
+
+/// Uniformly accelerated motion, as Flight is uniform: the state held at `time`.
+template <class Real>
+struct Parabola {
+    BasicVec2<Real> position, velocity, acceleration;
+    Real time;
+
+    SWIRL_INLINE constexpr BasicVec2<Real> position_at(const Real& t) const {
+        const Real elapsed = t - time;
+        return position + elapsed * velocity + (Real(0.5) * elapsed * elapsed) * acceleration;
+    }
+    SWIRL_INLINE constexpr BasicVec2<Real> velocity_at(const Real& t) const {
+        const Real elapsed = t - time;
+        return velocity + elapsed * acceleration;
+    }
+};
+
+/// What the floor does to a sphere until something else happens to it.
+struct FloorMotion {
+    Vec2 acceleration{0.0, 0.0};
+    double begins_to_roll = never;  // when it no longer slides; never, if it does not slide
+};
+
+/// (ω_x, ω_y) of a sphere that rolls with this velocity over the floor.
+SWIRL_INLINE constexpr Vec2 spin_of_rolling(const Vec2& over_floor, double radius) {
+    return {-(over_floor.y / radius), over_floor.x / radius};
+}
+/// c. A sphere that was set rolling has c = 0 up to rounding, so whether one rolls is asked of its
+/// spin (floor_motion).
+SWIRL_INLINE constexpr Vec2 slip_on_floor(const Disc& d, const Vec2& floor_velocity) {
+    const Vec2 over_floor = d.velocity - floor_velocity;
+    return {over_floor.x - d.radius * d.rolling_spin.y, over_floor.y + d.radius * d.rolling_spin.x};
+}
+/// 1 + m R²/I: so much faster does slip end than without turning.
+SWIRL_INLINE constexpr double slip_factor(double mass, double radius, double inertia) {
+    return 1.0 + mass * radius * radius / inertia;
+}
+
+/// From the stored state alone.
+SWIRL_INLINE FloorMotion floor_motion(const Disc& d, const Floor& floor,
+                                      const Vec2& floor_velocity) {
+    if (floor.deceleration == 0.0) return {};
+    const Vec2 rolls = spin_of_rolling(d.velocity - floor_velocity, d.radius);
+    if (d.rolling_spin.x == rolls.x && d.rolling_spin.y == rolls.y) return {};
+    const Vec2 c = slip_on_floor(d, floor_velocity);
+    const double slip = square_root(dot(c, c));
+    if (slip == 0.0) return {};
+    return {(-floor.deceleration / slip) * c,
+            d.time + slip / (floor.deceleration * slip_factor(d.mass, d.radius, d.inertia))};
+}
+
+/// The sphere with its flight.
+SWIRL_INLINE constexpr Parabola<double> parabola(const Disc& d, const FloorMotion& motion) {
+    return {d.position, d.velocity, motion.acceleration, d.time};
+}
+
+/// (dω_x/dt, dω_y/dt).
+SWIRL_INLINE constexpr Vec2 rolling_spin_rate(const Vec2& acceleration, double mass, double radius,
+                                              double inertia) {
+    const double rate = mass * radius / inertia;
+    return {rate * acceleration.y, -(rate * acceleration.x)};
+}
+
+/// The same sphere, brought up to date.
+SWIRL_INLINE constexpr Disc moved_to(const Disc& d, const FloorMotion& motion, double t) {
+    Disc after = d;
+    const double elapsed = t - d.time;
+    after.position = parabola(d, motion).position_at(t);
+    after.velocity = parabola(d, motion).velocity_at(t);
+    after.angle = d.angle + elapsed * d.spin;
+    after.rolling_spin = d.rolling_spin + elapsed * rolling_spin_rate(motion.acceleration, d.mass,
+                                                                      d.radius, d.inertia);
+    after.time = t;
+    return after;
+}
+
+/// The end of sliding, at its time: from now on it rolls, exactly.
+SWIRL_INLINE constexpr Disc set_rolling(const Disc& d, const FloorMotion& motion,
+                                        const Vec2& floor_velocity) {
+    Disc after = moved_to(d, motion, motion.begins_to_roll);
+    after.rolling_spin = spin_of_rolling(after.velocity - floor_velocity, d.radius);
+    return after;
+}
+
+}  // namespace swirl

@@ -1,0 +1,232 @@
+// Speed only, changes no bit: the search for a few spheres. As all_pairs.hpp does it for discs, no
+// lists, no cells, everybody's contact with everybody; but spheres fly parabolas, and each has a
+// third pending event, the one in which it begins to roll.
+//
+// Of eight contacts at once it is told which do not happen, or happen between equally accelerated
+// spheres; the few that are left, mostly one or two, are quartics and solved one by one
+// (contact_time.hpp).
+//
+// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+#pragma once
+
+#include "swirl/math/lanes.hpp"
+#include "swirl/physics/contact_time.hpp"
+#include "swirl/simulation/internal_check.hpp"
+#include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/resolve.hpp"
+#include "swirl/simulation/search/prediction.hpp"
+#include "swirl/simulation/search/state.hpp"
+
+namespace swirl {
+inline namespace SWIRL_TARGET {
+namespace few_spheres {
+
+using Eight = Lanes<8>;
+
+SWIRL_INLINE Parabola<Eight> load_eight(const SpheresSideBySide& all, int group) {
+    const int k = 8 * group;
+    return {{Eight::load(all.x + k), Eight::load(all.y + k)},
+            {Eight::load(all.vx + k), Eight::load(all.vy + k)},
+            {Eight::load(all.ax + k), Eight::load(all.ay + k)},
+            Eight::load(all.time + k)};
+}
+SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
+    return {in_lanes<8>(p.position), in_lanes<8>(p.velocity), in_lanes<8>(p.acceleration),
+            Eight(p.time)};
+}
+
+SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
+    double* const group = column + (i & ~7u);
+    with_lane(Eight::load(group), i & 7u, x).store(group);
+}
+
+SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
+    const Parabola<double> flight = Spheres::flight(state, i);
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    set(all.x, i, flight.position.x);
+    set(all.y, i, flight.position.y);
+    set(all.vx, i, flight.velocity.x);
+    set(all.vy, i, flight.velocity.y);
+    set(all.ax, i, flight.acceleration.x);
+    set(all.ay, i, flight.acceleration.y);
+    set(all.time, i, flight.time);
+    set(all.rolls, i, state.spheres[i].motion.begins_to_roll);
+}
+
+SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i) {
+    return state.spheres[i].motion.begins_to_roll;
+}
+
+/// When spheres i and k meet, of whom no more is known than that it takes the quartic.
+[[gnu::noinline]] static double meeting_by_quartic(const EngineState& state, std::uint32_t i,
+                                                   std::uint32_t k) {
+    const Encounter<double> e(Spheres::flight(state, i), Spheres::flight(state, k),
+                              begins_to_roll_at(state, i), begins_to_roll_at(state, k),
+                              state.discs[i].radius + state.discs[k].radius);
+    return e.now + contact_on_parabolas(e.s, e.v, e.g, e.sum_of_radii, e.horizon);
+}
+
+/// Whom sphere i meets first. Says when.
+template <int G>
+SWIRL_INLINE double predict_meeting(EngineState& state, std::uint32_t i) {
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    const Parabola<Eight> mine = eight_times(Spheres::flight(state, i));
+    const Eight rolls(begins_to_roll_at(state, i)), radius(state.discs[i].radius);
+    Eight contact[G];
+    std::uint64_t open = 0;
+    for (int g = 0; g < G; ++g) {
+        const Encounter<Eight> e(mine, load_eight(all, g), rolls, Eight::load(all.rolls + 8 * g),
+                                 radius + Eight::load(all.radius + 8 * g));
+        const Eight wait = e.wait_or_quartic();
+        contact[g] = e.now + wait;
+        open |= static_cast<std::uint64_t>(lanes_equal(wait, ask_the_quartic)) << (8 * g);
+    }
+    alignas(64) double times[8 * G];
+    for (int g = 0; g < G; ++g) contact[g].store(times + 8 * g);
+    for (; open != 0; open &= open - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctzll(open));
+        times[k] = meeting_by_quartic(state, i, k);
+    }
+    for (int g = 0; g < G; ++g) contact[g] = Eight::load(times + 8 * g);
+    Eight least = contact[0];
+    for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
+    const double time = smallest(least);
+    // Where nobody is met all lanes are equal, and the first will do.
+    const std::uint64_t equal = lanes_equal(contact, time);
+    note_partner(state, {time, i, static_cast<std::uint32_t>(__builtin_ctzll(equal))});
+    set(all.meeting, i, time);
+    return time;
+}
+
+SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
+    const double time =
+        time_of_wall_contact(Spheres::flight(state, i), begins_to_roll_at(state, i),
+                             state.legs[state.leg], state.container_radius - state.discs[i].radius);
+    set(state.spheres_side_by_side->wall, i, time);
+    return time;
+}
+
+/// Of the events at one instant, that of the spheres whose bits are set, the first.
+SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
+                                         std::uint64_t meetings, std::uint64_t walls,
+                                         std::uint64_t rolls) {
+    PendingEvent first{time, state.size, state.size};
+    const auto number = [](std::uint64_t bits) {
+        return static_cast<std::uint32_t>(__builtin_ctzll(bits));
+    };
+    if (walls != 0) first.disc = first.partner = number(walls);
+    if (rolls != 0) {
+        const PendingEvent roll{time, number(rolls), the_floor};
+        if (is_first_in_order(roll, first)) first = roll;
+    }
+    for (; meetings != 0; meetings &= meetings - 1) {
+        const std::uint32_t i = number(meetings);
+        const PendingEvent meeting{time, i, state.cold(i).partner};
+        if (is_first_in_order(meeting, first)) first = meeting;
+    }
+    return first;
+}
+
+/// Looks at everybody's pending events and writes down which comes first.
+template <int G>
+SWIRL_INLINE void find_next(EngineState& state) {
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    Eight meeting[G], wall[G], rolls[G];
+    for (int g = 0; g < G; ++g) {
+        meeting[g] = Eight::load(all.meeting + 8 * g);
+        wall[g] = Eight::load(all.wall + 8 * g);
+        rolls[g] = Eight::load(all.rolls + 8 * g);
+    }
+    Eight least = smaller(smaller(meeting[0], wall[0]), rolls[0]);
+    for (int g = 1; g < G; ++g)
+        least = smaller(least, smaller(smaller(meeting[g], wall[g]), rolls[g]));
+    const double time = smallest(least);
+    // Who comes after the leg's end need not be known.
+    all.next = time < state.legs[state.leg].end
+                   ? first_in_order(state, time, lanes_equal(meeting, time),
+                                    lanes_equal(wall, time), lanes_equal(rolls, time))
+                   : PendingEvent{time, state.size, state.size};
+}
+
+template <int G>
+[[gnu::noinline]] static void predict_all(EngineState& state) {
+    for (std::uint32_t i = 0; i < state.size; ++i) copy(state, i);
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        predict_meeting<G>(state, i);
+        predict_wall(state, i);
+    }
+    find_next<G>(state);
+}
+
+SWIRL_INLINE void take_out(SpheresSideBySide& all, std::uint32_t i) {
+    set(all.meeting, i, never);
+    set(all.wall, i, never);
+    set(all.rolls, i, never);
+}
+
+}  // namespace few_spheres
+
+/// For up to 8 G spheres.
+template <int G>
+struct FewSpheres {
+    using Bodies = Spheres;
+
+    SWIRL_INLINE static void start(EngineState& state) { few_spheres::predict_all<G>(state); }
+
+    SWIRL_INLINE static PendingEvent next(const EngineState& state) {
+        return state.spheres_side_by_side->next;
+    }
+    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+        ++state.invalidated;
+        few_spheres::predict_meeting<G>(state, event.disc);
+        few_spheres::find_next<G>(state);
+    }
+    /// What comes next is mostly known before the spheres that now collide have been predicted: the
+    /// first of all others' events.
+    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
+        SpheresSideBySide& all = *state.spheres_side_by_side;
+        few_spheres::take_out(all, event.disc);
+        if (event.partner < state.size && !event.is_with_wall())
+            few_spheres::take_out(all, event.partner);
+        few_spheres::find_next<G>(state);
+        return event;
+    }
+    template <int D>
+    SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
+                                             double) {
+        double first = never;
+        for (int d = 0; d < D; ++d) few_spheres::copy(state, who[d]);
+        for (int d = 0; d < D; ++d) {
+            first = smaller(first, few_spheres::begins_to_roll_at(state, who[d]));
+            first = smaller(first, few_spheres::predict_wall(state, who[d]));
+            first = smaller(first, few_spheres::predict_meeting<G>(state, who[d]));
+        }
+        if (first <= state.spheres_side_by_side->next.time) few_spheres::find_next<G>(state);
+    }
+    SWIRL_INLINE static void leg_ended(EngineState& state, double) {
+        if (state.leg == 0 || Spheres::feel_every_leg(state))
+            return few_spheres::predict_all<G>(state);
+        for (std::uint32_t i = 0; i < state.size; ++i) few_spheres::predict_wall(state, i);
+        few_spheres::find_next<G>(state);
+    }
+    /// In the build that checks: nobody overlaps, and nobody is outside.
+    static void check(const EngineState& state, double t) {
+        if (state.overlapped_at_start) return;
+        constexpr double rounding = 1e-10;
+        for (std::uint32_t i = 0; i < state.size; ++i) {
+            const Vec2 at = Spheres::position_at(state, i, t);
+            const Vec2 centre = at - state.legs[state.leg].position_at(t);
+            promise::no_disc_is_outside_the_container(square_root(dot(centre, centre)) +
+                                                          state.discs[i].radius <=
+                                                      state.container_radius * (1.0 + rounding));
+            for (std::uint32_t k = i + 1; k < state.size; ++k) {
+                const Vec2 s = Spheres::position_at(state, k, t) - at;
+                const double contact = state.discs[i].radius + state.discs[k].radius;
+                promise::no_two_discs_overlap(square_root(dot(s, s)) >= contact * (1.0 - rounding));
+            }
+        }
+    }
+};
+
+}  // namespace SWIRL_TARGET
+}  // namespace swirl

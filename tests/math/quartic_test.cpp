@@ -1,0 +1,155 @@
+#include "swirl/math/quartic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "swirl/math/random.hpp"
+
+namespace swirl {
+namespace {
+
+// 113 bits, 34 digits: the same question, answered by a method that has nothing in common with
+// quartic.hpp but the polynomial.
+__extension__ typedef __float128 Wide;
+
+struct WideQuartic {
+    Wide c[5];
+    explicit WideQuartic(const Quartic& f, Wide added = 0)
+        : c{f.c0 + added, f.c1, f.c2, f.c3, f.c4} {}
+
+    Wide value(Wide t) const { return (((c[4] * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0]; }
+    /// Not above the least value from a to b: the polynomial about a, with its negative
+    /// coefficients at the far end.
+    Wide lower_bound(Wide a, Wide b) const {
+        const Wide w = b - a;
+        const Wide d1 = ((4 * c[4] * a + 3 * c[3]) * a + 2 * c[2]) * a + c[1];
+        const Wide d2 = (6 * c[4] * a + 3 * c[3]) * a + c[2];
+        const Wide d3 = 4 * c[4] * a + c[3];
+        const auto down = [](Wide x) { return x < 0 ? x : Wide(0); };
+        return value(a) + w * (down(d1) + w * (down(d2) + w * (down(d3) + w * down(c[4]))));
+    }
+    /// The first time, to 10⁻²⁴ of the stretch, at which it is 0 or less; −1 if it is above
+    /// everywhere.
+    Wide first_zero(Wide a, Wide b, int depth = 0) const {
+        if (lower_bound(a, b) > 0) return -1;
+        if (value(a) <= 0) return a;
+        if (depth == 80) return a;
+        const Wide middle = (a + b) / 2;
+        const Wide left = first_zero(a, middle, depth + 1);
+        return left >= 0 ? left : first_zero(middle, b, depth + 1);
+    }
+};
+
+/// What rounding may make of a value of f up to time t: thirty roundings, of the largest term.
+double rounding_of(const Quartic& f, double t) {
+    const double sum =
+        std::abs(f.c0) +
+        t * (std::abs(f.c1) + t * (std::abs(f.c2) + t * (std::abs(f.c3) + t * std::abs(f.c4))));
+    return 30.0 * 0x1p-53 * sum;
+}
+
+/// Both directions: at the time found f is 0, and before it, or up to the horizon, it never was
+/// below. Says what is wrong.
+std::string wrong(const Quartic& f, double horizon, double grain) {
+    const double found = first_fall(f, horizon, grain);
+    const double end = found == never ? horizon : found;
+    const double error = rounding_of(f, horizon) + 2.0 * grain;
+    const std::string place = " at " + std::to_string(end) + " of " + std::to_string(horizon);
+    if (end < 0.0 || end > horizon) return "outside" + place;
+    // Now is right for who touches, or overlaps, and approaches, however deep.
+    if (found == 0.0 && f.c0 <= 0.0 && f.c1 < 0.0) return "";
+    if (found != never && std::abs(double(WideQuartic(f).value(found))) > error)
+        return "no zero" + place;
+    const Wide earlier = WideQuartic(f, 2.0 * error).first_zero(0, end);
+    return earlier < 0 ? "" : "one at " + std::to_string(double(earlier)) + " is before" + place;
+}
+
+struct Encounters {
+    Random random;
+    double between(double low, double high) { return low + (high - low) * random.uniform(); }
+    Vec2 vector(double reach) { return random.in_disc(reach); }
+
+    /// |s + v t + g t²|² − σ².
+    static Quartic room(const Vec2& s, const Vec2& v, const Vec2& g, double square) {
+        return {dot(s, s) - square, 2.0 * dot(s, v), dot(v, v) + 2.0 * dot(s, g), 2.0 * dot(v, g),
+                dot(g, g)};
+    }
+    /// Accelerations from those of a rough floor down to a rounding error.
+    double acceleration() { return 4.0 * std::pow(10.0, -between(0.0, 1.0) * between(0.0, 15.0)); }
+
+    Quartic any() {
+        const Vec2 s = vector(4.0);
+        return room(s, vector(2.0), vector(acceleration()), smaller(4.0, dot(s, s)));
+    }
+    /// They come as close as σ, and a part in 10² to 10¹⁶ more or less.
+    Quartic grazing(double horizon) {
+        const Vec2 s = vector(4.0), v = vector(2.0), g = vector(acceleration());
+        const Quartic distance = room(s, v, g, 0.0);
+        double closest = distance.c0;
+        for (int k = 1; k < 64; ++k) closest = smaller(closest, distance.value(horizon * k / 64.0));
+        const double more = std::pow(10.0, -between(2.0, 16.0)) * (random.bits() % 2 ? 1.0 : -1.0);
+        return room(s, v, g, smaller(closest * (1.0 + more), distance.c0));
+    }
+    /// They touch, up to a rounding error, and part, approach, or hardly do either.
+    Quartic touching() {
+        const Vec2 n = vector(1.0);
+        const double length = square_root(dot(n, n));
+        const Vec2 s{2.0 * n.x / length, 2.0 * n.y / length};
+        const Vec2 along = between(-1.0, 1.0) * std::pow(10.0, -between(0.0, 12.0)) * s;
+        return room(s, along + between(-1.0, 1.0) * perpendicular(s), vector(acceleration()), 4.0);
+    }
+    /// A sphere inside the dish.
+    Quartic wall() {
+        const Quartic f = room(vector(7.6), vector(2.0), vector(acceleration()), 7.6 * 7.6);
+        return {-f.c0, -f.c1, -f.c2, -f.c3, -f.c4};
+    }
+};
+
+void expect_first_falls(int cases, std::uint64_t seed) {
+    Encounters draw{Random(seed)};
+    for (int k = 0; k < cases; ++k) {
+        const double horizon = draw.between(0.001, 2.0);
+        const double grain = 0x1p-50;
+        ASSERT_EQ(wrong(draw.any(), horizon, grain), "") << "any, case " << k;
+        ASSERT_EQ(wrong(draw.grazing(horizon), horizon, grain), "") << "grazing, case " << k;
+        ASSERT_EQ(wrong(draw.touching(), horizon, grain), "") << "touching, case " << k;
+        ASSERT_EQ(wrong(draw.wall(), horizon, grain), "") << "wall, case " << k;
+    }
+}
+
+TEST(Quartic, FirstFallIsThatOfHighPrecision) { expect_first_falls(3000, 1); }
+TEST(Quartic, SlowFirstFallIsThatOfHighPrecisionInMillionsOfCases) {
+    expect_first_falls(500000, 2);
+}
+
+// (τ − 1)(τ − 2)(τ − 3)(τ − 4) is above 0, below between 1 and 2, above, below between 3 and 4.
+TEST(Quartic, OfFourRootsTheFirstAtWhichItFalls) {
+    const Quartic f{24.0, -50.0, 35.0, -10.0, 1.0};
+    EXPECT_NEAR(first_fall(f, 10.0, 0.0), 1.0, 1e-14);
+    EXPECT_EQ(first_fall(f, 0.9, 0.0), never);
+    // Begun between 1 and 2, where it is below and falls, or below and rises.
+    const auto later = [&](double by) {
+        const double c1 = f.slope(by), c2 = 0.5 * f.curvature(by), c3 = 4.0 * by - 10.0;
+        return Quartic{f.value(by), c1, c2, c3, 1.0};
+    };
+    EXPECT_EQ(first_fall(later(1.1), 10.0, 0.0), 0.0);
+    EXPECT_NEAR(first_fall(later(1.9), 10.0, 0.0), 3.0 - 1.9, 1e-13);
+    EXPECT_NEAR(first_fall(later(2.5), 10.0, 0.0), 3.0 - 2.5, 1e-13);
+    EXPECT_EQ(first_fall(later(4.5), 10.0, 0.0), never);
+}
+
+// Pressed together by accelerations: what rises from 0 comes back, also if it never gets above.
+TEST(Quartic, WhoHasTouchedAndIsPressedTogetherTouchesAgainLater) {
+    EXPECT_NEAR(first_fall({0.0, 1e-3, -2.0, 0.0, 0.0}, 1.0, 0x1p-50), 5e-4, 1e-16);
+    const double below = first_fall({-1e-16, 1e-12, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
+    EXPECT_GT(below, 1e-9);
+    EXPECT_LT(below, 1e-7);
+    // At rest on each other, exactly.
+    const double resting = first_fall({0.0, 0.0, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
+    EXPECT_NEAR(resting, square_root(0x1p-51), 1e-12);
+}
+
+}  // namespace
+}  // namespace swirl

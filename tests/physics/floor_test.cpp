@@ -1,0 +1,159 @@
+#include "swirl/physics/floor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_cases.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/container_path.hpp"
+
+namespace swirl {
+namespace {
+
+// A dozen roundings of numbers of order 10.
+constexpr double rounding = 1e-13;
+
+Disc sphere(const Vec2& velocity, const Vec2& rolling_spin = {0.0, 0.0}) {
+    return {{0, 0}, velocity, 0, 0, 0, 1.0, 1.0, solid_sphere_inertia(1.0, 1.0), rolling_spin};
+}
+Disc rolling_sphere(const Vec2& velocity) {
+    return sphere(velocity, spin_of_rolling(velocity, 1.0));
+}
+/// Slides until it rolls.
+Disc settled(const Disc& d, const Floor& floor, const Vec2& u = {0.0, 0.0}) {
+    const FloorMotion motion = floor_motion(d, floor, u);
+    return motion.begins_to_roll == never ? d : set_rolling(d, motion, u);
+}
+
+Disc draw_sphere() {
+    const Vec2 velocity = draw_vector(2.0), spin = draw_vector(3.0);
+    const double m = draw(0.2, 5.0), r = draw(0.3, 2.0), I = draw(0.05, 1.0) * m * r * r;
+    return {draw_vector(5.0), velocity, 0.0, draw(-2.0, 2.0), draw(0.0, 3.0), r, m, I, spin};
+}
+
+TEST(Floor, ASphereSetSlidingRollsAtFiveSeventhsOfItsSpeed) {
+    const double v = 1.4, deceleration = 0.3;
+    const Disc start = sphere({v, 0.0});
+    const FloorMotion motion = floor_motion(start, {deceleration}, {0.0, 0.0});
+    EXPECT_NEAR(motion.begins_to_roll, 2.0 * v / (7.0 * deceleration), rounding);
+    const Disc rolls = set_rolling(start, motion, {0.0, 0.0});
+    EXPECT_NEAR(rolls.velocity.x, 5.0 / 7.0 * v, rounding);
+    EXPECT_NEAR(rolls.position.x, 12.0 * v * v / (49.0 * deceleration), rounding);
+    EXPECT_NEAR(rolls.rolling_spin.y, 5.0 / 7.0 * v, rounding);
+}
+
+TEST(Floor, ASphereThatRollsStaysRolling) {
+    const Vec2 u{0.3, -0.7};
+    const Disc rolls = settled(sphere({1.234567, 0.345678}, {0.9, 0.1}), {1.92}, u);
+    const FloorMotion motion = floor_motion(rolls, {1.92}, u);
+    EXPECT_EQ(motion.begins_to_roll, never);
+    EXPECT_EQ(motion.acceleration.x, 0.0);
+    EXPECT_EQ(motion.acceleration.y, 0.0);
+}
+
+TEST(Floor, AtTheEndOfALegARollingSphereGainsTwoSeventhsOfTheJump) {
+    const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
+    Disc d = rolling_sphere({0.1, 0.2});
+    d = settled(d, {1.92}, path.legs[0].velocity);
+    for (std::size_t k = 1; k < path.legs.size(); ++k) {
+        const Vec2 jump = path.legs[k].velocity - path.legs[k - 1].velocity;
+        const Disc before = d;
+        d = settled(moved_to(d, {}, path.legs[k].begin), {1.92}, path.legs[k].velocity);
+        EXPECT_LT(d.time, path.legs[k].end);
+        EXPECT_NEAR(d.velocity.x, before.velocity.x + 2.0 / 7.0 * jump.x, rounding);
+        EXPECT_NEAR(d.velocity.y, before.velocity.y + 2.0 / 7.0 * jump.y, rounding);
+    }
+}
+
+// The law of collisions and the floor together.
+TEST(Floor, ARollingSphereThatMeetsARestingOneGivesItFiveSeventhsOfItsSpeed) {
+    const Floor floor{0.7};
+    const Disc moving = rolling_sphere({1.0, 0.0}), resting = sphere({0.0, 0.0});
+    SphereBody i{{moving.velocity, 0.0, 1.0, 1.0, 1.0 / moving.inertia}, moving.rolling_spin};
+    SphereBody j{{resting.velocity, 0.0, 1.0, 1.0, 1.0 / resting.inertia}, resting.rolling_spin};
+    collide(i, j, {2.0, 0.0}, {0.0});
+    EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x, 2.0 / 7.0, rounding);
+    EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x, 5.0 / 7.0, rounding);
+}
+
+TEST(Floor, TwoRollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
+    const Floor floor{0.7};
+    for (const double e : {1.0, 0.9, 0.4, 0.1, 0.0}) {
+        const Disc right = rolling_sphere({1.0, 0.0}), left = rolling_sphere({-1.0, 0.0});
+        SphereBody i{{right.velocity, 0.0, 1.0, 1.0, 1.0 / right.inertia}, right.rolling_spin};
+        SphereBody j{{left.velocity, 0.0, 1.0, 1.0, 1.0 / left.inertia}, left.rolling_spin};
+        collide(i, j, {2.0, 0.0}, {0.0, e});
+        EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x,
+                    -(5.0 * e - 2.0) / 7.0, rounding);
+        EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x,
+                    (5.0 * e - 2.0) / 7.0, rounding);
+    }
+}
+
+RC_GTEST_PROP(Floor, FrictionActsAgainstTheSlipAndStopsItInTime, ()) {
+    const Disc d = draw_sphere();
+    const Vec2 u = draw_vector(1.0);
+    const Floor floor{draw(0.01, 3.0)};
+    const FloorMotion motion = floor_motion(d, floor, u);
+    const Vec2 c = slip_on_floor(d, u);
+    RC_PRE(dot(c, c) > 1e-6);
+    const double wait = motion.begins_to_roll - d.time;
+    for (const double part : {0.25, 0.5, 0.9}) {
+        const Vec2 later = slip_on_floor(moved_to(d, motion, d.time + part * wait), u);
+        RC_ASSERT(std::abs(later.x - (1.0 - part) * c.x) < 1e-11);
+        RC_ASSERT(std::abs(later.y - (1.0 - part) * c.y) < 1e-11);
+    }
+    RC_ASSERT(std::abs(std::hypot(motion.acceleration.x, motion.acceleration.y) -
+                       floor.deceleration) < 1e-12);
+}
+
+// The force acts along a line through the point on the floor, so the angular momentum about a line
+// on the floor along it is untouched: m R v + I ω for both directions.
+RC_GTEST_PROP(Floor, AngularMomentumAboutTheLineOfFloorContactIsConserved, ()) {
+    const Disc d = draw_sphere();
+    const Vec2 u = draw_vector(1.0);
+    const FloorMotion motion = floor_motion(d, {draw(0.01, 3.0)}, u);
+    RC_PRE(motion.begins_to_roll != never);
+    const Disc rolls = set_rolling(d, motion, u);
+    const auto about_floor = [](const Disc& s) {
+        return Vec2{s.mass * s.radius * s.velocity.x + s.inertia * s.rolling_spin.y,
+                    s.mass * s.radius * s.velocity.y - s.inertia * s.rolling_spin.x};
+    };
+    const Vec2 before = about_floor(d), after = about_floor(rolls);
+    RC_ASSERT(std::abs(before.x - after.x) < 1e-11);
+    RC_ASSERT(std::abs(before.y - after.y) < 1e-11);
+    RC_ASSERT(rolls.spin == d.spin);
+}
+
+RC_GTEST_PROP(Floor, EnergyFallsInTheFrameOfTheFloorByTheWorkOfTheSlip, ()) {
+    const Disc d = draw_sphere();
+    const Vec2 u = draw_vector(1.0);
+    const Floor floor{draw(0.01, 3.0)};
+    const FloorMotion motion = floor_motion(d, floor, u);
+    RC_PRE(motion.begins_to_roll != never);
+    const auto energy = [&](Disc s) {
+        s.velocity = s.velocity - u;
+        return kinetic_energy(s);
+    };
+    const Vec2 c = slip_on_floor(d, u);
+    const double way = 0.5 * std::hypot(c.x, c.y) * (motion.begins_to_roll - d.time);
+    const double loss = d.mass * floor.deceleration * way;
+    RC_ASSERT(std::abs(energy(d) - energy(set_rolling(d, motion, u)) - loss) <
+              1e-12 * (1.0 + energy(d)));
+}
+
+TEST(Floor, WithoutAFloorASphereFliesAsADisc) {
+    const Disc d = sphere({0.3, 0.4}, {1.0, 2.0});
+    const FloorMotion motion = floor_motion(d, {}, {1.0, 0.0});
+    EXPECT_EQ(motion.begins_to_roll, never);
+    EXPECT_EQ(motion.acceleration.x, 0.0);
+    const Disc later = moved_to(d, motion, 0.7), disc = d.at(0.7);
+    EXPECT_EQ(later.position.x, disc.position.x);
+    EXPECT_EQ(later.position.y, disc.position.y);
+    EXPECT_EQ(later.velocity.x, disc.velocity.x);
+    EXPECT_EQ(later.rolling_spin.y, d.rolling_spin.y);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "random_cases.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/physics/collision_law.hpp"
+
+namespace swirl {
+namespace {
+
+// A dozen roundings of numbers of order 10 (velocities up to 3, masses up to 5).
+constexpr double rounding = 1e-12;
+
+struct Vec3 {
+    double x, y, z;
+};
+Vec3 cross3(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Vec3 spin_of(const SphereBody& b) { return {b.rolling_spin.x, b.rolling_spin.y, b.spin}; }
+
+struct Collision {
+    SphereBody i, j;
+    Vec2 separation;
+    Surface surface;
+    Vec2 normal() const {
+        const double d = std::hypot(separation.x, separation.y);
+        return {separation.x / d, separation.y / d};
+    }
+    /// Velocity of the contact point of j against that of i, in three dimensions and from the
+    /// spins as vectors.
+    Vec3 slip() const {
+        const Vec2 n = normal();
+        const Vec3 of_i = cross3(spin_of(i), {i.radius * n.x, i.radius * n.y, 0.0});
+        const Vec3 of_j = cross3(spin_of(j), {-j.radius * n.x, -j.radius * n.y, 0.0});
+        const Vec3 v{j.velocity.x - i.velocity.x + of_j.x - of_i.x,
+                     j.velocity.y - i.velocity.y + of_j.y - of_i.y, of_j.z - of_i.z};
+        const double along = v.x * n.x + v.y * n.y;
+        return {v.x - along * n.x, v.y - along * n.y, v.z};
+    }
+    double energy() const {
+        const Vec2 frame = j.inverse_mass == 0.0 ? j.velocity : Vec2{0.0, 0.0};
+        double sum = 0.0;
+        for (const SphereBody* b : {&i, &j}) {
+            if (b->inverse_mass == 0.0) continue;
+            const Vec2 v = b->velocity - frame;
+            const Vec3 w = spin_of(*b);
+            sum += 0.5 * dot(v, v) / b->inverse_mass +
+                   0.5 * (w.x * w.x + w.y * w.y + w.z * w.z) / b->inverse_inertia;
+        }
+        return sum;
+    }
+};
+
+SphereBody draw_body() {
+    const Vec2 velocity = draw_vector(2.0);
+    const double spin = draw(-2.0, 2.0), radius = draw(0.3, 2.0);
+    const double mass = draw(0.2, 5.0), inertia = draw(0.05, 1.0) * mass * radius * radius;
+    return {{velocity, spin, radius, 1.0 / mass, 1.0 / inertia}, draw_vector(2.0)};
+}
+/// Two spheres, or one and the wall, that touch and close in.
+Collision draw_collision(bool wall) {
+    const SphereBody i = draw_body(), j = draw_body();
+    Collision c{i,
+                wall ? wall_for_spheres(j.velocity) : j,
+                (i.radius + j.radius) * unit_circle(draw(0.0, 1.0)),
+                {draw(0.0, 1.5), draw(0.0, 1.0), draw(0.0, 1.0)}};
+    const double closing = -dot(c.separation, c.j.velocity - c.i.velocity);
+    RC_PRE(std::abs(closing) > 1e-3);
+    if (closing < 0.0) {
+        c.i.velocity = -1.0 * c.i.velocity;
+        c.j.velocity = -1.0 * c.j.velocity;
+    }
+    return c;
+}
+Collision draw_collision() { return draw_collision(*rc::gen::element(0, 1) == 1); }
+
+RC_GTEST_PROP(SphereCollision, ImpulsesChangeVelocitiesAndSpinsAsForcesAtTheContactDo, ()) {
+    const Collision before = draw_collision(false);
+    Collision after = before;
+    const Impulse J = collide(after.i, after.j, after.separation, after.surface);
+    const Vec2 n = before.normal();
+    // On j: along n, along r = (n_y, −n_x), along z; at −R_j n. The floor takes J_z.
+    const Vec3 on_j{J.normal * n.x + J.tangential * n.y, J.normal * n.y - J.tangential * n.x,
+                    J.vertical};
+    const auto check = [&](const SphereBody& was, const SphereBody& is, double sign, double arm) {
+        RC_ASSERT(std::abs(is.velocity.x - was.velocity.x - sign * on_j.x * was.inverse_mass) <
+                  rounding);
+        RC_ASSERT(std::abs(is.velocity.y - was.velocity.y - sign * on_j.y * was.inverse_mass) <
+                  rounding);
+        const Vec3 torque =
+            cross3({arm * n.x, arm * n.y, 0.0}, {sign * on_j.x, sign * on_j.y, sign * on_j.z});
+        const Vec3 a = spin_of(was), b = spin_of(is);
+        const double k = was.inverse_inertia;
+        // Inertia may be a thousandth: spins of a thousand.
+        RC_ASSERT(std::abs(b.x - a.x - k * torque.x) < 1e3 * rounding);
+        RC_ASSERT(std::abs(b.y - a.y - k * torque.y) < 1e3 * rounding);
+        RC_ASSERT(std::abs(b.z - a.z - k * torque.z) < 1e3 * rounding);
+    };
+    check(before.i, after.i, -1.0, before.i.radius);
+    check(before.j, after.j, 1.0, -before.j.radius);
+}
+
+RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
+    Collision c = draw_collision();
+    const double before = c.energy();
+    collide(c.i, c.j, c.separation, c.surface);
+    RC_ASSERT(c.energy() <= before * (1.0 + rounding));
+}
+
+RC_GTEST_PROP(SphereCollision, WithoutFrictionAndElasticEnergyIsConserved, ()) {
+    Collision c = draw_collision();
+    c.surface = {0.0};
+    const double before = c.energy();
+    collide(c.i, c.j, c.separation, c.surface);
+    RC_ASSERT(std::abs(c.energy() - before) <= before * rounding);
+}
+
+// As it is derived above the law: with λ the part of J* that the impulse is.
+RC_GTEST_PROP(SphereCollision, FrictionTakesTheEnergyOfItsDerivation, ()) {
+    Collision c = draw_collision();
+    const Vec2 n = c.normal();
+    const Vec3 s = c.slip();
+    const double s_t = s.x * n.y - s.y * n.x, s_z = s.z;
+    const double lever = c.i.radius * c.i.radius * c.i.inverse_inertia +
+                         c.j.radius * c.j.radius * c.j.inverse_inertia;
+    const double masses = c.i.inverse_mass + c.j.inverse_mass;
+    const double m_t = 1.0 / (masses + lever), m_z = 1.0 / lever;
+    const double u = dot(c.i.velocity - c.j.velocity, n), e = c.surface.restitution;
+    const double before = c.energy();
+    const Impulse J = collide(c.i, c.j, c.separation, c.surface);
+    const double stick = std::hypot(m_t * s_t, m_z * s_z);
+    RC_PRE(stick > 1e-6);
+    const double lambda = std::hypot(J.tangential, J.vertical) / stick;
+    const double loss = (lambda - 0.5 * lambda * lambda) * (m_t * s_t * s_t + m_z * s_z * s_z) +
+                        0.5 * (1.0 - e * e) * u * u / masses;
+    RC_ASSERT(std::abs(before - c.energy() - loss) < rounding * (1.0 + before));
+}
+
+RC_GTEST_PROP(SphereCollision, FrictionIsAgainstTheStickingImpulseAndObeysCoulomb, ()) {
+    Collision c = draw_collision();
+    const Vec3 before = c.slip();
+    const Impulse J = collide(c.i, c.j, c.separation, c.surface);
+    const double strength = std::hypot(J.tangential, J.vertical);
+    RC_ASSERT(strength <= c.surface.mu * J.normal * (1.0 + rounding) + rounding);
+    const Vec3 after = c.slip();
+    if (J.sticks) {
+        const double beta = c.surface.tangential_restitution;
+        RC_ASSERT(std::abs(after.x + beta * before.x) < 1e3 * rounding);
+        RC_ASSERT(std::abs(after.y + beta * before.y) < 1e3 * rounding);
+        RC_ASSERT(std::abs(after.z + beta * before.z) < 1e3 * rounding);
+    } else {
+        RC_ASSERT(std::abs(strength - c.surface.mu * J.normal) < rounding);
+    }
+}
+
+TEST(SphereCollision, ARollingSphereMeetsTheWallWithItsSpeedIntoItAsVerticalSlip) {
+    // Rolling along +x: ω_y = v. Head-on, so nothing slips horizontally.
+    SphereBody i{{{0.8, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, 0.8}}, wall = wall_for_spheres({0.0, 0.0});
+    const Collision c{i, wall, {7.6, 0.0}, {100.0}};
+    EXPECT_DOUBLE_EQ(std::abs(c.slip().z), 0.8);
+    const Impulse J = collide(i, wall, {7.6, 0.0}, {100.0});
+    EXPECT_EQ(J.tangential, 0.0);
+    // m_z = I/R² = 0.4: the spin stops.
+    EXPECT_NEAR(std::abs(J.vertical), 0.32, 1e-15);
+    EXPECT_NEAR(i.rolling_spin.y, 0.0, 1e-15);
+    EXPECT_EQ(i.velocity.x, -0.8);
+}
+
+// A rolling sphere's front goes down, its back up: fronts that meet do not rub, a front on a back
+// does, with the sum of the speeds.
+TEST(SphereCollision, RollingSpheresRubWithTheSumOfTheirSpeedsAlongTheNormal) {
+    const auto rolling = [](double v) {
+        return SphereBody{{{v, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, v}};
+    };
+    EXPECT_EQ((Collision{rolling(1.0), rolling(-1.0), {2.0, 0.0}, {}}).slip().z, 0.0);
+    EXPECT_EQ(std::abs((Collision{rolling(1.0), rolling(0.5), {2.0, 0.0}, {}}).slip().z), 1.5);
+}
+
+// One law: without vertical slip a sphere's collision is a disc's, bit for bit.
+RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipItIsTheDiscsBitForBit, ()) {
+    Collision c = draw_collision();
+    c.i.rolling_spin = c.j.rolling_spin = {0.0, 0.0};
+    Body i = c.i, j = c.j;
+    const Impulse of_discs = collide(i, j, c.separation, c.surface);
+    const Impulse of_spheres = collide(c.i, c.j, c.separation, c.surface);
+    const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    RC_ASSERT(same(of_discs.normal, of_spheres.normal));
+    RC_ASSERT(of_discs.tangential == of_spheres.tangential);
+    RC_ASSERT(of_discs.sticks == of_spheres.sticks);
+    RC_ASSERT(of_spheres.vertical == 0.0);
+    for (const auto& [a, b] : {std::pair{i, c.i}, std::pair{j, c.j}}) {
+        RC_ASSERT(a.velocity.x == b.velocity.x);
+        RC_ASSERT(a.velocity.y == b.velocity.y);
+        RC_ASSERT(a.spin == b.spin);
+    }
+}
+
+// On a floor a collision within t_c parts the two with the speed of a hop of t_c, or elastically;
+// others are as ever.
+TEST(SphereCollision, PressedTogetherOnAFloorTheyPartWithTheSpeedOfAHopOfTheContactDuration) {
+    const Surface surface{0.0, 0.5, 0.0, 1e-2};
+    const Floor floor{2.0};
+    const auto speed_after = [&](double u, double since_last, const Floor& on) {
+        SphereBody i{{{u, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, 0.0}};
+        SphereBody wall = wall_for_spheres({0.0, 0.0});
+        const Vec2 s{7.6, 0.0};
+        collide(i, wall, s,
+                at_contact_on_floor(surface, since_last, on, s, wall.velocity - i.velocity));
+        return -i.velocity.x;
+    };
+    EXPECT_NEAR(speed_after(1e-9, 1e-3, floor), 1e-2, 1e-15);
+    EXPECT_NEAR(speed_after(0.7, 1e-3, floor), 0.7, 1e-15);
+    EXPECT_NEAR(speed_after(0.7, 1e-1, floor), 0.35, 1e-15);
+    EXPECT_NEAR(speed_after(1e-9, 1e-3, {}), 1e-9, 1e-24);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,228 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "simulation/scenes.hpp"
+#include "swirl/simulation/reference.hpp"
+
+namespace swirl {
+namespace {
+
+InitialState sphere_dish(std::size_t n, double deceleration = 1.92, double mu = 0.2,
+                         double restitution = 0.9) {
+    InitialState scene =
+        state_of({unit_disc(solid_sphere_inertia(1.0, 1.0))}, n, paper_container_radius,
+                 polygon_path(paper_amplitude, paper_period, paper_sides), mu, mu);
+    scene.disc_surface = scene.wall_surface = {mu, restitution, 0.0, 1e-3};
+    scene.shape = Shape::sphere;
+    scene.floor.deceleration = deceleration;
+    return scene;
+}
+/// Three kinds of sphere, solid and hollow.
+InitialState sphere_mixture() {
+    InitialState scene = mixture_dish(30);
+    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+        Disc& d = scene.discs[i];
+        d.inertia =
+            i % 2 ? shell_inertia(d.mass, d.radius) : solid_sphere_inertia(d.mass, d.radius);
+        d.rolling_spin = {0.1 * d.velocity.y, 0.3};
+    }
+    scene.disc_surface = {0.3, 0.8, 0.3, 2e-3};
+    scene.wall_surface = {0.2, 0.7, 0.1, 2e-3};
+    scene.shape = Shape::sphere;
+    scene.floor.deceleration = 0.8;
+    return scene;
+}
+
+::testing::AssertionResult same_bits(double a, double b) {
+    if (std::memcmp(&a, &b, sizeof a) == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << a << " differs from " << b << " by " << a - b;
+}
+void expect_same_state(const Disc& a, const Disc& b) {
+    ASSERT_TRUE(same_bits(a.position.x, b.position.x));
+    ASSERT_TRUE(same_bits(a.position.y, b.position.y));
+    ASSERT_TRUE(same_bits(a.velocity.x, b.velocity.x));
+    ASSERT_TRUE(same_bits(a.velocity.y, b.velocity.y));
+    ASSERT_TRUE(same_bits(a.angle, b.angle));
+    ASSERT_TRUE(same_bits(a.spin, b.spin));
+    ASSERT_TRUE(same_bits(a.rolling_spin.x, b.rolling_spin.x));
+    ASSERT_TRUE(same_bits(a.rolling_spin.y, b.rolling_spin.y));
+    ASSERT_TRUE(same_bits(a.last_collision, b.last_collision));
+    ASSERT_TRUE(same_bits(a.time, b.time));
+}
+void expect_the_reference(const InitialState& scene, int events, Width width) {
+    Reference plain(scene);
+    Simulation engine(scene, {}, {0, width});
+    for (int k = 0; k < events; ++k) {
+        const Event expected = plain.step(), found = engine.step();
+        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+        ASSERT_EQ(expected.swirls, found.swirls);
+        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
+        ASSERT_EQ(expected.i, found.i) << "event " << k;
+        ASSERT_EQ(expected.j, found.j) << "event " << k;
+        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
+        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
+        ASSERT_TRUE(same_bits(expected.impulse.vertical, found.impulse.vertical));
+        ASSERT_LT(found.overlap, 1e-12) << "event " << k;
+    }
+    for (std::size_t i = 0; i < scene.discs.size(); ++i)
+        expect_same_state(plain.disc(i), engine.disc(i));
+}
+
+class SpheresInEveryWidth : public ::testing::TestWithParam<Width> {
+  protected:
+    void SetUp() override {
+        if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
+    }
+};
+TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBit) {
+    for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})
+        expect_the_reference(sphere_dish(n), 4000, GetParam());
+}
+TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
+    expect_the_reference(sphere_mixture(), 10000, GetParam());
+}
+TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitOnAllFloors) {
+    for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
+        expect_the_reference(sphere_dish(28, deceleration), 4000, GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth,
+                         ::testing::Values(Width::baseline, Width::avx2, Width::avx512),
+                         [](const auto& parameter) -> std::string {
+                             switch (parameter.param) {
+                                 case Width::avx512:
+                                     return "avx512";
+                                 case Width::avx2:
+                                     return "avx2";
+                                 default:
+                                     return "baseline";
+                             }
+                         });
+TEST(Spheres, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
+    for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
+        expect_the_reference(sphere_dish(n), 100000, Width::best);
+    expect_the_reference(sphere_mixture(), 100000, Width::best);
+}
+
+// Without a floor and without friction at the contacts, spheres are discs.
+TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
+    InitialState discs = sphere_dish(28, 0.0, 0.0), spheres = discs;
+    discs.shape = Shape::disc;
+    for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
+    Simulation a(discs), b(spheres);
+    for (int k = 0; k < 20000; ++k) {
+        const Event expected = a.step(), found = b.step();
+        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+        ASSERT_EQ(expected.i, found.i);
+        ASSERT_EQ(expected.j, found.j);
+    }
+    for (std::size_t i = 0; i < discs.discs.size(); ++i) {
+        const Disc disc = a.disc(i), sphere = b.disc(i);
+        ASSERT_TRUE(same_bits(disc.position.x, sphere.position.x));
+        ASSERT_TRUE(same_bits(disc.velocity.y, sphere.velocity.y));
+        ASSERT_EQ(sphere.rolling_spin.x, 0.7);
+    }
+}
+
+TEST(Spheres, ResumedFromTheirStatesAndTheProgressTheyContinueBitForBit) {
+    const InitialState scene = sphere_dish(40);
+    Simulation whole(scene), first(scene);
+    whole.run(30000);
+    first.run(12345);
+    InitialState saved = scene;
+    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
+    Simulation resumed(saved, first.progress());
+    resumed.run(30000 - 12345);
+    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+    EXPECT_EQ(whole.events().begins_to_roll, resumed.events().begins_to_roll);
+}
+
+TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
+    Simulation simulation(sphere_dish(20));
+    Snapshot kept = simulation.snapshot();
+    for (int k = 0; k < 3000; ++k) {
+        const Event event = simulation.step();
+        // Just before the event everybody is where the snapshot says.
+        if (event.kind == EventKind::disc_disc) {
+            Snapshot before = kept;
+            before.clock = event.clock;
+            const Vec2 s = before.position(event.j) - before.position(event.i);
+            ASSERT_NEAR(std::hypot(s.x, s.y), 2.0, 1e-12);
+        }
+        simulation.refresh(kept, event);
+    }
+    const Snapshot fresh = simulation.snapshot();
+    EXPECT_EQ(kept.x, fresh.x);
+    EXPECT_EQ(kept.vy, fresh.vy);
+    EXPECT_EQ(kept.ax, fresh.ax);
+    EXPECT_EQ(kept.spin_x, fresh.spin_x);
+    EXPECT_EQ(kept.held_at, fresh.held_at);
+    const Snapshot dated = fresh.up_to_date();
+    for (std::size_t i = 0; i < dated.size(); ++i) {
+        EXPECT_EQ(dated.held_at[i], dated.clock);
+        EXPECT_EQ(dated.position(i).x, fresh.position(i).x);
+        EXPECT_EQ(dated.vx[i], fresh.velocity(i).x);
+    }
+}
+
+// Alone and away from the wall: 2/7 of every jump of the floor's velocity, as soon as it rolls.
+TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
+    InitialState scene = sphere_dish(1);
+    const Vec2 u = scene.path.legs[0].velocity;
+    scene.discs[0].position = scene.path.legs[0].start;
+    scene.discs[0].velocity = u;
+    scene.discs[0].rolling_spin = {0.0, 0.0};
+    Simulation simulation(scene);
+    Vec2 expected = u;
+    for (std::size_t k = 1; k < 15; ++k) {
+        ASSERT_EQ(simulation.step().kind, EventKind::path_vertex);
+        ASSERT_EQ(simulation.step().kind, EventKind::begins_to_roll);
+        const Vec2 jump = scene.path.legs[k].velocity - scene.path.legs[k - 1].velocity;
+        expected = expected + 2.0 / 7.0 * jump;
+        EXPECT_NEAR(simulation.disc(0).velocity.x, expected.x, 1e-13);
+        EXPECT_NEAR(simulation.disc(0).velocity.y, expected.y, 1e-13);
+    }
+}
+
+/// The same sphere by small steps: no events, the friction of the floor as a force.
+TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
+    InitialState scene = sphere_dish(1, 0.7);
+    scene.discs[0].position = scene.path.legs[0].start + Vec2{-1.0, 0.5};
+    scene.discs[0].velocity = {0.9, -0.2};
+    scene.discs[0].rolling_spin = {0.4, -0.8};
+    Simulation simulation(scene);
+    simulation.advance_to(0, 0.9);
+    const Snapshot exact = simulation.snapshot();
+    const auto error = [&](int steps) {
+        Disc d = scene.discs[0];
+        const double dt = 0.9 / steps;
+        for (int k = 0; k < steps; ++k) {
+            const Vec2 c = slip_on_floor(d, scene.path.leg_at((k + 0.5) * dt).velocity);
+            const double slip = std::hypot(c.x, c.y);
+            // No further than to rest: c falls by 3.5 times what v changes.
+            const double push = std::min(0.7 * dt, slip / 3.5) / slip;
+            d.velocity = d.velocity - push * c;
+            d.rolling_spin = d.rolling_spin + 2.5 * Vec2{-push * c.y, push * c.x};
+            d.position = d.position + dt * d.velocity;
+        }
+        const Vec2 off = d.position - exact.position(0);
+        return std::hypot(off.x, off.y);
+    };
+    EXPECT_LT(error(1000), 3e-3);
+    EXPECT_LT(error(100000), 3e-5);
+}
+
+TEST(Spheres, ExtremesOfEveryParameterDoNotHang) {
+    for (const double deceleration : {1e-6, 1.0, 1e3})
+        for (const double mu : {0.0, 0.2, 10.0})
+            for (const double restitution : {0.0, 0.5, 1.0}) {
+                Simulation simulation(sphere_dish(30, deceleration, mu, restitution));
+                simulation.run(20000);
+                EXPECT_GT(simulation.clock() + paper_period * double(simulation.swirls()), 0.2)
+                    << deceleration << ' ' << mu << ' ' << restitution;
+            }
+}
+
+}  // namespace
+}  // namespace swirl
