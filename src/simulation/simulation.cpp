@@ -246,7 +246,10 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
     double reach = scene.container_radius;
     for (const Leg& leg : legs)
         if (leg.turning != 0.0)
-            reach = scene.container_radius + square_root(dot(leg.start, leg.start));
+            // On a long way round, the frame is renewed before it has gone so far
+            // (verlet_lists.hpp).
+            reach = scene.container_radius +
+                    smaller(square_root(dot(leg.start, leg.start)), scene.container_radius);
     const double side = 2.0 * reach;
     state.cell_origin = -reach;
     constexpr std::uint32_t few = 100;

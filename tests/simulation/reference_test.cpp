@@ -169,6 +169,20 @@ TEST(VeryUnequalDiscs, EngineIsThePlainGridBitForBitAmongThousands) {
     expect_same_trajectory<PlainGrid>(large_among_small(20, 2000, 0.1, 8.165), 50000, {});
     expect_same_trajectory<PlainGrid>(large_among_small(2, 3000, 0.01, 2.05), 20000, {});
 }
+// Discs have followed the container long before its next course; so do the lists.
+TEST(FastDish, ListsAreRebuiltNoMoreOftenThanDiscsCollide) {
+    InitialState scene = paper_dish(48);
+    scene.path = polygon_path(1e6, paper_period, paper_sides);
+    const Leg& leg = scene.path.legs.front();
+    for (Disc& disc : scene.discs) {
+        disc.position = disc.position + (leg.start - Vec2{paper_amplitude, 0.0});
+        disc.velocity = disc.velocity + leg.velocity;
+    }
+    expect_same_trajectory(scene, sanitized ? 1000 : 20000, {});
+    Simulation simulation(scene);
+    simulation.run(20000);
+    EXPECT_LT(simulation.loop_counts().list_rebuilds, 20000u);
+}
 // Who is stopped while lists are made knows where the discs are.
 TEST(Stop, EndsTheMakingOfAMillionListsAndLeavesTheDiscs) {
     const InitialState scene = gas_at_rest(20000, 0.7);

@@ -147,8 +147,10 @@ struct EngineState {
     double* level_times[12];
     std::uint32_t* level_winners[12];
 
-    // The frame in which the skins rest: the mean motion of the discs, renewed with every leg.
+    // The frame in which the skins rest: the mean motion of the discs, renewed with every leg, and
+    // when the discs have left it.
     Flight<double> comoving_frame;
+    std::uint64_t rebuilds_in_frame;  // of lists, since it was last asked whether they have
 
     // A grid for each size of disc that there is (verlet_skin.hpp), from the smallest on; or one
     // for all, if the discs are few or equal; or that of a thin gas (linked_cells.hpp).

@@ -87,9 +87,21 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     rebuild_all_lists(state, t, narrow);
 }
 
+/// A new frame, in which the discs rest, in the middle of the leg.
+[[gnu::noinline]] static void follow_the_discs(EngineState& state, double t) {
+    ++state.full_rebuilds;
+    renew_comoving_frame(state, state.legs[state.leg].position_at(t), t);
+    rebuild_all_narrow(state, t);
+    predict_all(state, t);
+}
+
 /// Disc i, which has no event pending, gets a new skin and list.
 [[gnu::noinline]] static void rebuild_list(EngineState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
+    if (++state.rebuilds_in_frame > 8 * static_cast<std::uint64_t>(state.size)) [[unlikely]] {
+        state.rebuilds_in_frame = 0;
+        if (frame_is_left_behind(state)) return follow_the_discs(state, t);
+    }
     const double before = recentre_skin(state, i, t);
     if (build_list(state, i, t, before, skin_radius_range(state))) {
         predict<Held::for_a_while, 1>(state, {i}, t);

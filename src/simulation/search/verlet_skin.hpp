@@ -42,6 +42,22 @@ static void renew_comoving_frame(EngineState& state, const Vec2& origin, double 
     Vec2 sum{0.0, 0.0};
     for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
     state.comoving_frame = {origin, (1.0 / state.size) * sum, t};
+    state.rebuilds_in_frame = 0;
+}
+
+/// Whether the discs fly with each other rather than with the frame: in a fast dish all have
+/// followed the container long before the next leg, and lists would be rebuilt for ever.
+static bool frame_is_left_behind(const EngineState& state) {
+    Vec2 sum{0.0, 0.0};
+    for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
+    const Vec2 mean = (1.0 / state.size) * sum;
+    double with_each_other = 0.0;
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        const Vec2 v = state.discs[i].velocity - mean;
+        with_each_other += dot(v, v);
+    }
+    const Vec2 drift = state.comoving_frame.velocity - mean;
+    return dot(drift, drift) * state.size > with_each_other;
 }
 
 /// How far from the centre of the container a disc may reach without touching the wall, with room
