@@ -156,6 +156,7 @@ double Run::fraction() const {
 /// then.
 bool Run::next_event() {
     if (complete()) {
+        refuse_overlaps();
         refuse_collapse(least_collapse_window);
         return false;
     }
@@ -185,6 +186,7 @@ void Run::pass_event() {
 bool Run::look_up() {
     events_to_look_up_ = events_between_looks(simulation_.size()) - 1;
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
+    refuse_overlaps();
     refuse_collapse(stopped ? least_collapse_window : collapse_window());
     if (stopped) return false;
     const auto now = Clock::now();
@@ -192,6 +194,20 @@ bool Run::look_up() {
     last_report_ = now;
     control_.progress({fraction(), simulation_.events().total(), periods()});
     return true;
+}
+
+/// Rounding errors of places (docs/physics.md) must stay what they are called.
+void Run::refuse_overlaps() const {
+    constexpr double still_rounding = 1e-6;
+    const double smallest =
+        config_.mixture ? std::min(config_.radius, config_.mixture->radius) : config_.radius;
+    if (result_.max_overlap <= still_rounding * smallest) return;
+    throw Failure(fmt::format(
+        "After {:.3f} swirls a disc is {:.2g} of the smallest radius deep in another or in the "
+        "wall: "
+        "rounding errors have grown too large for discs so small in a dish so wide or on a path so "
+        "long. A smaller --container-radius or --amplitude, or fewer --events, would be right.",
+        periods(), result_.max_overlap / smallest));
 }
 
 /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by

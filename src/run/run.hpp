@@ -129,6 +129,7 @@ class Run {
     double fraction() const;
     bool observes() const { return warm_ && control_.observation; }
     bool look_up();
+    void refuse_overlaps() const;
     void refuse_collapse(std::uint64_t window);
     std::uint64_t collapse_window() const;
     std::string reason_for_collapse() const;
