@@ -10,6 +10,7 @@
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/study/crossing.hpp"
+#include "swirl/study/sweep.hpp"
 
 namespace swirl {
 namespace {
@@ -20,7 +21,7 @@ const ParameterTexts defaults{{"events", "2e5"}};
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
-    std::string config_file, json;
+    std::string config_file, json, table;
     bool quiet = false;
 };
 
@@ -33,25 +34,24 @@ std::string table_text(const CrossingSearch& search) {
     return text;
 }
 
-void find(CrossingCall& call) {
-    const bool json_to_stdout = call.json == "-";
-    call.settings.config = resolve(overridden(defaults, *call.parameters));
-    if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+/// One search, with a line of progress of its own.
+CrossingSearch search_one(const CrossingCall& call, const CrossingSettings& settings,
+                          const std::string& which) {
+    ProgressLine line(which, call.quiet);
+    CrossingControl control;
+    control.stop = &stop_signal();
+    int done = 0;
+    control.progress = [&](const std::string& stage, double rate) {
+        // How many runs it takes is not known beforehand: half of what is left, ever again.
+        const double fraction = 1.0 - 20.0 / (20.0 + ++done);
+        line.show(fraction, fmt::format("{}, {} events/s", stage, short_number(rate)));
+    };
+    return search_crossing(settings, control);
+}
 
-    CrossingSearch search;
-    {
-        ProgressLine line("crossing", call.quiet);
-        CrossingControl control;
-        control.stop = &stop_signal();
-        int done = 0;
-        control.progress = [&](const std::string& stage, double rate) {
-            // How many runs it takes is not known beforehand: half of what is left, ever again.
-            const double fraction = 1.0 - 20.0 / (20.0 + ++done);
-            line.show(fraction, fmt::format("{}, {} events/s", stage, short_number(rate)));
-        };
-        search = search_crossing(call.settings, control);
-    }
-    std::string text = crossing_report(call.settings, search) + "\n";
+std::string text_of(const CrossingCall& call, const CrossingSettings& settings,
+                    const CrossingSearch& search) {
+    std::string text = crossing_report(settings, search) + "\n";
     if (!call.quiet)
         text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
                                                  with_commas(search.events),
@@ -71,14 +71,70 @@ void find(CrossingCall& call) {
             "errors "
             "within their runs can explain; the errors are those between them.\n",
             search.disagreeing);
-    const std::string json = crossing_json(call.settings, search, command_line());
-    if (json_to_stdout) {
-        print_all(json);
-        if (!call.quiet) fmt::print(stderr, "{}", text);
-        return;
+    return text;
+}
+
+/// "mu_disc 0.5, mu_wall 1": what a list makes different.
+std::string name_of(const SweepPlan& plan, std::size_t point) {
+    std::string name;
+    const ParameterTexts texts = plan.parameters(point);
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.values.size() > 1)
+            name +=
+                fmt::format("{}{} {}", name.empty() ? "" : ", ", axis.name, texts.at(axis.name));
+    return name;
+}
+
+/// One search is an object, those of a list are an array of them.
+std::string json_of(const std::vector<std::string>& found, bool single) {
+    return single ? found.front() : fmt::format("[\n{}]\n", fmt::join(found, ","));
+}
+
+/// A search for every combination of the lists that were given. After each of them the files hold
+/// all that is known, so nothing is lost when the next one takes too long.
+void find(CrossingCall& call) {
+    const SweepPlan plan = make_plan(overridden(defaults, *call.parameters), 1);
+    const bool single = plan.points() == 1;
+    std::vector<CrossingSettings> searches;
+    for (std::size_t point = 0; point < plan.points(); ++point) {
+        searches.push_back(call.settings);
+        searches.back().config = resolve(plan.parameters(point));
     }
-    if (!call.json.empty()) write_output(call.json, json);
-    print_all(text);
+    for (const std::string* file : {&call.json, &call.table})
+        if (!file->empty() && *file != "-") refuse_unwritable(*file);
+    if (call.json == "-" && call.table == "-")
+        throw WrongCall("--json and --csv cannot both go to standard output.");
+
+    std::vector<std::string> columns;
+    for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
+    for (const std::string& name : crossing_columns()) columns.push_back(name);
+    columns.insert(columns.end(), {"within_tolerance", "runs", "events_in_all"});
+    Table table(columns);
+    const bool to_stdout = call.json == "-" || call.table == "-";
+    std::vector<std::string> found;
+    for (std::size_t point = 0; point < plan.points(); ++point) {
+        const CrossingSettings& settings = searches[point];
+        const std::string name = name_of(plan, point);
+        const CrossingSearch search = search_one(call, settings, single ? "crossing" : name);
+        std::vector<Table::Cell> row;
+        const ParameterTexts texts = plan.parameters(point);
+        for (const SweepAxis& axis : plan.axes) row.emplace_back(texts.at(axis.name));
+        add_crossing(row, search.crossing);
+        row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
+        row.emplace_back(std::int64_t(search.runs));
+        row.emplace_back(std::int64_t(search.events));
+        table.add(std::move(row));
+        found.push_back(crossing_json(settings, search, command_line()));
+        if (!call.json.empty() && call.json != "-") write_output(call.json, json_of(found, single));
+        if (!call.table.empty() && call.table != "-") write_output(call.table, table.csv());
+        const std::string text = (single ? "" : name + ": ") + text_of(call, settings, search);
+        if (!to_stdout)
+            print_all(text);
+        else if (!call.quiet)
+            fmt::print(stderr, "{}", text);
+    }
+    if (call.table == "-") print_all(table.csv());
+    if (call.json == "-") print_all(json_of(found, single));
 }
 
 void add_crossing_command(Subcommand& subcommand) {
@@ -96,12 +152,21 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
+    subcommand
+        .add_option("--csv", call->table,
+                    "a table to FILE, or - for stdout: one line for each search")
+        ->type_name("FILE|-")
+        ->group("Output");
     subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
-    subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.5 --tolerance 0.1",
+    subcommand.explain(
+        "Every parameter may be a list, as for swirl sweep: then there is a search for each\n"
+        "combination.\n");
+    subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
+                             "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0 --from 20 --json -"});
     subcommand.callback([call, &subcommand] {
         if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, *call->parameters, Lists::refused,
+            take_config_file(subcommand, call->config_file, *call->parameters, Lists::taken,
                              "crossing");
         find(*call);
     });

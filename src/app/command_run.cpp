@@ -1,6 +1,7 @@
 // swirl run: one simulation, from its seed to its averages.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "swirl/app/command_line.hpp"
@@ -67,15 +68,22 @@ std::string take_config_file(const RunCall& call,
     return from_file.text;
 }
 
+/// Nothing else of the run: more of it may be wanted.
+bool says_at_most_how_long(const ParameterTexts& given) {
+    return std::all_of(given.begin(), given.end(), [](const auto& parameter) {
+        return parameter.first == "events" || parameter.first == "periods";
+    });
+}
+
 /// With nothing but a checkpoint to go on, it says what run it is, and what its call asked for.
 void take_call_from_checkpoint(const RunCall& call,
                                const std::map<std::string, std::string*>& others) {
     const auto checkpoint = call.recording->texts.find("checkpoint");
     if (!call.recording->resume || checkpoint == call.recording->texts.end() ||
-        !call.parameters->empty())
+        !says_at_most_how_long(*call.parameters))
         return;
     const KeptCall kept = call_in_checkpoint(checkpoint->second);
-    *call.parameters = parameters_in(kept.configuration);
+    *call.parameters = overridden(parameters_in(kept.configuration), *call.parameters);
     for (const auto& [name, text] : kept.options) {
         const auto other = others.find(name);
         if (other == others.end())
@@ -135,6 +143,15 @@ void run_and_report(RunCall& call) {
     } else {
         if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
         if (!call.quiet || call.json.empty()) print_all(text);
+    }
+    if (result.complete && files.keep_checkpoint) {
+        if (!call.quiet)
+            fmt::print(
+                stderr,
+                "swirl: The state is kept in '{}'; --checkpoint {} --resume with more --events "
+                "goes on.\n",
+                files.checkpoint.string(), files.checkpoint.string());
+        return;
     }
     if (result.complete) return forget_checkpoint(files);
     if (!std::filesystem::exists(files.checkpoint))

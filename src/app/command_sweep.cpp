@@ -26,6 +26,7 @@ struct SweepCall {
     std::string config_file, out, seeds, measure, frames, part, threads, nodes, cpus;
     SlurmJob job;
     bool status = false, slurm = false, rest = false, dry_run = false, quiet = false;
+    bool grow = false;
 };
 
 std::int64_t whole(const char* name, const std::string& text, std::int64_t otherwise,
@@ -48,8 +49,20 @@ void take_config_file(SweepCall& call) {
     take_others(plan.others, others);
 }
 
+std::vector<std::string> more_measurements(const SweepCall& call) {
+    if (!call.frames.empty())
+        throw WrongCall(
+            "--frames cannot be added to a sweep with --grow; its runs are recorded from the "
+            "beginning or not at all.");
+    if (call.measure.empty()) return {};
+    return read_measurement_list(call.measure);
+}
+
 SweepPlan plan_of(SweepCall& call) {
     if (!call.config_file.empty()) take_config_file(call);
+    if (call.grow)
+        return grown(read_plan(call.out), *call.parameters,
+                     whole("seeds", call.seeds, 0, 1'000'000), more_measurements(call));
     // Without a plan: the one that is there.
     if (call.parameters->empty() && call.seeds.empty() && call.measure.empty() &&
         call.frames.empty()) {
@@ -132,7 +145,7 @@ void sweep(SweepCall& call) {
         return print_all(text + fmt::format("  replicas: {}\n", plan.replicas));
     }
     make_folder(call.out);
-    write_plan(call.out, plan);
+    write_plan(call.out, plan, call.grow);
     if (call.slurm) {
         const std::string number = submit(call.job, call.out);
         return print_all(fmt::format(
@@ -175,6 +188,12 @@ void add_sweep_command(Subcommand& subcommand) {
     text("--frames", call->frames, "N",
          "record every run, N frames per swirl, in DIR/trajectories [no recording]", sweep_group);
     text("--threads", call->threads, "N", "runs at the same time [one for each core]", sweep_group);
+    subcommand
+        .add_flag(
+            "--grow", call->grow,
+            "add these values, replicas (--seeds, all of them counted) and measurements to the "
+            "sweep in DIR; what is done stays")
+        ->group(sweep_group);
     subcommand.add_flag("--status", call->status, "only say what is done, running, failed")
         ->group(sweep_group);
     subcommand.add_flag("--dry-run", call->dry_run, "only say what would be run")
@@ -191,6 +210,7 @@ void add_sweep_command(Subcommand& subcommand) {
     text("--time", call->job.time, "TIME", "limit for each task, as sbatch takes it", cluster);
     text("--partition", call->job.partition, "NAME", "of the cluster", cluster);
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
+                             "swirl sweep --out study --grow --discs 49:55 --seeds 16",
                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
                              "swirl sweep --out study --status"});
     subcommand.callback([call] { sweep(*call); });
@@ -203,7 +223,7 @@ std::string remarks_on(const CollectedSweep& collected) {
         text += fmt::format(
             "In {} of {} rows the replicas scatter more than the errors of their own blocks can "
             "explain (column scatter, in units of those); the errors are those between them.\n",
-            collected.disagreeing, collected.rows);
+            collected.disagreeing, collected.rows.size());
     if (collected.without_swirl > 0)
         text += fmt::format(
             "{} of the runs made no whole swirl after the warm-up; there is nothing to average of "
@@ -212,13 +232,13 @@ std::string remarks_on(const CollectedSweep& collected) {
     if (collected.not_steady > 0)
         text += fmt::format(
             "In {} of {} rows a run was not shown to be steady (column steady_state).\n",
-            collected.not_steady, collected.rows);
+            collected.not_steady, collected.rows.size());
     return text;
 }
 
 void add_collect_command(Subcommand& subcommand) {
     struct Collect {
-        std::string folder, table;
+        std::string folder, table, crossings;
     };
     const auto call = std::make_shared<Collect>();
     subcommand.add_option("folder", call->folder, "folder of a sweep")
@@ -229,10 +249,19 @@ void add_collect_command(Subcommand& subcommand) {
                     "where to write the table, or - for stdout "
                     "[DIR/table.csv]")
         ->type_name("FILE|-");
-    subcommand.set_examples({"swirl collect study", "swirl collect study --csv -"});
+    subcommand
+        .add_option(
+            "--crossings", call->crossings,
+            "where to write N_c, the number of discs at which the rotation (by time) changes "
+            "its sign, for each combination of the other parameters; - for stdout")
+        ->type_name("FILE|-");
+    subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
+                             "swirl collect study --csv -"});
     subcommand.callback([call] {
         const SweepPlan plan = read_plan(call->folder);
         const CollectedSweep collected = collect_sweep(call->folder, plan);
+        const std::string crossings =
+            call->crossings.empty() ? "" : crossings_in(plan, collected).csv();
         const SweepStatus s = sweep_status(call->folder, plan);
         const std::string file =
             call->table.empty() ? (fs::path(call->folder) / "table.csv").string() : call->table;
@@ -240,12 +269,18 @@ void add_collect_command(Subcommand& subcommand) {
             fmt::print(stderr, "swirl: {} of {} runs are not done yet; the table holds the rest.\n",
                        s.points - s.done, s.points);
         const std::string remarks = remarks_on(collected);
-        if (file == "-") {
+        if (file == "-" && call->crossings == "-")
+            throw WrongCall("--csv and --crossings cannot both go to standard output.");
+        if (file != "-") write_output(file, collected.table.csv());
+        if (!call->crossings.empty() && call->crossings != "-")
+            write_output(call->crossings, crossings);
+        if (file == "-" || call->crossings == "-") {
             fmt::print(stderr, "{}", remarks);
-            return print_all(collected.table.csv());
+            return print_all(file == "-" ? collected.table.csv() : crossings);
         }
-        write_output(file, collected.table.csv());
-        print_all(fmt::format("{} of {} runs in {}\n{}", s.done, s.points, file, remarks));
+        print_all(fmt::format("{} of {} runs in {}{}\n{}", s.done, s.points, file,
+                              crossings.empty() ? "" : ", crossings in " + call->crossings,
+                              remarks));
     });
 }
 

@@ -157,6 +157,11 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
         .add_flag("--overwrite", call->overwrite,
                   "begin anew over files that are there; a checkpoint is kept as NAME.backup")
         ->group(group);
+    subcommand
+        .add_flag("--keep-checkpoint", call->keep_checkpoint,
+                  "keep the state at the end of the run: --resume with more --events or --periods "
+                  "goes on from there")
+        ->group(group);
     return call;
 }
 
@@ -185,8 +190,9 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");
-    files.checkpoint_needed =
-        call.resume || !files.checkpoint.empty() || !text_of(call, "checkpoint_every").empty();
+    files.keep_checkpoint = call.keep_checkpoint;
+    files.checkpoint_needed = call.resume || call.keep_checkpoint || !files.checkpoint.empty() ||
+                              !text_of(call, "checkpoint_every").empty();
     const bool nothing_named = files.checkpoint.empty() && (json.empty() || json == "-") &&
                                files.trajectory.empty() && files.event_log.empty();
     // The checkpoint of a run that was to leave nothing behind is set aside without a question.
@@ -196,6 +202,9 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     if (files.checkpoint_every == 0.0) {
         if (call.resume)
             throw WrongCall("--resume needs a checkpoint, but --checkpoint-every 0 asks for none.");
+        if (call.keep_checkpoint)
+            throw WrongCall(
+                "--keep-checkpoint keeps a checkpoint, but --checkpoint-every 0 asks for none.");
         files.checkpoint.clear();
     }
     for (const auto& file : {files.trajectory, files.event_log})

@@ -15,7 +15,7 @@ namespace swirl {
 struct RecordingCall {
     std::string config_file;
     ParameterTexts texts;  // names of options and what was given
-    bool resume = false, overwrite = false;
+    bool resume = false, overwrite = false, keep_checkpoint = false;
 };
 
 std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand);

@@ -14,6 +14,7 @@
 #include "swirl/files/state_archive.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/measure/observation.hpp"
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/version.hpp"
@@ -66,6 +67,14 @@ std::string difference(const Json& there, const Json& here) {
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
 
+/// The same run, but that it is to go on for longer.
+bool differs_in_length_alone(Json there, Json here) {
+    if (there == here) return false;
+    for (Json* identity : {&there, &here})
+        for (const char* length : {"events", "periods"}) (*identity)["parameters"].erase(length);
+    return there == here;
+}
+
 /// What names the run in its recordings: the same name, the same frames and events.
 std::string run_name(const Json& identity) {
     return fmt::format("{:016x}", checksum(identity.dump() + version()));
@@ -97,11 +106,17 @@ class Recorder {
     RunResult operator()(RunControl control) {
         control.resume = std::move(resumed_);
         Run run(config_, std::move(control));
+        if (shorter_)
+            if (const auto trouble = run.trouble_with_length(*shorter_))
+                throw WrongCall(
+                    fmt::format("The run of the checkpoint '{}' cannot be continued to another "
+                                "length: {}.",
+                                files_.checkpoint.string(), *trouble));
         while (run.next_event()) {
             record(run);
             if (is_due() && !run.complete()) keep(run);
         }
-        if (!run.complete()) keep(run);
+        if (!run.complete() || files_.keep_checkpoint) keep(run);
         const RunResult result = run.result();
         if (!result.complete) {
             if (trajectory_) trajectory_->flush();
@@ -134,7 +149,14 @@ class Recorder {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
         const Json about = about_in(files_.checkpoint, kept),
                    here = identity(config_, files_, observation_);
-        if (about.at("identity") != here)
+        if (differs_in_length_alone(about.at("identity"), here)) {
+            if (!files_.trajectory.empty() || !files_.event_log.empty())
+                throw WrongCall(fmt::format(
+                    "The checkpoint '{}' is of a run of another length, and a recording knows how "
+                    "long its run is; begin anew with --overwrite, or resume without a recording.",
+                    files_.checkpoint.string()));
+            shorter_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
+        } else if (about.at("identity") != here)
             throw WrongCall(fmt::format(
                 "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
                 "or choose another checkpoint with --checkpoint.",
@@ -207,6 +229,7 @@ class Recorder {
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;
+    std::optional<RunConfig> shorter_;  // the run that was resumed, if it was to end sooner
     SampleTimes frame_times_;
     std::uint64_t events_ = 0;  // since the beginning of the run
     bool given_up_ = false;

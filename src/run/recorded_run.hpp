@@ -34,6 +34,8 @@ struct RunFiles {
     bool checkpoint_needed = true;
     std::function<void(const std::string&)> complain;
     bool resume = false;  // from the checkpoint, if it is there
+    /// The state at the end is kept too, for who wants more of the run.
+    bool keep_checkpoint = false;
     /// Begin anew over the unfinished recording of another run; a checkpoint that is there is kept
     /// as NAME.backup.
     bool overwrite = false;

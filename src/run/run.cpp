@@ -141,6 +141,26 @@ bool Run::complete() const {
     if (config_.periods) return simulation_.swirls() >= *config_.periods;
     return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
 }
+std::optional<std::string> Run::trouble_with_length(const RunConfig& shorter) const {
+    const std::uint64_t events = simulation_.events().total();
+    const bool is_past = config_.periods ? simulation_.swirls() > *config_.periods
+                                         : events > static_cast<std::uint64_t>(config_.events);
+    if (is_past)
+        return fmt::format(
+            "it has made {:.1f} swirls and {} events, which is more than is asked for", periods(),
+            events);
+    // The end of the warm-up may have followed from the length.
+    if (!warm_ || config_.warmup) return {};
+    const double share = shorter.periods
+                             ? double(result_.warmup) / double(*shorter.periods)
+                             : double(result_.warmup_events.total()) / double(shorter.events);
+    if (config_.warmup_found ? share < 0.5 : result_.warmup >= default_warmup) return {};
+    return fmt::format(
+        "it was so short that only {} swirls were left out as warm-up, and a longer run leaves out "
+        "more; begin anew, or give --warmup in both calls",
+        result_.warmup);
+}
+
 double Run::seconds() const {
     return seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
 }

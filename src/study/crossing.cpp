@@ -301,6 +301,15 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
     return Search(settings, control)();
 }
 
+std::vector<std::string> crossing_columns() {
+    return {"verdict", "N_c", "N_c_error", "N_c_lower", "N_c_upper"};
+}
+
+void add_crossing(std::vector<Table::Cell>& row, const Crossing& c) {
+    row.emplace_back(std::string(word(c.verdict)));
+    for (const double value : {c.discs, c.error, c.lower, c.upper}) row.emplace_back(value);
+}
+
 std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
                           const std::string& command) {
     return search_json(settings, search, command).dump(2) + "\n";

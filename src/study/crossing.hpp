@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "swirl/files/table.hpp"
 #include "swirl/measure/crossing.hpp"
 #include "swirl/run/run.hpp"
 
@@ -62,6 +63,10 @@ CrossingSearch search_crossing(const CrossingSettings& settings,
 
 /// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
+/// Of a table of crossings: verdict, N_c, N_c_error, N_c_lower, N_c_upper (95 %).
+std::vector<std::string> crossing_columns();
+void add_crossing(std::vector<Table::Cell>& row, const Crossing& crossing);
+
 /// All that was found, and the command that asked for it.
 std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
                           const std::string& command);

@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "swirl/files/checksum.hpp"
@@ -25,6 +26,7 @@
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/study/all_cores.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -36,8 +38,55 @@ constexpr int result_format = 1;
 constexpr std::size_t most_points = 10'000'000;
 
 std::string number_of(std::size_t point) { return fmt::format("{:06}", point); }
-fs::path result_file(const fs::path& folder, std::size_t point) {
-    return folder / "results" / (number_of(point) + ".json");
+/// Of the plan as it is now: what was measured less is another run.
+fs::path part_of(const fs::path& folder, const char* part, const SweepPlan& plan) {
+    return folder / (plan.generation > 1 ? fmt::format("{}-{}", part, plan.generation) : part);
+}
+fs::path result_file(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    return part_of(folder, "results", plan) / (number_of(point) + ".json");
+}
+
+/// Calls visit(place) for the places in the whole plan of those points that a stage adds to the one
+/// before it, in order.
+template <class Visit>
+void each_new_place(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
+                    const Visit& visit) {
+    std::vector<std::size_t> at(stage.values.size(), 0);
+    for (;;) {
+        std::size_t place = 0;
+        bool was_there = before != nullptr;
+        for (std::size_t a = 0; a < at.size(); ++a) {
+            place = place * plan.axes[a].values.size() + at[a];
+            was_there = was_there && at[a] < before->values[a];
+        }
+        const auto replicas = static_cast<std::size_t>(plan.replicas);
+        for (std::size_t r = was_there ? std::size_t(before->replicas) : 0;
+             r < std::size_t(stage.replicas); ++r)
+            visit(place * replicas + r);
+        std::size_t a = at.size();
+        while (a > 0 && ++at[a - 1] == stage.values[a - 1]) at[--a] = 0;
+        if (a == 0) return;
+    }
+}
+
+SweepStage size_of(const SweepPlan& plan) {
+    SweepStage stage{{}, plan.replicas};
+    for (const SweepAxis& axis : plan.axes) stage.values.push_back(axis.values.size());
+    return stage;
+}
+
+std::vector<std::size_t> places_in(const SweepPlan& plan) {
+    std::vector<std::size_t> places;
+    if (plan.before.empty()) return places;
+    const SweepStage now = size_of(plan);
+    const SweepStage* before = nullptr;
+    const auto add = [&](const SweepStage& stage) {
+        each_new_place(plan, stage, before, [&](std::size_t place) { places.push_back(place); });
+        before = &stage;
+    };
+    for (const SweepStage& stage : plan.before) add(stage);
+    add(now);
+    return places;
 }
 
 /// The numbers of the files NUMBER.ending in a folder; one look at the folder, whatever its size.
@@ -136,6 +185,9 @@ Json plan_json(const SweepPlan& plan) {
     Json json{{"format", result_format}, {"axes", axes}, {"replicas", plan.replicas}};
     if (!plan.measure.empty()) json["measure"] = plan.measure;
     if (plan.frames > 0) json["frames"] = plan.frames;
+    if (plan.generation > 1) json["generation"] = plan.generation;
+    for (const SweepStage& stage : plan.before)
+        json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
     return json;
 }
 
@@ -186,11 +238,12 @@ class SweepWork {
           share_(share),
           control_(control),
           claims_(std::make_shared<Claims>(folder)),
-          writer_(folder / "results") {}
+          writer_(part_of(folder, "results", plan)) {}
 
     SweepOutcome operator()() {
         std::vector<std::size_t> mine, others;
-        const std::vector<bool> done = present(folder_ / "results", ".json", plan_.points());
+        const std::vector<bool> done =
+            present(part_of(folder_, "results", plan_), ".json", plan_.points());
         for (std::size_t point = 0; point < plan_.points(); ++point)
             if (!done[point])
                 (point % share_.parts == share_.part - 1 ? mine : others).push_back(point);
@@ -217,7 +270,7 @@ class SweepWork {
             return;
         }
         // Done by somebody else in the meantime?
-        if (::access(result_file(folder_, point).c_str(), F_OK) == 0) return count(0, 0);
+        if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) return count(0, 0);
         std::string failure;
         try {
             if (!do_point(point, claim)) return;
@@ -243,7 +296,8 @@ class SweepWork {
     bool do_point(std::size_t point, const std::shared_ptr<Claim>& claim) {
         const RunConfig config = plan_.config(point);
         RunFiles files;
-        files.checkpoint = folder_ / "checkpoints" / (number_of(point) + ".checkpoint");
+        files.checkpoint =
+            part_of(folder_, "checkpoints", plan_) / (number_of(point) + ".checkpoint");
         files.resume = true;
         files.overwrite = true;  // all that lies in there is of this very point
         if (plan_.frames > 0)
@@ -343,7 +397,7 @@ void refuse_result_of_another_point(const fs::path& file, const Json& json, cons
 }
 
 PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
-    const fs::path file = result_file(folder, point);
+    const fs::path file = result_file(folder, plan, point);
     const Json json = Json::parse(read_regular_file(file), needed, false);
     if (json.is_discarded() || !json.is_object())
         throw FileError(
@@ -410,6 +464,46 @@ void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
     }
 }
 
+/// What a stage counts must be there in the next.
+void refuse_shrinking(const fs::path& file, const SweepPlan& plan) {
+    std::vector<SweepStage> stages = plan.before;
+    stages.push_back(size_of(plan));
+    for (std::size_t k = 0; k + 1 < stages.size(); ++k) {
+        const SweepStage &stage = stages[k], &next = stages[k + 1];
+        bool good = stage.values.size() == plan.axes.size() && stage.replicas >= 1 &&
+                    stage.replicas <= next.replicas;
+        for (std::size_t a = 0; good && a < stage.values.size(); ++a)
+            good =
+                stage.values[a] >= 1 && a < next.values.size() && stage.values[a] <= next.values[a];
+        if (!good)
+            throw FileError(
+                fmt::format("'{}' is damaged: what it was before it grew is no part of what it is.",
+                            file.string()));
+    }
+}
+
+/// The places in the order of a table: that of the values as they were given, and where a plan has
+/// grown and an axis is of numbers, theirs.
+std::vector<std::size_t> rows_of(const SweepPlan& plan) {
+    std::vector<std::size_t> rows{0};
+    for (const SweepAxis& axis : plan.axes) {
+        std::vector<std::size_t> order(axis.values.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<double> numbers;
+        for (const std::string& value : axis.values)
+            if (const auto number = read_number(value)) numbers.push_back(*number);
+        if (!plan.before.empty() && numbers.size() == order.size())
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+        std::vector<std::size_t> longer;
+        longer.reserve(rows.size() * order.size());
+        for (const std::size_t row : rows)
+            for (const std::size_t k : order) longer.push_back(row * order.size() + k);
+        rows = std::move(longer);
+    }
+    return rows;
+}
+
 Table::Cell cell_of(const std::string& text) {
     if (const auto whole = read_whole_number(text)) return *whole;
     if (const auto number = read_number(text)) return *number;
@@ -433,12 +527,12 @@ std::size_t SweepPlan::points() const {
 }
 
 std::int64_t SweepPlan::replica(std::size_t point) const {
-    return static_cast<std::int64_t>(point % static_cast<std::size_t>(replicas));
+    return static_cast<std::int64_t>(place(point) % static_cast<std::size_t>(replicas));
 }
 
 ParameterTexts SweepPlan::parameters(std::size_t point) const {
     ParameterTexts texts;
-    std::size_t rest = point / static_cast<std::size_t>(replicas);
+    std::size_t rest = place(point) / static_cast<std::size_t>(replicas);
     for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
         texts[axis->name] = axis->values[rest % axis->values.size()];
         rest /= axis->values.size();
@@ -491,6 +585,43 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     return plan;
 }
 
+SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
+                const std::vector<std::string>& measure) {
+    SweepPlan larger = plan;
+    for (const auto& [given, text] : more) {
+        const std::string name = plain_name(given);
+        const auto axis = std::find_if(larger.axes.begin(), larger.axes.end(),
+                                       [&](const SweepAxis& a) { return a.name == name; });
+        if (axis == larger.axes.end()) {
+            resolve({{name, list_of_values(name, text).front()}});  // if it is none at all
+            throw WrongCall(
+                fmt::format("{} is no parameter of this sweep, whose points have its default; "
+                            "another folder is "
+                            "right for a sweep over it.",
+                            option_name(name)));
+        }
+        for (const std::string& value : list_of_values(name, text))
+            if (std::find(axis->values.begin(), axis->values.end(), value) == axis->values.end())
+                axis->values.push_back(value);
+    }
+    if (replicas > 0 && replicas < plan.replicas)
+        throw WrongCall(
+            fmt::format("--seeds is {}, but the sweep has {} already; it can only grow.", replicas,
+                        plan.replicas));
+    larger.replicas = std::max(replicas, plan.replicas);
+    for (const std::string& name : measure)
+        if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
+            larger.measure.push_back(name);
+    if (larger.measure != plan.measure) ++larger.generation;
+    if (const double count = product(larger); count > double(most_points))
+        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
+                                    count, most_points));
+    for (const SweepAxis& axis : larger.axes) refuse_useless(larger, axis);
+    if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
+    larger.places = places_in(larger);
+    return larger;
+}
+
 SweepPlan read_plan(const fs::path& folder) {
     const fs::path file = folder / "plan.json";
     std::error_code ignored;
@@ -508,6 +639,10 @@ SweepPlan read_plan(const fs::path& folder) {
         plan.replicas = json.at("replicas").get<std::int64_t>();
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
+        plan.generation = json.value("generation", 1);
+        for (const Json& stage : json.value("before", Json::array()))
+            plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
+                                   stage.at("replicas").get<std::int64_t>()});
     } catch (const nlohmann::json::exception&) {
         throw FileError(fmt::format("'{}' is damaged: it is no plan of a sweep.", file.string()));
     }
@@ -520,32 +655,37 @@ SweepPlan read_plan(const fs::path& folder) {
             fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, most_points));
+    refuse_shrinking(file, plan);
+    plan.places = places_in(plan);
     return plan;
 }
 
-void write_plan(const fs::path& folder, const SweepPlan& plan) {
+void write_plan(const fs::path& folder, const SweepPlan& plan, bool grows) {
     std::error_code error;
-    std::vector<const char*> parts{"results", "failures", "checkpoints"};
-    if (plan.frames > 0) parts.push_back("trajectories");
-    for (const char* part : parts)
-        if (fs::create_directories(folder / part, error); error)
-            throw Failure(fmt::format("The folder '{}' cannot be made: {}.",
-                                      (folder / part).string(), error.message()));
-    if (!fs::exists(folder / "plan.json")) {
+    std::vector<fs::path> parts{part_of(folder, "results", plan), folder / "failures",
+                                part_of(folder, "checkpoints", plan)};
+    if (plan.frames > 0) parts.push_back(folder / "trajectories");
+    for (const fs::path& part : parts)
+        if (fs::create_directories(part, error); error)
+            throw Failure(
+                fmt::format("The folder '{}' cannot be made: {}.", part.string(), error.message()));
+    if (grows || !fs::exists(folder / "plan.json")) {
         write_whole_file(folder / "plan.json", plan_json(plan).dump(1) + "\n");
         return;
     }
     if (read_plan(folder) != plan)
-        throw Failure(fmt::format(
-            "'{}' holds another sweep (its plan.json says which); choose another folder, or go on "
-            "with that one by giving nothing but --out.",
-            folder.string()));
+        throw Failure(
+            fmt::format("'{}' holds another sweep (its plan.json says which); choose another "
+                        "folder, go on with "
+                        "that one by giving nothing but --out, or add to it with --grow.",
+                        folder.string()));
 }
 
 SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     SweepStatus status;
     status.points = plan.points();
-    const std::vector<bool> done = present(folder / "results", ".json", status.points);
+    const std::vector<bool> done =
+        present(part_of(folder, "results", plan), ".json", status.points);
     const std::vector<bool> failed = present(folder / "failures", ".txt", status.points);
     const std::vector<bool> claimed = Claims::taken(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
@@ -561,18 +701,23 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
 
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
-    for (const char* part : {"results", "failures", "checkpoints"}) remove_leftovers(folder / part);
+    for (const fs::path& part : {part_of(folder, "results", plan), folder / "failures",
+                                 part_of(folder, "checkpoints", plan)})
+        remove_leftovers(part);
     return SweepWork(folder, plan, share, control)();
 }
 
 CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
-    const std::vector<bool> done = present(folder / "results", ".json", plan.points());
+    const std::vector<bool> done =
+        present(part_of(folder, "results", plan), ".json", plan.points());
     std::vector<PointResult> results(plan.points());
     constexpr std::size_t batch = 256;
     on_all_cores((results.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
-            if (done[p]) results[p] = read_result(folder, plan, p);
+            if (done[p]) results[plan.place(p)] = read_result(folder, plan, p);
     });
+    std::vector<std::size_t> points(plan.places.empty() ? 0 : results.size());
+    for (std::size_t p = 0; p < points.size(); ++p) points[plan.places[p]] = p;
 
     std::vector<std::string> columns, quantities(std::begin(estimators), std::end(estimators));
     std::vector<bool> is_direction;
@@ -591,19 +736,20 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         columns.push_back(name + "_error");
     }
     columns.push_back("state_hash");
-    CollectedSweep collected{Table(columns)};
+    CollectedSweep collected{.table = Table(columns)};
     for (const PointResult& result : results)
         if (result.there && !result.has_whole_swirl) ++collected.without_swirl;
 
     const auto replicas = static_cast<std::size_t>(plan.replicas);
-    for (std::size_t first = 0; first < results.size(); first += replicas) {
+    for (const std::size_t of : rows_of(plan)) {
+        const std::size_t first = of * replicas;
         std::vector<const PointResult*> there;
         for (std::size_t r = 0; r < replicas; ++r)
             if (results[first + r].there) there.push_back(&results[first + r]);
         const auto n = static_cast<double>(there.size());
         if (there.empty()) continue;
         std::vector<Table::Cell> row;
-        const ParameterTexts texts = plan.parameters(first);
+        const ParameterTexts texts = plan.parameters(points.empty() ? first : points[first]);
         for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
         double periods = 0.0, energy = 0.0;
         std::string hashes;
@@ -627,14 +773,47 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
             row.emplace_back(together.estimate.mean);
             row.emplace_back(together.estimate.error);
             if (quantities[k] != "by_time") continue;
+            collected.rows.push_back({texts, together.estimate});
             row[place_of_scatter] = together.scatter;
             collected.disagreeing += together.disagree ? 1 : 0;
         }
         row.emplace_back(there.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes)));
         collected.table.add(std::move(row));
-        ++collected.rows;
     }
     return collected;
+}
+
+Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
+    std::vector<std::string> others;
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.name != "discs") others.push_back(axis.name);
+    if (others.size() == plan.axes.size())
+        throw WrongCall(
+            "The rotation is to change its sign with the number of discs, but --discs is no "
+            "parameter of this sweep.");
+    std::vector<ParameterTexts> groups;  // in the order of the rows
+    std::map<ParameterTexts, std::vector<RotationPoint>> curves;
+    for (const CollectedRow& row : collected.rows) {
+        ParameterTexts group = row.parameters;
+        group.erase("discs");
+        auto& curve = curves[group];
+        if (curve.empty()) groups.push_back(group);
+        curve.push_back({read_number(row.parameters.at("discs")).value_or(not_known),
+                         row.by_time.mean, row.by_time.error});
+    }
+    std::vector<std::string> columns = others;
+    for (const std::string& name : crossing_columns()) columns.push_back(name);
+    columns.emplace_back("points");
+    Table table(columns);
+    for (const ParameterTexts& group : groups) {
+        std::vector<Table::Cell> row;
+        for (const std::string& name : others) row.push_back(cell_of(group.at(name)));
+        const auto& curve = curves.at(group);
+        add_crossing(row, find_crossing(curve));
+        row.emplace_back(std::int64_t(curve.size()));
+        table.add(std::move(row));
+    }
+    return table;
 }
 
 }  // namespace swirl

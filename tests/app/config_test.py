@@ -64,10 +64,10 @@ class ConfigFiles(InFolder):
         self.assertEqual(len(os.listdir(self.path("b"))), 5)
 
     def test_a_crossing(self):
-        file = self.config("mu = 1", "events = 20000", "from = 30", "to = 44", "tolerance = 3",
+        file = self.config("mu = 1", "events = 20000", "from = 5", "to = 8", "tolerance = 3",
                            "seed = 7", f'json = "{self.path("file.json")}"')
         self.good("crossing", file, "--quiet")
-        self.good("crossing", "--mu", 1, "--events", 20000, "--from", 30, "--to", 44, "--tolerance", 3,
+        self.good("crossing", "--mu", 1, "--events", 20000, "--from", 5, "--to", 8, "--tolerance", 3,
                   "--seed", 7, "--json", self.path("hand.json"), "--quiet")
         found = []
         for name in ("file.json", "hand.json"):

@@ -152,6 +152,34 @@ f['particles/trajectory/velocity/value'][1000, 3, 1] *= 1 + 2**-52
         self.assertIn("is damaged", done.stderr)
 
 
+class More(InFolder):
+    def test_a_finished_run_takes_more_events(self):
+        run = ["run", "--discs", 12, "--seed", 5, "--measure", "slip"]
+        first = swirl(*run, "--events", "1.2e5", "--json", self.path("r.json"), "--keep-checkpoint")
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertIn("--resume with more --events", first.stderr)
+        # The checkpoint knows the rest of the call.
+        more = swirl("run", "--checkpoint", self.path("r.json.checkpoint"), "--resume", "--events",
+                     "1.6e5", "--quiet")
+        self.assertEqual(more.returncode, 0, more.stderr)
+        self.assertEqual(swirl(*run, "--events", "1.6e5", "--json", self.path("whole.json"),
+                               "--quiet").returncode, 0)
+        self.assertEqual(without_time(self.path("r.json")), without_time(self.path("whole.json")))
+        self.assertEqual(self.left_behind(), ["r.json", "whole.json"])
+        # Without the state there is nothing to go on from, and nothing is overwritten.
+        again = swirl(*run, "--events", "2e5", "--json", self.path("r.json"), "--resume")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("is there already", again.stderr)
+
+    def test_a_recording_knows_how_long_its_run_is(self):
+        run = ["run", "--discs", 12, "--json", self.path("r.json"), "--trajectory", self.path("t.h5"),
+               "--quiet"]
+        self.assertEqual(swirl(*run, "--events", "1.2e5", "--keep-checkpoint").returncode, 0)
+        more = swirl(*run, "--events", "1.6e5", "--resume")
+        self.assertEqual(more.returncode, 2)
+        self.assertIn("knows how long its run is", more.stderr)
+
+
 class Clock(InFolder):
     """The time of day may jump, as it does when a clock is set: nothing here may go by it."""
 

@@ -176,6 +176,102 @@ class Sweep(InFolder):
             self.assertEqual(many[header.index(name)], "")
         self.assertNotEqual(many[header.index("energy")], "")
 
+    def test_a_sweep_grows_and_keeps_what_is_done(self):
+        table = self.whole()
+        small = ["sweep", "--discs", "5,7:9", "--mu", "1", "--seeds", "1", "--events", "20000",
+                 "--quiet", "--out", self.path("a")]
+        self.assertEqual(swirl(*small).returncode, 0)
+        refused = swirl("sweep", "--discs", "5:12", "--out", self.path("a"))
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("--grow", refused.stderr)
+
+        def results():
+            folder = self.path("a/results")
+            return {name: os.stat(os.path.join(folder, name)).st_mtime_ns
+                    for name in os.listdir(folder)}
+
+        def grow(*more):
+            before = results()
+            done = swirl("sweep", "--out", self.path("a"), "--grow", *more, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            after = results()
+            # Nothing that was done is touched.
+            self.assertEqual({name: after[name] for name in before}, before)
+            return len(after) - len(before)
+
+        self.assertEqual(grow("--discs", "6"), 1)
+        self.assertEqual(grow("--discs", "6"), 0)
+        self.assertEqual(grow("--mu", "0.5", "--seeds", 2), 15)
+        self.assertEqual(grow("--discs", "10:12", "--seeds", 3), 28)
+        # The same table, byte for byte, as if it had been asked for at once.
+        self.assertEqual(self.table(self.path("a")), table)
+        # A call without anything but the folder goes on with the grown one.
+        os.remove(self.path("a/results/000040.json"))
+        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
+        self.assertEqual(self.table(self.path("a")), table)
+        for wrong, says in ((["--restitution", "0.9"], "no parameter of this sweep"),
+                            (["--seeds", 1], "can only grow"), (["--frames", 3], "--frames"),
+                            (["--discs", "5.0"], "the same run"), (["--sieze", "3"], "--sieze")):
+            done = swirl("sweep", "--out", self.path("a"), "--grow", *wrong)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(says, done.stderr)
+        self.assertEqual(self.table(self.path("a")), table)
+
+    def test_further_measurements_are_made_in_runs_of_the_same_bits(self):
+        plan = ["sweep", "--discs", "8,20", "--events", "20000", "--quiet", "--out", self.path("a")]
+        self.assertEqual(swirl(*plan, "--measure", "slip").returncode, 0)
+        before = [line.split(",") for line in self.table(self.path("a")).splitlines()]
+        done = swirl("sweep", "--out", self.path("a"), "--grow", "--measure", "radial,temperature",
+                     "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        after = [line.split(",") for line in self.table(self.path("a")).splitlines()]
+        self.assertIn("temperature.granular", after[0])
+        for old, new in zip(before, after, strict=True):
+            for name, value in zip(before[0], old):
+                self.assertEqual(new[after[0].index(name)], value)
+        self.assertEqual(sorted(os.listdir(self.path("a/results"))), ["000000.json", "000001.json"])
+        # And on to more discs, with all of it.
+        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 12,
+                               "--quiet").returncode, 0)
+        grown = self.table(self.path("a")).splitlines()
+        self.assertEqual([grown[1], grown[3]], [",".join(row) for row in after[1:]])
+
+    def test_a_plan_that_shrank_is_damaged(self):
+        self.assertEqual(swirl("sweep", "--discs", "5", "--events", 3000, "--out", self.path("a"),
+                               "--quiet").returncode, 0)
+        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 6,
+                               "--quiet").returncode, 0)
+        with open(self.path("a/plan.json")) as opened:
+            plan = json.load(opened)
+        for before in ([{"values": [3, 1], "replicas": 1}], [{"values": [1, 1], "replicas": 2}],
+                       [{"values": [1], "replicas": 1}], [{"values": [0, 1], "replicas": 1}]):
+            with open(self.path("a/plan.json"), "w") as opened:
+                json.dump({**plan, "before": before}, opened)
+            done = swirl("collect", self.path("a"))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("before it grew", done.stderr)
+
+    def test_crossings_of_a_collected_sweep(self):
+        # Long runs cross between 37 and 39 at mu = 1, and nowhere without friction at the wall.
+        done = swirl("sweep", "--discs", "30:2:46", "--mu-wall", "0,1", "--mu-disc", 1, "--events",
+                     "1e5", "--seeds", 2, "--out", self.path("a"), "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = swirl("collect", self.path("a"), "--crossings", self.path("N_c.csv"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("N_c.csv")) as opened:
+            header, smooth, rough = [line.rstrip("\n").split(",") for line in opened]
+        self.assertEqual(header[:3], ["mu_disc", "mu_wall", "events"])
+        self.assertEqual(smooth[header.index("verdict")], "always rotates")
+        self.assertEqual(smooth[header.index("N_c")], "")
+        self.assertEqual(rough[header.index("verdict")], "crosses")
+        self.assertAlmostEqual(float(rough[header.index("N_c")]), 38.0, delta=2.0)
+        self.assertEqual(rough[header.index("points")], "9")
+        self.assertEqual(swirl("sweep", "--mu", "0.5,1", "--events", 3000, "--discs", 5, "--out",
+                               self.path("b"), "--quiet").returncode, 0)
+        os.remove(self.path("N_c.csv"))
+        self.assertEqual(swirl("collect", self.path("b"), "--crossings", "-", "--csv", "-").returncode,
+                         2)
+
     def test_another_plan_in_the_same_folder_is_refused(self):
         self.whole()
         done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))

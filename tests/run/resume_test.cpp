@@ -139,6 +139,70 @@ TEST(Resume, KeepingTheStateChangesNothing) {
     EXPECT_EQ(result_without_time(kept.result()), result_without_time(run(config)));
 }
 
+RunResult recorded(const RunConfig& config, const RunFiles& files) {
+    Observation observation = observation_of(config, {"slip"});
+    RunControl control;
+    control.observation = &observation;
+    return run_recorded(config, files, control, {});
+}
+
+std::string trouble_with(const RunConfig& config, const RunFiles& files) {
+    try {
+        recorded(config, files);
+    } catch (const WrongCall& wrong) {
+        return wrong.what();
+    }
+    return "";
+}
+
+// A finished run takes more events, and is then what it would have been.
+TEST(Resume, AFinishedRunGoesOnToMoreEventsBitForBit) {
+    const Scratch scratch;
+    RunFiles files;
+    files.checkpoint = scratch / "c";
+    files.resume = files.keep_checkpoint = true;
+    RunConfig config;
+    config.discs = 10;
+    for (const auto& [first, more] : {std::pair(100'000, 130'000), std::pair(130'000, 130'001)}) {
+        config.events = first;
+        const RunResult before = recorded(config, files);
+        ASSERT_EQ(before.warmup, default_warmup);
+        config.events = more;
+        const RunResult grown = recorded(config, files);
+        EXPECT_EQ(grown.events.total(), std::uint64_t(more));
+        EXPECT_EQ(result_without_time(grown), result_without_time(run(config)));
+    }
+    // Back to swirls: so many, as a run of them has.
+    config.periods = std::int64_t(run(config).periods) + 30;
+    EXPECT_EQ(result_without_time(recorded(config, files)), result_without_time(run(config)));
+    config.periods = 30;
+    EXPECT_NE(trouble_with(config, files).find("more than is asked for"), std::string::npos);
+    config.discs = 11;
+    EXPECT_NE(trouble_with(config, files).find("discs is 10 there and 11 here"), std::string::npos);
+}
+
+TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
+    const Scratch scratch;
+    RunFiles files;
+    files.checkpoint = scratch / "c";
+    files.resume = files.keep_checkpoint = true;
+    RunConfig config;
+    config.discs = 10;
+    config.periods = 20;
+    ASSERT_EQ(recorded(config, files).warmup, 4);
+    config.periods = 40;
+    EXPECT_NE(trouble_with(config, files).find("only 4 swirls"), std::string::npos);
+    std::filesystem::remove(files.checkpoint);
+    config.warmup = 4;
+    config.periods = 20;
+    recorded(config, files);
+    config.periods = 40;
+    EXPECT_EQ(result_without_time(recorded(config, files)), result_without_time(run(config)));
+    files.trajectory = scratch / "t.h5";
+    config.periods = 41;
+    EXPECT_NE(trouble_with(config, files), "");
+}
+
 TEST(Resume, RefusesTheStateOfAnotherRun) {
     const RunConfig config = short_run();
     swirl::Run begun(config);

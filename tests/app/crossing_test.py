@@ -1,0 +1,58 @@
+"""swirl crossing over lists: a search for each combination, a table of them."""
+
+import csv
+import io
+import json
+import unittest
+
+from program import InFolder, swirl
+
+SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
+FEW = ["--from", 5, "--to", 7]
+AROUND = ["--from", 37, "--to", 39]  # where it crosses, so that there is a number to compare
+
+
+class Crossing(InFolder):
+    def good(self, *arguments):
+        done = swirl("crossing", *arguments, *SHORT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_a_list_is_a_search_for_each_value(self):
+        said = self.good(*AROUND, "--mu", "0.9,1", "--seed", 4, "--csv", self.path("N_c.csv"), "--json",
+                         self.path("all.json"))
+        self.assertIn("mu 0.9: ", said)
+        with open(self.path("N_c.csv"), encoding="utf-8") as opened:
+            rows = list(csv.DictReader(opened))
+        self.assertEqual([row["mu"] for row in rows], ["0.9", "1"])
+        with open(self.path("all.json"), encoding="utf-8") as opened:
+            together = json.load(opened)
+        for row, found, mu in zip(rows, together, ("0.9", "1"), strict=True):
+            alone = json.loads(self.good(*AROUND, "--mu", mu, "--seed", 4, "--json", "-"))
+            self.assertEqual(row["verdict"], alone["verdict"])
+            for name in ("N_c", "N_c_error", "N_c_lower", "N_c_upper"):
+                self.assertEqual(row[name], "" if alone[name] is None else repr(alone[name]))
+                self.assertEqual(found[name], alone[name])
+            self.assertEqual(int(row["runs"]), alone["runs"])
+            self.assertEqual(int(row["events_in_all"]), alone["events"])
+
+    def test_lists_combine_and_a_file_may_hold_them(self):
+        with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
+            opened.write("mu_disc = [0.9, 1]\nmu_wall = \"0:1\"\n")
+        table = list(csv.DictReader(io.StringIO(self.good(self.path("a.toml"), *FEW, "--csv", "-"))))
+        self.assertEqual([(row["mu_disc"], row["mu_wall"]) for row in table],
+                         [("0.9", "0"), ("0.9", "1"), ("1", "0"), ("1", "1")])
+        # So few discs rotate, whatever the friction.
+        self.assertEqual([row["verdict"] for row in table], ["always rotates"] * 4)
+        self.assertEqual([row["N_c"] for row in table], [""] * 4)
+
+    def test_what_cannot_be(self):
+        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"),
+                            (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
+            done = swirl("crossing", *wrong, *SHORT)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(says, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
