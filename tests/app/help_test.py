@@ -1,9 +1,10 @@
 """Every --help explains itself: a description, and examples that are real calls."""
 
+import os
 import re
 import unittest
 
-from program import swirl
+from program import SOURCE, result_of, swirl
 
 
 def subcommands():
@@ -54,6 +55,63 @@ class Help(unittest.TestCase):
                 described = re.search(r"\S\s{2,}\S", line) or re.match(r"\s{20,}\S", following) \
                     or len(line) > 60
                 self.assertTrue(described, f"{name}: {line}")
+
+    def test_messages_name_only_options_that_exist(self):
+        known = {name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
+                 for name in subcommands()}
+        everywhere = set().union(*known.values()) | {"--version", "--help"}
+        root = os.path.join(SOURCE, "src")
+        seen = 0
+        for folder, _, files in os.walk(root):
+            for file in files:
+                if file == "slurm.cpp":  # speaks to sbatch
+                    continue
+                with open(os.path.join(folder, file), encoding="utf-8") as opened:
+                    text = re.sub(r"//[^\n]*", "", opened.read())
+                # Adjacent literals are one sentence.
+                for literal in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', text):
+                    sentence = re.sub(r'"\s*"', "", literal)
+                    command = re.search(r"command_(\w+)\.cpp", file)
+                    named = re.findall(r"swirl (" + "|".join(known) + r")\b", sentence)
+                    if named:
+                        allowed = set().union(*(known[name] for name in named))
+                        if command:
+                            allowed |= known.get(command.group(1), set())
+                    elif command and command.group(1) in known and command.group(1) != "sweep":
+                        allowed = known[command.group(1)] | {"--help"}
+                    else:  # command_sweep.cpp has `swirl collect`, too
+                        allowed = everywhere
+                    for option in re.findall(r"(?<![\w-])(--[a-z][a-z0-9-]+)", sentence):
+                        seen += 1
+                        self.assertIn(option, allowed, f"{file}: {sentence}")
+        self.assertGreater(seen, 100)
+
+    def test_no_two_words_of_a_message_are_glued(self):
+        for folder, _, files in os.walk(os.path.join(SOURCE, "src")):
+            for file in files:
+                with open(os.path.join(folder, file), encoding="utf-8") as opened:
+                    text = opened.read()
+                for glued in re.finditer(r'\w"\s*\n\s*"[A-Za-z]', text):
+                    before = text[text.rindex("\n", 0, glued.start()):glued.start() + 1]
+                    # A list in a header of a table, and a line that ends, are no sentence.
+                    if not before.endswith("\\n"):
+                        self.fail(f"{file}: {before.strip()}")
+
+    def test_a_parameter_has_one_name_in_tables_and_results(self):
+        options = {option[2:] for option in
+                   re.findall(r"(--[a-z][a-z0-9-]+)", swirl("run", "--help").stdout)}
+
+        def keys(value, path=""):
+            if isinstance(value, dict):
+                for key, inner in value.items():
+                    yield key, path
+                    yield from keys(inner, path + "/" + key)
+        result = result_of("--discs", 8, "--events", "2e4", "--measure", "all")
+        for key, path in keys(result):
+            self.assertNotIn("-", key, path)
+        for key in result["config"]:
+            if key != "omega":  # follows from the period; cannot be given
+                self.assertIn(key.replace("_", "-"), options)
 
     def test_version_is_one_line(self):
         done = swirl("--version")
