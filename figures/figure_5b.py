@@ -17,17 +17,20 @@ CURVES = [
 def main():
     table = style.table_from_arguments("figure_5b")
     rows = style.read(table)
-    drawing, axes = style.figure(height=2.75)
+    drawing, axes = style.figure(height=3.1)
     style.zero_line(axes)
     for name, label, color, marker in CURVES:
         style.curve(axes, style.select(rows, setting=name), "discs", "by_event", label=label,
                     color=color, marker=marker)
-    style.rotation_axes(axes)
-    axes.set_xlim(3.5, 49.5)
-    axes.set_ylim(-0.15, 1.09)
-    axes.text(5, -0.1, "counterrotation", color=style.GREY, fontsize=7)
-    axes.text(5, 0.025, "rotation", color=style.GREY, fontsize=7)
-    axes.legend(loc="upper left", bbox_to_anchor=(0.22, 0.92))
+    style.rotation_axes(axes, "by event")
+    axes.axvspan(48.5, max(row["discs"] for row in rows) + 1.5, color="0.93", zorder=-1,
+                 linewidth=0)
+    axes.set_xlim(3.5, max(row["discs"] for row in rows) + 1.5)
+    axes.set_ylim(bottom=-0.16)
+    axes.text(5, -0.12, "counterrotation", color=style.GREY, fontsize=7)
+    style.legend(axes, fontsize=6.5)
+    style.note(drawing, "grey: denser than in the paper"
+               + ("; in a ring: not shown to be steady" if style.not_steady(rows) else ""))
     style.save(drawing, table)
 
 

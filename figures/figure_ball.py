@@ -1,4 +1,5 @@
-"""The minimal model: a rigid ball in a swirled container, its rotation against the slip parameter.
+"""The minimal model, simulated: how fast one large disc turns in a swirled container, against the
+friction with the wall, for three radii; bouncing without loss, and staying at the wall.
 
     /usr/bin/python3 figures/figure_ball.py out/figure_ball.csv
 """
@@ -9,22 +10,27 @@ import style
 def main():
     table = style.table_from_arguments("figure_ball")
     rows = style.read(table)
-    drawing, axes = style.figure()
-    axes.axhline(1, color=style.GREY, linewidth=0.6, zorder=0)
+    drawing, axes = style.figure(height=3.0)
+    steps = sorted({row["mu"] for row in rows})
     kinds = ((style.BLUE, "o"), (style.GREEN, "s"), (style.RED, "^"))
     for (color, marker), radius in zip(kinds, sorted({row["ball_radius"] for row in rows})):
-        curve = style.select(rows, ball_radius=radius)
-        share = radius / curve[0]["container_radius"]
-        axes.plot(style.column(curve, "slip"), style.column(curve, "gamma"), color=color,
-                  marker=marker, markevery=4,
-                  label=rf"$R_{{\rm ball}}/R_{{\rm container}} = {share:g}$")
-    axes.text(0.02, 1.05, r"counterrotation, $\gamma > 1$", color=style.GREY, fontsize=7)
-    axes.text(0.02, 0.86, r"rotation, $\gamma < 1$", color=style.GREY, fontsize=7)
-    axes.set_xlabel("slip parameter $s$ (0: slips freely, 1: rolls)")
+        for restitution, fill, line in ((0.5, "full", "-"), (1.0, "none", ":")):
+            curve = sorted(style.select(rows, ball_radius=radius, restitution=restitution),
+                           key=lambda row: row["mu"])
+            axes.errorbar([steps.index(row["mu"]) for row in curve], style.column(curve, "gamma"),
+                          yerr=style.column(curve, "gamma_error"), color=color, marker=marker,
+                          fillstyle=fill, linestyle=line, elinewidth=0.7,
+                          label=f"radius {radius:g}, $e = {restitution:g}$")
+        axes.axhline(curve[0]["gamma_no_slip"], color=color, linewidth=0.6, linestyle="--",
+                     zorder=0)
+    axes.axhline(1, color=style.GREY, linewidth=0.6, zorder=0)
+    axes.set_xticks(range(len(steps)), [f"{mu:g}" for mu in steps])
+    axes.set_xlabel(r"friction with the wall $\mu$")
     axes.set_ylabel(r"$\gamma = |\varpi_M|/\Omega$")
-    axes.set_xlim(0, 1)
-    axes.set_ylim(0, 2.05)
-    axes.legend(loc="upper left")
+    axes.set_ylim(0.9, 2.1)
+    style.legend(axes, ncol=3, fontsize=6)
+    style.note(drawing, r"dashed: $\gamma_c = R_{\rm container}/R_{\rm ball}$; above 1 it "
+               "counterrotates")
     style.save(drawing, table)
 
 

@@ -41,6 +41,15 @@ CONTRADICTIONS = [
     ("Collisions with the wall", "The SI says that no sign changes need care because the wall does "
      "not spin.", "The disc's own spin enters the slip at the wall with the sign of the outward "
      "normal."),
+    ("A ball that slips freely", "It has γ = 0 at s = 0 and “corresponds to rotation”, but also, in "
+     "the introduction, a body that nothing turns has no sense of rotation.",
+     "Without torque its spin in the lab stays 0, so γ = 1 and s = R_ball/R_container: figure "
+     "“ball” simulates it. Rotation needs a torque, too."),
+    ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R as an amplitude "
+     "and 0.225 R from peak to peak.", "The SI's A/R = 0.22 is matched by half of it, so 1.15 cm must "
+     "be the diameter of the path."),
+    ("Coriolis force", "0–200 cm/s². A disc that moves with the wall has about 720 in the M-frame.",
+     "Computed from the velocities in the M-frame (measurement “centre”)."),
     ("Which average", "Figure 5b averages over events, the experiment over time.",
      "Both are given everywhere; figure “averages” compares them."),
 ]

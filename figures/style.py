@@ -19,6 +19,7 @@ from tables import column, select  # noqa: E402, F401
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
 PAGE = 7.0
+AMPLITUDE = 1.892  # of the container's path, in disc radii: where S is in the M-frame
 
 BLACK = "#000000"
 ORANGE = "#e69f00"
@@ -128,13 +129,19 @@ def rotation_curves(name, parameter, symbol):
         curve(axes, select(rows, **{parameter: value}), "discs", "by_time", color=CYCLE[k],
               marker=MARKERS[k], label=f"${symbol} = {value:g}$")
     rotation_axes(axes)
-    axes.legend(loc="upper right")
+    legend(axes, ncol=3)
     save(drawing, table)
 
 
-def rotation_axes(axes):
+def legend(axes, ncol=2, **more):
+    """Above the axes, where there are no data."""
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol, columnspacing=1.2,
+                borderaxespad=0.2, **more)
+
+
+def rotation_axes(axes, average="by time"):
     axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel(r"rotation of the cluster  $\varpi/\Omega$")
+    axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
 
 
 def profiles(name, quantity, level, label):
@@ -151,7 +158,7 @@ def profiles(name, quantity, level, label):
         shown = [row for row in select(rows, discs=discs) if row["visits"] > 200]
         axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
                   linestyle=":" if not_steady(shown) else "-")
-        for angle, marker in (("becoming_pinned", "v"), ("becoming_free", "o")):
+        for angle, marker in (("stay_begins", "v"), ("stay_ends", "o")):
             here = [row for row in shown if not math.isnan(row[angle])]
             if not here:
                 continue
@@ -159,16 +166,15 @@ def profiles(name, quantity, level, label):
             axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
                       markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
     axes.plot([], [], "v", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="becoming pinned")
+              label="stays at the wall begin")
     axes.plot([], [], "o", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="becoming free")
+              label="and end")
     axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
     axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
     axes.set_ylabel(label)
     axes.set_xlim(0, 360)
-    axes.set_ylim(*middle(column([row for row in rows if row["visits"] > 200], quantity)))
     axes.set_xticks(range(0, 361, 90))
-    axes.legend(loc="best")
+    legend(axes)
     bar = drawing.colorbar(scale(numbers, colors), ax=axes)
     bar.set_label(r"number of discs $N$")
     note_not_steady(drawing, rows)
@@ -177,14 +183,6 @@ def profiles(name, quantity, level, label):
 
 def zero_line(axes):
     axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
-
-
-def middle(values, margin=0.08):
-    """Limits that hold all values but the most extreme hundredth on either side."""
-    ordered = sorted(v for v in values if v == v)
-    low, high = ordered[len(ordered) // 100], ordered[-1 - len(ordered) // 100]
-    room = margin * (high - low) or 1.0
-    return low - room, high + room
 
 
 def scale(values, colors):
@@ -199,12 +197,23 @@ def bare(axes):
     axes.axis("off")
 
 
-def dish(axes, radius, centre=(0, 0)):
-    """The container's wall."""
+def dish(axes, radius, color=BLACK):
+    """The container's wall in the M-frame, with M, the swirl centre S above C, and θ."""
     bare(axes)
-    axes.add_patch(plt.Circle(centre, radius, fill=False, color=BLACK, linewidth=0.8))
-    axes.set_xlim(centre[0] - 1.04 * radius, centre[0] + 1.04 * radius)
-    axes.set_ylim(centre[1] - 1.04 * radius, centre[1] + 1.04 * radius)
+    axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=BLACK, linewidth=0.8))
+    axes.plot(0, -radius, "o", color=PINK, markersize=3, clip_on=False, zorder=5)
+    axes.text(0.07 * radius, -1.17 * radius, "$M$", color=PINK, fontsize=7, ha="center",
+              va="center")
+    axes.plot(0, AMPLITUDE, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5)
+    axes.text(0.05 * radius, AMPLITUDE + 0.02 * radius, "$S$", color=color, fontsize=7,
+              va="bottom")
+    for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
+        turn = math.radians(degrees)
+        axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),
+                  r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=6, color="0.3",
+                  ha=align, va="center")
+    axes.set_xlim(-1.3 * radius, 1.3 * radius)
+    axes.set_ylim(-1.3 * radius, 1.2 * radius)
 
 
 def cells(axes, rows, name, radius):
@@ -222,9 +231,10 @@ def arrows(axes, rows, radius, color, least=0):
     rows = [row for row in rows if row["visits"] > least]
     drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
                         column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
-                        scale=1.0, width=0.006, headwidth=3.5, headlength=4)
-    axes.quiverkey(drawn, 0.86, 0.03, 1.0, "speed 1", labelpos="N", coordinates="axes",
-                   color=BLACK if color == "white" else color, fontproperties={"size": 6},
+                        scale=0.8, width=0.0075, headwidth=3.5, headlength=4, headaxislength=3.6)
+    # The scale, outside of the dish.
+    axes.quiverkey(drawn, 0.88, 0.03, 1.0, "speed 1", labelpos="N", coordinates="axes",
+                   color=BLACK if color == "white" else color, fontproperties={"size": 7},
                    labelsep=0.03)
 
 

@@ -84,6 +84,8 @@ def above(value, bound):
         return Part(UNDECIDED, gap.points)
     if gap.mean > Z * gap.error:
         return Part(HOLDS)
+    if gap.error == 0:
+        return Part(FAILS)  # what is exact is not above what it equals
     return Part(FAILS) if gap.mean < -Z * gap.error else Part(UNDECIDED, gap.points)
 
 

@@ -40,7 +40,12 @@ void AngularProfile::sample(const MFrameView& view) {
     for (std::size_t i = 0; i < n; ++i) {
         if (!(own_[i] == own_[i])) continue;
         const std::size_t slice = std::min(static_cast<std::size_t>(slice_[i]), slices() - 1);
-        cells_.add(slice, {own_[i], wall_[i]});
+        const Vec2 d = view.position(i) - view.centre_of_mass;
+        const double square = dot(d, d);
+        if (square < view.radius[i] * view.radius[i]) continue;
+        const Vec2 v = view.relative_velocity(i) - view.centre_of_mass_velocity -
+                       view.frame.omega * perpendicular(d);
+        cells_.add(slice, {own_[i], wall_[i], square_root(square), square_root(dot(v, v))});
     }
 }
 

@@ -7,13 +7,18 @@
 //                    (p − r_cm) × (v_wall − v_cm) / |p − r_cm|², everything in the M-frame,
 //                    v_wall = −Ω ẑ × p; in units of Ω
 //   normalised (3b)  the first divided by the second: 1 where the discs move with the wall
+//   distance, speed  of the same discs from the centre of mass, and relative to it in the frame
+//                    that turns with Ω: where the cluster is long, ϖ_M falls though the speed does
+//                    not (caption of Fig. 3a)
 //
 // A cluster that moves rigidly with the wall has −1, −1 and 1 in every slice. The paper normalises
 // because the centre of mass is not at C, so even the wall passes it at a rate that depends on θ.
 //
 // Units: Ω. Slices are equal, the first begins at θ = 0 (m_frame.hpp: +x; M is at 3π/2).
 // Normalisation: every disc found in a slice counts the same at every sample. Error from blocks of
-// periods. Limits: a slice never visited: NaN. A disc on the centre of mass is left out.
+// periods. Limits: a slice never visited: NaN. A disc nearer to the centre of mass than its own
+// radius is left out: ϖ_i is a speed divided by that distance, and without the cut-off its variance
+// has no bound, so that a single disc may make the mean of a slice.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +45,8 @@ class AngularProfile {
     double visits(std::size_t slice) const { return cells_.visits(slice); }
     Estimate plain(std::size_t slice) const { return cells_.estimate(slice, 0); }
     Estimate wall(std::size_t slice) const { return cells_.estimate(slice, 1); }
+    Estimate distance(std::size_t slice) const { return cells_.estimate(slice, 2); }
+    Estimate speed(std::size_t slice) const { return cells_.estimate(slice, 3); }
     Estimate normalised(std::size_t slice) const {
         const double wall_mean = cells_.mean(slice, 1);
         return scaled(cells_.estimate(slice, 0), 1.0 / wall_mean);
@@ -55,11 +62,16 @@ class AngularProfile {
                            {"varpi_m_error", "Ω"},
                            {"wall", "Ω"},
                            {"normalised", "1"},
-                           {"normalised_error", "1"}}};
+                           {"normalised_error", "1"},
+                           {"distance", "r"},
+                           {"distance_error", "r"},
+                           {"speed", "v"},
+                           {"speed_error", "v"}}};
         for (std::size_t s = 0; s < slices(); ++s) {
-            const Estimate own = plain(s), ratio = normalised(s);
+            const Estimate own = plain(s), ratio = normalised(s), away = distance(s),
+                           fast = speed(s);
             table.add({theta(s) * degrees_per_radian, visits(s), own.mean, own.error, wall(s).mean,
-                       ratio.mean, ratio.error});
+                       ratio.mean, ratio.error, away.mean, away.error, fast.mean, fast.error});
         }
         visit(std::move(table));
     }
@@ -70,7 +82,7 @@ class AngularProfile {
     }
 
   private:
-    CellMeans<2> cells_;
+    CellMeans<4> cells_;
     std::vector<double> own_, wall_, slice_;  // of one sample
 };
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "swirl/measure/angular_profile.hpp"
+#include "swirl/measure/cluster_centre.hpp"
 #include "swirl/measure/collision_rates.hpp"
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
@@ -19,6 +20,7 @@
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/wall_stays.hpp"
 #include "swirl/measure/wall_stress.hpp"
 
 namespace swirl {
@@ -53,6 +55,10 @@ inline constexpr std::tuple measurement_list{
         "angular velocity about the centre of mass against θ (Fig. 3)"),
     measurement<PinnedByCollisions>("pinned", "pinned_loose.hpp",
         "where discs become pinned and free, by tracks and by collisions (Fig. 3)"),
+    measurement<WallStays>("stays", "wall_stays.hpp",
+        "stays in the wall layer: where discs become pinned and free there (Fig. 3)"),
+    measurement<ClusterCentre>("centre", "cluster_centre.hpp",
+        "where the cluster is in the M-frame, its shape, centrifugal and Coriolis force"),
     measurement<Slip>("slip", "slip.hpp",
         "slip parameter, perimeter, pancake line (Figs 1b, 4a)"),
     measurement<SpinFrustration>("frustration", "spin_frustration.hpp",

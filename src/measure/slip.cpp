@@ -34,7 +34,8 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     double all = 0.0, all_count = 0.0, held = 0.0, held_count = 0.0;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const double rate = view.varpi[i];
-        if (!(rate == rate)) continue;
+        const Vec2 d = view.position(i) - view.centre_of_mass;
+        if (!(rate == rate) || dot(d, d) < view.radius[i] * view.radius[i]) continue;
         all += rate;
         all_count += 1.0;
         if (i >= pinned.size() || pinned[i] == 0) continue;

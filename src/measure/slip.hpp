@@ -21,7 +21,8 @@
 //
 // Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
 // not averaged: the mean stays NaN if there was nothing else); nobody pinned: that sample does not
-// count.
+// count. A disc nearer to the centre of mass than its own radius is left out: there ϖ_i has no
+// finite variance.
 #pragma once
 
 #include <cstdint>

@@ -31,11 +31,10 @@ void SpinFrustration::sample(const MFrameView& view, std::span<const std::uint8_
     }
     for (const Pair& pair : pairs) {
         const double a = view.spin[pair.i], b = view.spin[pair.j];
-        const double square = 0.5 * (a * a + b * b);
-        if (square > 0.0)
-            correlation_.add(a * b / square, square);
-        else if (!(square == square))
-            correlation_.add(not_known);
+        add_pair(correlation_, a, b);
+        const bool both_pinned = pair.i < pinned.size() && pair.j < pinned.size() &&
+                                 pinned[pair.i] != 0 && pinned[pair.j] != 0;
+        if (both_pinned) add_pair(pinned_correlation_, a, b);
         const auto& others = neighbours_[pair.j];
         const bool triangle = std::any_of(
             neighbours_[pair.i].begin(), neighbours_[pair.i].end(),

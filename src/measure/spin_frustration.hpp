@@ -6,7 +6,9 @@
 //                     that are pinned: 0 for a disc stuck to the wall, as the container does not
 //                     turn
 //   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
-//                     independent spins, 1 for a body that turns as a whole
+//                     independent spins, 1 for a body that turns as a whole; the same over touching
+//                     pairs of pinned discs; and over all disc–disc collisions, each counted with
+//                     its normal impulse: strong contacts
 //   triangles         share of the touching pairs that have a common neighbour touching both: the
 //                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
 //                     packing
@@ -21,6 +23,7 @@
 // spin and correlation NaN; nobody touching: NaN.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,9 +42,12 @@ class SpinFrustration {
 
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
-    /// A collision, for the share that sticks.
-    void sample(const Event& event) {
+    /// A collision, for the share that sticks and the spins of strong contacts.
+    void sample(const Event& event, const Snapshot& after) {
         if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
+        if (event.kind == EventKind::disc_disc)
+            add_pair(by_impulse_, after.spin[event.i], after.spin[event.j],
+                     std::abs(event.impulse.normal));
         BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }
@@ -52,6 +58,8 @@ class SpinFrustration {
     Estimate wall_spin() const { return wall_spin_.estimate(); }
     Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
     Estimate correlation() const { return correlation_.estimate(); }
+    Estimate pinned_correlation() const { return pinned_correlation_.estimate(); }
+    Estimate correlation_by_impulse() const { return by_impulse_.estimate(); }
     Estimate triangles() const { return triangles_.estimate(); }
     Estimate disc_sticking() const { return disc_sticking_.estimate(); }
     Estimate wall_sticking() const { return wall_sticking_.estimate(); }
@@ -65,6 +73,11 @@ class SpinFrustration {
         visit(ReportRow{"pinned_wall_spin", "Ω", "size of the spin of the pinned discs at the wall",
                         pinned_wall_spin()});
         visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
+        visit(ReportRow{"pinned_correlation", "1", "the same of touching discs that are pinned",
+                        pinned_correlation()});
+        visit(ReportRow{"correlation_by_impulse", "1",
+                        "the same over collisions, each counted with its normal impulse",
+                        correlation_by_impulse()});
         visit(ReportRow{"triangles", "1", "share of the touching pairs with a common neighbour",
                         triangles()});
         visit(ReportRow{"coordination", "1", "touching neighbours of a disc", coordination()});
@@ -77,6 +90,8 @@ class SpinFrustration {
         wall_spin_.merge(other.wall_spin_);
         pinned_wall_spin_.merge(other.pinned_wall_spin_);
         correlation_.merge(other.correlation_);
+        pinned_correlation_.merge(other.pinned_correlation_);
+        by_impulse_.merge(other.by_impulse_);
         triangles_.merge(other.triangles_);
         coordination_.merge(other.coordination_);
         disc_sticking_.merge(other.disc_sticking_);
@@ -90,15 +105,24 @@ class SpinFrustration {
 
   private:
     std::vector<BlockMean*> means() {
-        return {&wall_spin_,    &pinned_wall_spin_, &correlation_,  &triangles_,
-                &coordination_, &disc_sticking_,    &wall_sticking_};
+        return {&wall_spin_,          &pinned_wall_spin_, &correlation_,
+                &pinned_correlation_, &by_impulse_,       &triangles_,
+                &coordination_,       &disc_sticking_,    &wall_sticking_};
+    }
+    /// ω_i ω_j over ½ (ω_i² + ω_j²), as a ratio of sums.
+    static void add_pair(BlockMean& correlation, double a, double b, double weight = 1.0) {
+        const double square = 0.5 * (a * a + b * b);
+        if (square > 0.0)
+            correlation.add(a * b / square, weight * square);
+        else if (!(square == square))
+            correlation.add(not_known);
     }
 
     double gap_;
     int every_;
     std::int64_t samples_ = 0;
     BlockMean wall_spin_, pinned_wall_spin_, correlation_, triangles_, coordination_;
-    BlockMean disc_sticking_, wall_sticking_;
+    BlockMean pinned_correlation_, by_impulse_, disc_sticking_, wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
 };

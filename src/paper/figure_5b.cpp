@@ -63,8 +63,13 @@ std::vector<Point> points_of_5b(const PaperSettings& settings) {
 FigurePlan plan_figure_5b(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
-    const std::vector<Point> points = points_of_5b(settings);
+    std::vector<Point> points = points_of_5b(settings);
     for (const Point& p : points) plan.points.push_back(point(settings, p.friction, p.discs));
+    // Where ϖ has its minimum, and rises again.
+    for (const std::int64_t n : numbers_beyond(settings)) {
+        points.push_back({high_friction, n});
+        plan.points.push_back(dense_point(settings, high_friction, n));
+    }
     plan.finish = [points](const std::vector<Json>& results, const std::filesystem::path& out) {
         return finish("5b", points, results, out);
     };

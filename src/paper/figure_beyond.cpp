@@ -105,10 +105,10 @@ FigurePlan plan_figure_averages(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_5b(settings);  // the same runs
     const auto table_of_5b = plan.finish;
     plan.script = "figure_averages.py";
-    plan.finish = [table_of_5b](const std::vector<Json>& results, const fs::path& out) {
+    const std::size_t numbers = numbers_of_discs(settings).size();
+    plan.finish = [table_of_5b, numbers](const std::vector<Json>& results, const fs::path& out) {
         FigureOutcome outcome = table_of_5b(results, out);
-        // The table has the runs of one friction after those of the other.
-        const std::size_t numbers = results.size() / std::size(frictions_of_5b);
+        // The table has the runs of one friction after those of the other, and then the densest.
         const fs::path table = out / "figure_averages.csv";
         std::error_code error;
         fs::copy_file(outcome.files.front(), table, fs::copy_options::overwrite_existing, error);

@@ -4,6 +4,8 @@
 // The experiment's smooth and roughened particles are two frictions here: 0.1 and 1.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/run/report.hpp"
@@ -21,19 +23,22 @@ struct Point {
     std::int64_t discs;
 };
 
-std::vector<Point> points_of(const PaperSettings& settings, std::vector<Friction> frictions) {
+std::vector<Point> points_of(const std::vector<Friction>& frictions,
+                             const std::vector<std::int64_t>& numbers) {
     std::vector<Point> points;
     for (const Friction& friction : frictions)
-        for (const std::int64_t n : numbers_of_the_experiment(settings))
-            points.push_back({friction, n});
+        for (const std::int64_t n : numbers) points.push_back({friction, n});
     return points;
 }
 
-/// The numbers of these measurements, "slip.cluster" and so on, each with its error.
+/// The numbers of these measurements, "slip.cluster" and so on, each with its error; the column is
+/// called by what follows a "=", or else the point.
 std::vector<std::string> number_columns(const std::vector<std::string>& names) {
     std::vector<std::string> columns;
     for (const std::string& name : names) {
-        const std::string column = name.substr(name.find('.') + 1);
+        const std::size_t renamed = name.find('=');
+        const std::string column =
+            name.substr((renamed == name.npos ? name.find('.') : renamed) + 1);
         columns.push_back(column);
         columns.push_back(column + "_error");
     }
@@ -43,9 +48,15 @@ void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& 
                  const Json& result) {
     for (const std::string& name : names) {
         const std::size_t dot = name.find('.');
-        const std::string measurement = name.substr(0, dot), quantity = name.substr(dot + 1);
-        for (const char* what : {"mean", "error"})
-            row.emplace_back(number(at(result, {"measured", measurement, quantity, what})));
+        const std::string measurement = name.substr(0, dot);
+        const std::string quantity = name.substr(dot + 1, name.find('=') - dot - 1);
+        const Json& value = at(result, {"measured", measurement, quantity});
+        if (value.is_number()) {  // no average
+            row.emplace_back(number(value));
+            row.emplace_back(0.0);
+            continue;
+        }
+        for (const char* what : {"mean", "error"}) row.emplace_back(number(at(value, {what})));
     }
 }
 
@@ -54,10 +65,12 @@ using Sentences =
 
 FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name,
                           const std::vector<Friction>& frictions,
-                          const std::vector<std::string>& names, const Sentences& sentences) {
+                          const std::vector<std::string>& names, const Sentences& sentences,
+                          const std::vector<std::int64_t>& numbers = {}) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
-    const std::vector<Point> points = points_of(settings, frictions);
+    const std::vector<Point> points =
+        points_of(frictions, numbers.empty() ? numbers_of_the_experiment(settings) : numbers);
     for (const Point& p : points)
         plan.points.push_back(measured_point(settings, p.friction, p.discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
@@ -113,7 +126,11 @@ std::string first_and_last(const std::string& what, const Friction& friction,
 
 FigurePlan plan_figure_1b(const PaperSettings& settings) {
     return plan_against_n(
-        settings, "1b", {high_friction}, {"slip.cluster_perimeter", "slip.pancake"},
+        settings, "1b", {high_friction},
+        {"slip.cluster_perimeter", "slip.pancake", "centre.x=centre_x", "centre.y=centre_y",
+         "centre.distance=centre_distance", "centre.theta=centre_theta", "centre.left=left",
+         "centre.elongation", "centre.centrifugal", "centre.coriolis", "centre.most_centrifugal",
+         "centre.most_coriolis"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<RotationPoint> curve;
             for (std::size_t k = 0; k < points.size(); ++k)
@@ -121,7 +138,9 @@ FigurePlan plan_figure_1b(const PaperSettings& settings) {
                     rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
             return std::vector<std::string>{
                 fmt::format("ϖ by time: {}.", crossing_sentence(curve)),
-                first_and_last("pancake line", high_friction, "slip", "pancake", points, results)};
+                first_and_last("pancake line", high_friction, "slip", "pancake", points, results),
+                first_and_last("direction of the centre of mass in degrees (M is at 270)",
+                               high_friction, "centre", "theta", points, results)};
         });
 }
 
@@ -140,17 +159,38 @@ FigurePlan plan_figure_4b(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4b", {high_friction},
         {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.spin_correlation",
+         "frustration.pinned_correlation", "frustration.correlation_by_impulse",
          "frustration.triangles", "frustration.coordination", "frustration.disc_sticking",
-         "frustration.wall_sticking"},
+         "frustration.wall_sticking", "order.all=psi6", "order.pinned=psi6_pinned",
+         "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             return std::vector<std::string>{
                 first_and_last("spin of the pinned discs at the wall, in Ω", high_friction,
                                "frustration", "pinned_wall_spin", points, results),
                 first_and_last("spin correlation of neighbours", high_friction, "frustration",
                                "spin_correlation", points, results),
+                first_and_last("the same, each collision counted with its impulse", high_friction,
+                               "frustration", "correlation_by_impulse", points, results),
                 first_and_last("contacts in triangles", high_friction, "frustration", "triangles",
                                points, results)};
         });
+}
+
+/// With both frictions, and with one of them absent: how much the discs move in the M-frame, at a
+/// low and at a high N.
+FigurePlan plan_figure_states(const PaperSettings& settings) {
+    return plan_against_n(
+        settings, "states", {high_friction, no_wall_friction, no_disc_friction},
+        {"temperature.granular", "temperature.of_the_spin", "centre.coriolis", "order.all=psi6",
+         "stays.share=stay_share", "frustration.coordination", "frustration.triangles"},
+        [](const std::vector<Point>& points, const std::vector<Json>& results) {
+            std::vector<std::string> sentences;
+            for (const Friction& friction : {high_friction, no_wall_friction, no_disc_friction})
+                sentences.push_back(first_and_last("granular temperature, in m v²", friction,
+                                                   "temperature", "granular", points, results));
+            return sentences;
+        },
+        {rotating, counterrotating});
 }
 
 FigurePlan plan_figure_4c(const PaperSettings& settings) {
@@ -173,6 +213,28 @@ FigurePlan plan_figure_4c(const PaperSettings& settings) {
 
 namespace {
 
+/// A table of the stays in the wall layer, for all N.
+fs::path write_stays(const std::string& part, const std::vector<std::int64_t>& numbers,
+                     const std::vector<Json>& results, const fs::path& out) {
+    std::optional<Table> table;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const Json& rows = at(results[k], {"measured", "stays", part});
+        if (!rows.is_object()) continue;
+        std::vector<std::string> columns;
+        for (const auto& [name, values] : rows.items()) columns.push_back(name);
+        if (!table) table.emplace(joined({"discs"}, columns));
+        for (std::size_t r = 0; r < rows.begin()->size(); ++r) {
+            std::vector<Table::Cell> row{numbers[k]};
+            for (const std::string& name : columns) row.emplace_back(number(rows[name][r]));
+            table->add(std::move(row));
+        }
+    }
+    if (!table) table.emplace(std::vector<std::string>{"discs"});
+    const fs::path file = out / ("figure_3a_" + part + ".csv");
+    table->write(file);
+    return file;
+}
+
 FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
@@ -180,15 +242,23 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
     for (const std::int64_t n : numbers)
         plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        const std::vector<std::string> columns{"theta",           "visits", "varpi_m",
-                                               "varpi_m_error",   "wall",   "normalised",
-                                               "normalised_error"};
-        const std::vector<std::string> angles{"becoming_pinned", "becoming_free",
-                                              "becoming_pinned_by_collisions",
-                                              "becoming_free_by_collisions", "share"};
+        const std::vector<std::string> columns{
+            "theta",          "visits",     "varpi_m",          "varpi_m_error",
+            "wall",           "normalised", "normalised_error", "distance",
+            "distance_error", "speed",      "speed_error"};
+        // Of the SI's criterion, of the collisions, and of stays in the wall layer.
+        const std::vector<std::string> angles{"pinned.becoming_pinned",
+                                              "pinned.becoming_free",
+                                              "pinned.becoming_pinned_by_collisions",
+                                              "pinned.becoming_free_by_collisions",
+                                              "pinned.share",
+                                              "stays.becoming_pinned=stay_begins",
+                                              "stays.becoming_free=stay_ends",
+                                              "stays.share=stay_share",
+                                              "stays.length=stay_length"};
         std::vector<std::string> heads = joined({"discs", "point", "steady_state"}, columns);
-        for (const std::string& angle : angles)
-            heads = joined(std::move(heads), {angle, angle + "_error"});
+        heads = joined(std::move(heads), number_columns(angles));
+        heads = joined(std::move(heads), {"becoming_free_resultant", "stay_ends_resultant"});
         Table table(heads);
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -199,23 +269,36 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                                              steadiness(results[k])};
                 for (const std::string& column : columns)
                     row.emplace_back(number(measured["profile"][column][r]));
-                for (const std::string& angle : angles) {
-                    row.emplace_back(number(measured["pinned"][angle]["mean"]));
-                    row.emplace_back(number(measured["pinned"][angle]["error"]));
-                }
+                add_numbers(row, angles, results[k]);
+                for (const char* criterion : {"pinned", "stays"})
+                    row.emplace_back(
+                        number(at(measured, {criterion, "becoming_free", "concentration"})));
                 table.add(std::move(row));
             }
             if (k > 0 && k + 1 < numbers.size()) continue;
-            const auto angle = [&](const char* which) {
-                const Json& value = measured["pinned"][which];
+            const auto told = [&](const char* criterion, const char* which) {
+                const Json& value = measured[criterion][which];
                 return with_error(number(value["mean"]), number(value["error"]));
             };
             outcome.findings.push_back(fmt::format(
-                "N = {}: pinned from θ = {}°, free from {}°; {} of the discs are pinned.",
-                numbers[k], angle("becoming_pinned"), angle("becoming_free"), angle("share")));
+                "N = {}, stays in the wall layer: pinned from θ = {}°, free from {}° (resultant "
+                "{:.2f}); {} of the discs are on one.",
+                numbers[k], told("stays", "becoming_pinned"), told("stays", "becoming_free"),
+                number(measured["stays"]["becoming_free"]["concentration"]),
+                told("stays", "share")));
+            outcome.findings.push_back(fmt::format(
+                "N = {}, the SI's criterion: pinned from θ = {}°, free from {}° (resultant {:.2f}: "
+                "directions that nearly cancel have a mean that says little); {} of the discs are "
+                "pinned.",
+                numbers[k], told("pinned", "becoming_pinned"), told("pinned", "becoming_free"),
+                number(measured["pinned"]["becoming_free"]["concentration"]),
+                told("pinned", "share")));
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
+        if (name == "3a")
+            for (const char* part : {"sensitivity", "places"})
+                outcome.files.push_back(write_stays(part, numbers, results, out));
         return outcome;
     };
     return plan;

@@ -28,7 +28,9 @@ FigurePlan plan_figure_inertia(const PaperSettings& settings);
 FigurePlan plan_figure_map(const PaperSettings& settings);
 FigurePlan plan_figure_polygon(const PaperSettings& settings);
 FigurePlan plan_figure_restitution(const PaperSettings& settings);
+FigurePlan plan_figure_states(const PaperSettings& settings);
 FigurePlan plan_figure_tangential(const PaperSettings& settings);
+FigurePlan plan_figure_times(const PaperSettings& settings);
 FigurePlan plan_figure_transient(const PaperSettings& settings);
 
 }  // namespace swirl

@@ -15,7 +15,8 @@ namespace {
 
 /// What the figures of the paper, or a reader of its tables, may ask of one run. Maps are large.
 std::vector<std::string> measurements_of_the_paper(std::int64_t discs) {
-    std::vector<std::string> names{"profile", "pinned", "slip", "frustration"};
+    std::vector<std::string> names{"profile",     "pinned", "stays",      "centre",     "slip",
+                                   "frustration", "order",  "collisions", "temperature"};
     if (discs == rotating || discs == counterrotating)
         names.insert(names.end(), {"density", "flow"});
     return names;
@@ -51,6 +52,11 @@ std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
 std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings) {
     if (settings.quick) return {8, 20, 28, 36, 42, 48};
     return {5, 8, 12, 16, 20, 24, 26, 28, 30, 32, 34, 36, 38, 40, 42, 44, 46, 48};
+}
+
+std::vector<std::int64_t> numbers_beyond(const PaperSettings& settings) {
+    if (settings.quick) return {51, 54};
+    return {49, 50, 51, 52, 53, 54, 55};
 }
 
 std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings) {
@@ -89,6 +95,20 @@ PaperPoint measured_point(const PaperSettings& settings, const Friction& frictio
                 config.seed = seed;
                 return run_task("measured_" + key_of(settings, friction, discs, seed), config,
                                 measurements_of_the_paper(discs));
+            }};
+}
+
+PaperPoint dense_point(const PaperSettings& settings, const Friction& friction,
+                       std::int64_t discs) {
+    RunConfig config = paper_config(settings, friction, discs);
+    config.warmup = settings.swirls(settings.quick ? 20 : 40, 1);
+    config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 3);
+    return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
+                config.seed = seed;
+                return run_task(
+                    fmt::format("dense_{}_{}of{}periods_seed{}", name_of(friction, discs),
+                                *config.warmup, *config.periods, seed),
+                    config);
             }};
 }
 

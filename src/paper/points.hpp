@@ -36,6 +36,9 @@ inline constexpr Friction frictions_of_5b[] = {high_friction, medium_friction, l
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings);
 /// Fewer of them, for what the paper does not have.
 std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings);
+/// N = 49 … 55: denser than the paper's. 59 discs can be placed, but from 56 on runs end in a
+/// collapse by friction, after some swirls or at once.
+std::vector<std::int64_t> numbers_beyond(const PaperSettings& settings);
 /// N = 24 … 48, the numbers of the experiment.
 std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings);
 
@@ -48,6 +51,9 @@ PaperPoint point(const PaperSettings& settings, const Friction& friction, std::i
 /// have some.
 PaperPoint measured_point(const PaperSettings& settings, const Friction& friction,
                           std::int64_t discs);
+
+/// More discs than the paper has: as many swirls as it takes, instead of its 10^6 events.
+PaperPoint dense_point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
 
 /// The same at other parameters than the paper's; `name` says which.
 PaperPoint varied_point(const PaperSettings& settings, const std::string& name,

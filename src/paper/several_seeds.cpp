@@ -101,7 +101,11 @@ Json table_json(const Places& tables, std::span<const double> weights) {
                                          .error = number(at(*table, {name + "_error"})[row])});
             }
             if (has_error) {
-                const Estimate e = several_runs(estimates, weights).estimate;
+                // Angles in tables are known by their names.
+                const Estimate e =
+                    (name.starts_with("becoming_") ? several_directions(estimates, weights)
+                                                   : several_runs(estimates, weights))
+                        .estimate;
                 json[name].push_back(e.mean);
                 json[name + "_error"].push_back(e.error);
             } else if (name == "visits") {

@@ -11,6 +11,11 @@
 // move together. γ < 1 is rotation in the lab, γ > 1 counterrotation; they meet at s =
 // R_ball/R_container.
 //
+// The paper takes s = 0 for perfect slip. A ball that nothing turns keeps its spin in the lab,
+// though, so in the M-frame it turns with −Ω: γ = 1 and s = R_ball/R_container, where it neither
+// rotates nor counterrotates. With s = 0 it rotates with Ω as if it were fixed to the turning
+// frame. `swirl paper --figure ball` simulates the ball; this is the paper's formula.
+//
 // Where it settles: without any resistance to rolling and with nothing that slips, at M itself. The
 // `lag` turns that point clockwise, as friction that has to balance the centrifugal force would.
 //
@@ -26,7 +31,7 @@ namespace swirl {
 struct RollingBall {
     double container_radius = paper_container_radius;
     double ball_radius = 0.5 * paper_container_radius;
-    double slip = 1.0;  // s: 1 rolls without slipping, 0 slips freely
+    double slip = 1.0;  // s: 1 rolls without slipping, 0 is fixed to the M-frame
     double lag = 0.0;   // clockwise from M, rad
 
     double gamma_no_slip() const { return container_radius / ball_radius; }  // γ_c

@@ -36,6 +36,10 @@ class Rules(unittest.TestCase):
         self.assertEqual(above(Value(5.0, 1.0), Value(0.0, 1.0)), HOLDS)
         self.assertEqual(above(Value(4.0, 1.0), Value(0.0, 1.0)), UNDECIDED)
 
+    def test_what_is_exact_is_never_undecided(self):
+        self.assertEqual(below(Value(1.0), 1), FAILS)
+        self.assertEqual(below(Value(0.999), 1), HOLDS)
+
     def test_what_is_not_known_is_undecided(self):
         nan = float("nan")
         self.assertEqual(above(Value(1.0, nan), 0), UNDECIDED)
@@ -200,19 +204,61 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(20, 1), UNDECIDED)
         self.assertEqual(judged(0, 0, 8), UNDECIDED)
 
+    def stays(self, *places, error=1.0):
+        self.table("3a", [
+            {"discs": n, "stay_ends": a, "stay_ends_error": error, "stay_ends_resultant": 0.8,
+             "becoming_free": 50, "becoming_free_error": 1, "becoming_free_resultant": 0.3}
+            for n, a in zip((24, 36, 48), places)])
+
     def test_angles_pass_through_zero(self):
-        def rows(*places, error=1.0):
-            return [{"discs": n, "becoming_free": a, "becoming_free_error": error,
-                     "becoming_free_by_collisions": 50, "becoming_free_by_collisions_error": 1}
-                    for n, a in zip((24, 36, 48), places)]
-        self.table("3a", rows(8, 355, 1))
+        self.stays(8, 355, 1)
         verdict, found = claims.free_fixed(self.folder)
         self.assertEqual(verdict, HOLDS)  # they span 13°, not 354°
         self.assertIn("13.0 ± 1.4°", found)
-        self.table("3a", rows(8, 355, 300))
+        self.stays(8, 355, 300)
         self.assertEqual(claims.free_fixed(self.folder)[0], FAILS)
-        self.table("3a", rows(8, 355, 1, error=9.0))
+        self.stays(8, 355, 1, error=9.0)
         self.assertEqual(claims.free_fixed(self.folder)[0], UNDECIDED)
+
+    def test_a_ball_that_nothing_turns_does_not_rotate(self):
+        def judged(slipping, rolling):
+            self.table("ball", [{"mu": mu, "restitution": 0.5, "gamma": g, "gamma_error": 0,
+                                 "slip": g / 1.72} for mu, g in ((0, slipping), (1, rolling))])
+            return claims.ball(self.folder)[0]
+        self.assertEqual(judged(0.9, 1.7), HOLDS)
+        self.assertEqual(judged(1.0, 1.7), IN_PART)
+        self.assertEqual(judged(1.0, 0.9), FAILS)
+
+    def test_the_oblong_cluster_needs_both_distance_and_speed(self):
+        def judged(distance, speed):
+            self.table("3a", [
+                {"discs": 28, "theta": t, "visits": 1000, "varpi_m": v, "distance": d,
+                 "distance_error": 0.01, "speed": u, "speed_error": 0.01}
+                for t, v, d, u in ((90, -1, 4, 2), (180, -0.8, distance, speed), (270, -1, 4, 2))])
+            return claims.oblong(self.folder)[0]
+        self.assertEqual(judged(5, 2), HOLDS)
+        self.assertEqual(judged(3, 2), IN_PART)
+        self.assertEqual(judged(3, 1), FAILS)
+
+    def test_without_wall_friction_motion_is_little_below_a_tenth_of_the_wall(self):
+        def judged(speed, error):
+            unit = 2 * (2 * 3.14159265 / claims.PERIOD) ** 2 * claims.RADIUS
+            self.table("states", [{"setting": s, "discs": 48, "coriolis": v * unit,
+                                   "coriolis_error": error * unit}
+                                  for s, v in (("high", 1), ("no-wall", speed))])
+            return claims.rim(self.folder)[0]
+        self.assertEqual(judged(0.05, 0.01), HOLDS)
+        self.assertEqual(judged(0.2, 0.01), FAILS)
+        self.assertEqual(judged(0.08, 0.01), UNDECIDED)
+
+    def test_smallest_times_are_compared_by_their_order(self):
+        def judged(rough, smooth):
+            self.table("times", [{"mu": mu, "smallest": t}
+                                 for mu, t in ((1, rough), (1, rough), (0, smooth))])
+            return claims.smallest_times(self.folder)[0]
+        self.assertEqual(judged(3e-11, 2e-10), HOLDS)
+        self.assertEqual(judged(3e-11, 2e-11), IN_PART)
+        self.assertEqual(judged(1e-8, 1e-11), FAILS)
 
     def test_a_table_that_is_not_there_is_said(self):
         for claim in claims.CLAIMS:

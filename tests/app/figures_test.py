@@ -10,16 +10,19 @@ from program import SOURCE, InFolder, swirl
 
 # Those that share their runs or need none; with 3000 events each it takes seconds.
 FIGURES = {
-    "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error"},
+    "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error", "centre_x", "centre_theta", "left"},
     "2b": {"map", "x", "y", "density", "density_error", "u_x", "u_y", "visits"},
-    "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free"},
+    "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free",
+           "stay_begins", "stay_ends", "stay_share", "stay_ends_resultant", "distance", "speed"},
     "3b": {"discs", "theta", "normalised", "normalised_error", "wall"},
     "4a": {"setting", "discs", "pinned_region", "pinned_region_error", "cluster"},
-    "4b": {"discs", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking"},
+    "4b": {"discs", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
+           "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "disc_disc_rate"},
     "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},
     "5c": {"discs", "x", "y", "by_event", "by_event_error", "by_time"},
     "5d": {"discs", "x", "y", "u_x", "u_x_error", "u_y", "u_y_error", "visits"},
-    "ball": {"ball_radius", "slip", "gamma", "varpi"},
+    "ball": {"ball_radius", "mu", "restitution", "gamma", "gamma_error", "gamma_no_slip", "slip"},
+    "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
 
 

@@ -81,7 +81,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
 TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     SpinFrustration frustration(0.1, 1);
     const auto collide = [&](EventKind kind, bool sticks) {
-        frustration.sample(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0});
+        frustration.sample(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0}, gears());
     };
     collide(EventKind::disc_disc, true);
     collide(EventKind::disc_disc, true);
@@ -149,6 +149,36 @@ TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
         EXPECT_EQ(found, expected);
         EXPECT_FALSE(found.empty());
     }
+}
+
+// Two hard hits of gears and one soft one of discs that spin alike: (−2·2 + 1·1)/(2·2 + 1·1).
+TEST(SpinFrustration, StrongContactsCountWithTheirImpulse) {
+    SpinFrustration frustration;
+    Snapshot pair = empty_dish();
+    add_disc(pair, {0.0, 0.0}, {}, 0.5);
+    add_disc(pair, {2.0, 0.0}, {}, -0.5);
+    Event hit{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {2.0, 0.0, false}, 0.0};
+    frustration.sample(hit, pair);
+    frustration.sample(hit, pair);
+    pair.spin[1] = 0.5;
+    hit.impulse.normal = 1.0;
+    frustration.sample(hit, pair);
+    hit.kind = EventKind::disc_wall;  // the wall does not spin
+    frustration.sample(hit, pair);
+    frustration.close_block();
+    EXPECT_NEAR(frustration.correlation_by_impulse().mean, -0.6, 1e-12);
+}
+
+TEST(SpinFrustration, PairsOfPinnedDiscsAreToldApart) {
+    SpinFrustration frustration(0.1, 1);
+    Snapshot chain = empty_dish();
+    add_disc(chain, {0.0, 0.0}, {}, 0.5);
+    add_disc(chain, {2.05, 0.0}, {}, -0.5);
+    add_disc(chain, {4.1, 0.0}, {}, -0.5);
+    frustration.sample(chain, std::vector<std::uint8_t>{1, 1, 0});
+    frustration.close_block();
+    EXPECT_NEAR(frustration.pinned_correlation().mean, -1.0, 1e-12);
+    EXPECT_NEAR(frustration.correlation().mean, 0.0, 1e-12);
 }
 
 }  // namespace

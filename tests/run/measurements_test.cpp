@@ -139,8 +139,8 @@ TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
 }
 
 TEST(Measurements, EverythingThatLooksAtSnapshotsCanBeAskedFor) {
-    EXPECT_THAT(everything(), ElementsAre("density", "flow", "profile", "pinned", "slip",
-                                          "frustration", "radial", "temperature", "order",
+    EXPECT_THAT(everything(), ElementsAre("density", "flow", "profile", "pinned", "stays", "centre",
+                                          "slip", "frustration", "radial", "temperature", "order",
                                           "packing", "collisions", "wall", "diffusion", "energy"));
 }
 
@@ -191,7 +191,9 @@ TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     std::ifstream profile(files[0]), numbers(files[1]);
     std::string line;
     std::getline(profile, line);
-    EXPECT_EQ(line, "theta,visits,varpi_m,varpi_m_error,wall,normalised,normalised_error");
+    EXPECT_EQ(line,
+              "theta,visits,varpi_m,varpi_m_error,wall,normalised,normalised_error,distance,"
+              "distance_error,speed,speed_error");
     std::getline(numbers, line);
     EXPECT_EQ(line, "quantity,unit,mean,error,effective_samples,blocks");
     std::getline(numbers, line);

@@ -1,0 +1,42 @@
+"""How much the discs move in the M-frame, with both frictions and with one of them absent.
+
+    /usr/bin/python3 figures/figure_states.py out/figure_states.csv
+"""
+
+import math
+
+import style
+
+SETTINGS = (("high", "both frictions 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
+            ("no-disc", r"$\mu_d = 0$", style.PINK))
+PERIOD, RADIUS = 11.866071, 8.6
+
+
+def main():
+    table = style.table_from_arguments("figure_states")
+    rows = style.read(table)
+    numbers = sorted({row["discs"] for row in rows})
+    drawing, (speed, heat) = style.figure(height=2.3, ncols=2)
+    per_speed = 1 / (2 * (2 * math.pi / PERIOD) ** 2 * RADIUS)
+    for k, (setting, label, color) in enumerate(SETTINGS):
+        here = style.select(rows, setting=setting)
+        for axes, name, factor in ((speed, "coriolis", per_speed), (heat, "granular", 1.0)):
+            known = [row for row in here if row[name] == row[name]]
+            axes.bar([numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
+                     [row[name] * factor for row in known], 0.25, color=color, label=label)
+            axes.errorbar([numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
+                          [row[name] * factor for row in known],
+                          yerr=[row[name + "_error"] * factor for row in known],
+                          color=style.BLACK, linestyle="none", elinewidth=0.7)
+    for axes in (speed, heat):
+        axes.set_xticks(range(len(numbers)), [f"{n:.0f}" for n in numbers])
+        axes.set_xlabel("number of discs $N$")
+    speed.set_ylabel(r"mean speed in the M-frame ($\Omega R$)")
+    heat.set_ylabel("granular temperature ($m v^2$)")
+    style.legend(speed, ncol=1)
+    style.note_not_steady(drawing, rows)
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

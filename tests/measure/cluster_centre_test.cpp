@@ -1,0 +1,86 @@
+#include "swirl/measure/cluster_centre.hpp"
+
+#include <gtest/gtest.h>
+
+#include "measure/snapshots.hpp"
+
+namespace swirl {
+namespace {
+
+/// A dish whose discs are at these places of the M-frame and rest in it.
+Snapshot resting_at(const std::vector<Vec2>& places, double u = 0.0) {
+    Snapshot s = empty_dish(u);
+    const MFrame frame = m_frame(s);
+    for (const Vec2& p : places) add_disc(s, frame.lab_position(p), frame.lab_velocity(p, {}));
+    return s;
+}
+
+TEST(ClusterCentre, ACentreLeftOfMLags) {
+    for (const double u : {0.0, 0.3, 0.8}) {
+        ClusterCentre centre(1);
+        // At 240°: 30° clockwise of M.
+        const Vec2 c{-2.0, -2.0 * std::sqrt(3.0)};
+        centre.sample(resting_at({c + Vec2{1.5, 0.0}, c - Vec2{1.5, 0.0}}, u));
+        centre.close_block();
+        EXPECT_NEAR(centre.x().mean, -2.0, 1e-9);
+        EXPECT_NEAR(centre.distance().mean, 4.0, 1e-9);
+        EXPECT_NEAR(centre.direction().angle().mean * degrees_per_radian, 240.0, 1e-9);
+        EXPECT_EQ(centre.left().mean, 1.0);
+    }
+}
+
+TEST(ClusterCentre, ElongationIsThatOfTheAxes) {
+    ClusterCentre centre(1);
+    // Mean squares 9/2 and 1/2: three times as long as wide, however it lies.
+    const Vec2 along = unit_circle(0.1), across = perpendicular(along);
+    centre.sample(resting_at({3.0 * along, -3.0 * along, across, -1.0 * across}));
+    centre.close_block();
+    EXPECT_NEAR(centre.elongation().mean, 3.0, 1e-9);
+    ClusterCentre line(1);
+    line.sample(resting_at({3.0 * along, -3.0 * along, 0.0 * along}));
+    line.close_block();
+    EXPECT_TRUE(std::isnan(line.elongation().mean));
+}
+
+TEST(ClusterCentre, ForcesOnADiscAtMAndOnOneThatTheWallDrags) {
+    Snapshot s = resting_at({{0.0, -7.6}});
+    const double omega = 2.0 * pi / s.period;
+    ClusterCentre at_M(1);
+    at_M.sample(s);
+    at_M.close_block();
+    EXPECT_NEAR(at_M.centrifugal().mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
+    EXPECT_NEAR(at_M.coriolis().mean, 0.0, 1e-9);
+    // At rest relative to the container: with the wall's −Ω about C.
+    Snapshot dragged = empty_dish();
+    add_disc(dragged, dragged.container_centre + Vec2{0.0, 5.0}, dragged.container_velocity);
+    ClusterCentre with_wall(1);
+    with_wall.sample(dragged);
+    with_wall.close_block();
+    EXPECT_NEAR(with_wall.coriolis().mean, 2.0 * omega * omega * 5.0, 1e-9);
+}
+
+TEST(ClusterCentre, NothingSeenIsNotKnown) {
+    ClusterCentre centre(1);
+    centre.sample(empty_dish());
+    centre.close_block();
+    EXPECT_TRUE(std::isnan(centre.x().mean));
+    EXPECT_TRUE(std::isnan(centre.direction().angle().mean));
+}
+
+TEST(ClusterCentre, MergedIsTheSameAsOneAfterTheOther) {
+    ClusterCentre a(1), b(1), both(1);
+    for (int k = 0; k < 6; ++k) {
+        const Snapshot s = random_discs(12, std::uint64_t(k), 0.1 * k);
+        (k < 3 ? a : b).sample(s);
+        both.sample(s);
+        (k < 3 ? a : b).close_block();
+        both.close_block();
+    }
+    a.merge(b);
+    EXPECT_NEAR(a.x().mean, both.x().mean, 1e-12);
+    EXPECT_NEAR(a.direction().angle().mean, both.direction().angle().mean, 1e-12);
+    EXPECT_EQ(a.elongation().blocks, both.elongation().blocks);
+}
+
+}  // namespace
+}  // namespace swirl
