@@ -16,7 +16,7 @@ def main():
     style.curve(axes, rows, "discs", "pancake", color=style.BLACK, marker="", linestyle="--",
                 label="pancake that rolls without slipping")
     style.rotation_axes(axes)
-    axes.legend(loc="upper right")
+    style.legend(axes, ncol=1)
     style.save(drawing, table)
 
 

@@ -9,13 +9,13 @@ import style
 def main():
     table = style.table_from_arguments("figure_2b")
     rows = style.read(table)
-    drawing, axes = style.figure(height=2.7)
+    drawing, axes = style.figure(height=3.0)
     density = style.select(rows, map="density")
     R = max(row["x"] for row in density) * 100 / 99
     shown = style.cells(axes, density, "density", R)
     flow = [row for row in style.select(rows, map="flow") if row["visits"] > 0]
     style.arrows(axes, flow, R, color="white", least=0.002 * sum(r["visits"] for r in flow) / 10)
-    style.dish(axes, R)
+    style.dish(axes, R, color="white")
     axes.set_title(f"$N = {rows[0]['discs']:.0f}$")
     bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
     bar.set_label(r"discs per unit area ($r^{-2}$)")

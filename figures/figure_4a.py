@@ -20,7 +20,7 @@ def main():
     axes.axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
     axes.set_xlabel(r"number of discs $N$")
     axes.set_ylabel("slip parameter $s$")
-    axes.legend(loc="lower right")
+    style.legend(axes)
     style.save(drawing, table)
 
 

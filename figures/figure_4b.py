@@ -9,25 +9,26 @@ import style
 def main():
     table = style.table_from_arguments("figure_4b")
     rows = style.read(table)
-    drawing, (spin, contacts) = style.figure(height=3.6, nrows=2, sharex=True)
+    drawing, (spin, contacts) = style.figure(height=4.2, nrows=2, sharex=True)
     style.curve(spin, rows, "discs", "pinned_wall_spin", color=style.RED, marker="o",
                 label="pinned discs at the wall")
     style.curve(spin, rows, "discs", "wall_spin", color=style.BLUE, marker="s", fillstyle="none",
                 label="all discs at the wall")
     spin.set_ylabel(r"spin $\langle|\omega_i|\rangle/\Omega$")
     spin.set_ylim(bottom=0)
-    spin.legend(loc="best")
+    style.legend(spin)
     style.zero_line(contacts)
     style.curve(contacts, rows, "discs", "spin_correlation", color=style.BLACK, marker="v",
-                label="spin correlation of neighbours")
+                label="spins of neighbours")
     style.curve(contacts, rows, "discs", "triangles", color=style.GREEN, marker="^",
-                label="share of contacts in triangles")
+                label="contacts in triangles")
     style.curve(contacts, rows, "discs", "disc_sticking", color=style.PINK, marker="D",
                 label="sticking collisions, disc–disc")
     style.curve(contacts, rows, "discs", "wall_sticking", color=style.ORANGE, marker="P",
                 label="sticking collisions, disc–wall")
-    contacts.set_ylim(-0.25, 1.05)
-    contacts.legend(loc="center left", bbox_to_anchor=(0, 0.58))
+    style.curve(contacts, rows, "discs", "pinned_correlation", color=style.BLUE, marker="<",
+                label="spins of pinned neighbours")
+    style.legend(contacts, fontsize=6)
     contacts.set_xlabel(r"number of discs $N$")
     style.save(drawing, table)
 

@@ -16,7 +16,7 @@ def main():
         style.curve(axes, style.select(rows, setting=setting), "discs", "by_time", color=color,
                     marker=marker, label=label)
     style.rotation_axes(axes)
-    axes.legend(loc="upper right")
+    style.legend(axes)
     style.save(drawing, table)
 
 

@@ -10,7 +10,7 @@ def main():
     table = style.table_from_arguments("figure_5d")
     rows = style.read(table)
     numbers = sorted({row["discs"] for row in rows})
-    drawing, axes = style.figure(height=2.0, ncols=len(numbers), squeeze=False)
+    drawing, axes = style.figure(width=style.PAGE, height=3.6, ncols=len(numbers), squeeze=False)
     R = max(row["x"] for row in rows) * 20 / 19
     for place, discs in zip(axes[0], numbers):
         here = [row for row in style.select(rows, discs=discs) if row["visits"] > 0]

@@ -19,7 +19,7 @@ def main():
     if none:
         axes.plot(style.column(none, "mu"), [MOST] * len(none), "^", color=style.GREY,
                   label=f"no crossing up to $N = {MOST}$")
-        axes.legend(loc="lower left")
+        style.legend(axes)
     axes.set_xscale("log")
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2])
     axes.set_xticklabels(["0.05", "0.1", "0.2", "0.5", "1", "2"])

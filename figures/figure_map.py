@@ -10,7 +10,10 @@ def main():
     table = style.table_from_arguments("figure_map")
     rows = style.read(table)
     steps = sorted({row["mu_wall"] for row in rows})
-    drawing, axes = style.figure(height=2.9)
+    # Nine steps take a page's width to be readable.
+    large = len(steps) > 6
+    drawing, axes = style.figure(width=style.PAGE if large else style.COLUMN,
+                                 height=5.6 if large else 2.9)
     values = [[float("nan")] * len(steps) for _ in steps]
     for row in rows:
         values[steps.index(row["mu_wall"])][steps.index(row["mu_disc"])] = row["by_time"]
@@ -24,7 +27,7 @@ def main():
             if value == value:
                 number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
                 axes.text(x, y, number, ha="center", va="center",
-                          fontsize=5 if len(steps) > 6 else 7,
+                          fontsize=8 if large else 7,
                           color="white" if abs(value) > 0.3 else "black")
     drifting = style.not_steady(rows)
     for row in drifting:
@@ -38,8 +41,7 @@ def main():
         notes.append("grey: no result")
     if notes:
         style.note(drawing, "; ".join(notes))
-    axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps],
-                    fontsize=6 if len(steps) > 6 else 7.5)
+    axes.set_xticks(range(len(steps)), [f"{s:g}" for s in steps])
     axes.set_yticks(range(len(steps)), [f"{s:g}" for s in steps])
     axes.set_xlabel(r"disc friction $\mu_d$")
     axes.set_ylabel(r"wall friction $\mu_w$")

@@ -25,7 +25,7 @@ def main():
                           alpha=0.3, linewidth=0)
         place.set_xscale("log")
         place.set_ylabel(rf"$\varpi/\Omega$,  $N = {discs:.0f}$")
-        place.legend(loc="best")
+        style.legend(place)
     axes[-1][0].set_xticks([6, 10, 30, 100, 300])
     axes[-1][0].set_xticklabels(["6", "10", "30", "100", "300"])
     axes[-1][0].minorticks_off()

@@ -31,7 +31,7 @@ def main():
     rotation.set_ylabel(r"$\varpi/\Omega$")
     spin.set_ylabel(r"mean spin $\langle\omega_i\rangle/\Omega$")
     spin.set_xlabel(r"swirls since rest (dashed: the paper's $10^6$ events)")
-    rotation.legend(loc="best")
+    style.legend(rotation, ncol=4)
     style.save(drawing, table)
 
 
