@@ -200,6 +200,44 @@ class Faults(unittest.TestCase):
                              f"killed before change {k} of {calls}")
         tell(f"run, killed before a change: {calls} places, {len(tried)} tried, all resumed")
 
+    def test_killed_before_a_change_of_a_file_the_sweep_goes_on_to_the_same_bits(self):
+        self.undisturbed_sweep()
+        calls = self.count("change", self.sweep_call)
+        tried = self.some(range(1, calls + 1), 10**9 if EVERY else 8)
+        for k in tried:
+            where = f"sweep killed before change {k} of {calls}"
+            self.anew()
+            self.swirl(*self.sweep_call, FAULT_UNDER=self.folder, **setting("change", k))
+            done = self.swirl(*self.sweep_call)
+            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr}")
+            self.assert_right_sweep(where)
+            self.assertEqual(glob.glob(os.path.join(self.work, "s/**/*.partial"), recursive=True)
+                             + glob.glob(os.path.join(self.work, "s/checkpoints/*")), [], where)
+        tell(f"sweep, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+
+    def test_after_a_power_cut_the_sweep_goes_on_to_the_same_bits_or_is_refused(self):
+        self.undisturbed_sweep()
+        self.anew()
+        record = os.path.join(self.folder, "record")
+        done = self.swirl(*self.sweep_call, FAULT_UNDER=self.work, FAULT_RECORD=record,
+                          **setting("none", 0))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        entries = read_record(record)
+        cuts, refused = 200 if EVERY else 8, 0
+        for cut in range(cuts):
+            at = self.choose.randrange(len(entries))
+            self.anew()
+            disk_after(entries[:at], self.choose).write(self.work)
+            done = self.swirl(*self.sweep_call)
+            where = f"power cut {cut} of a sweep, after {at} of {len(entries)} entries"
+            if done.returncode != 0:
+                self.assert_said(done, where)
+                refused += 1
+                continue
+            self.assert_right_sweep(where)
+        tell(f"sweep, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
+        self.assertLess(refused, max(2, cuts / 10))
+
     def test_after_a_power_cut_the_run_is_resumed_to_the_same_bits_or_refused(self):
         self.undisturbed()
         self.anew()
@@ -294,12 +332,19 @@ class Disk:
                 self.names[one].pending.append((a + begin, content[begin:begin + PAGE]))
         elif what == "t":
             self.names[one].pending.append((a, None))
+        elif what == "S":  # the whole file system
+            for inode in self.names.values():
+                inode.sync()
+            self.names_are_durable()
         elif one in self.names:
             self.names[one].sync()
         else:  # a folder: the names in it
-            for change in self.changes:
-                self.rename(self.durable_names, change)
-            self.changes = []
+            self.names_are_durable()
+
+    def names_are_durable(self):
+        for change in self.changes:
+            self.rename(self.durable_names, change)
+        self.changes = []
 
     def cut(self, choose):
         """Names change in order, so some of the last changes are missing; pages in any order."""
@@ -311,7 +356,9 @@ class Disk:
 
     def write(self, folder):
         for name, content in self.content.items():
-            with open(os.path.join(folder, os.path.basename(name)), "wb") as opened:
+            file = os.path.join(folder, os.path.relpath(name, folder))
+            os.makedirs(os.path.dirname(file), exist_ok=True)
+            with open(file, "wb") as opened:
                 opened.write(content)
 
 

@@ -1,0 +1,52 @@
+// What the fuzzer makes up, as a file that a reader can open: in memory, under a path of its own.
+#pragma once
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace swirl {
+
+class FuzzedFile {
+  public:
+    FuzzedFile(const std::uint8_t* data, std::size_t size)
+        : descriptor_(memfd_create("fuzzed", 0)) {
+        for (std::size_t done = 0; done < size;) {
+            const ssize_t written = write(descriptor_, data + done, size - done);
+            if (written <= 0) __builtin_trap();  // without memory there is nothing to try
+            done += static_cast<std::size_t>(written);
+        }
+    }
+    ~FuzzedFile() { close(descriptor_); }
+    FuzzedFile(const FuzzedFile&) = delete;
+    FuzzedFile& operator=(const FuzzedFile&) = delete;
+
+    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  private:
+    int descriptor_;
+};
+
+/// Runs the reader. It may refuse with a sentence, and must not end in any other way.
+template <class Refusal, class... Others, class Read>
+void read_or_refuse(const Read& read) {
+    if constexpr (sizeof...(Others) > 0) {
+        read_or_refuse<Others...>([&] {
+            try {
+                read();
+            } catch (const Refusal&) {
+            }
+        });
+    } else {
+        try {
+            read();
+        } catch (const Refusal&) {
+        }
+    }
+}
+
+}  // namespace swirl

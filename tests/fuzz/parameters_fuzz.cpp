@@ -1,0 +1,19 @@
+// The parameters in a result (JSON), as `verify` and `--resume` read them, and what they become
+// when they are written again: the same.
+#include <nlohmann/json.hpp>
+
+#include "fuzzed_file.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/parameters.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace swirl;
+    read_or_refuse<WrongCall>([&] {
+        const std::string text(reinterpret_cast<const char*>(data), size);
+        const RunConfig config = resolve(parameters_in(text));
+        const std::string written = config_json(config).dump();
+        if (config_json(resolve(parameters_in(written))).dump() != written) __builtin_trap();
+    });
+    return 0;
+}

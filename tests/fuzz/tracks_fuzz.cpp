@@ -1,0 +1,11 @@
+// A camera's tracks: trackpy's CSV.
+#include "fuzzed_file.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/tracks.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace swirl;
+    const FuzzedFile file(data, size);
+    read_or_refuse<FileError>([&] { read_trackpy_csv(file.path()); });
+    return 0;
+}
