@@ -177,14 +177,45 @@ def quick_sentence(about):
 
 
 def intro(about):
-    return ("Each claim of L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, "
-            "“Geometric frustration induces the transition between rotation and counterrotation in "
-            "swirled granular media” (Phys. Rev. E 100, 012903, 2019), beside what an exact "
-            "event-driven simulation finds. ± is one standard error, between seeds and "
-            "within runs, whichever is larger; three of them decide. What they do not decide is "
-            "undecided. Verdicts are computed from the tables by the rules of figures/verdicts.py; "
-            "every other number that a verdict depends on has a name in figures/claims.py. "
+    """What was asked, what was done."""
+    return ("A dish of discs is swirled. With few discs the cluster rotates in the sense of the "
+            "swirl, with many against it. L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and "
+            "S. M. Rubinstein, “Geometric frustration induces the transition between rotation and "
+            "counterrotation in swirled granular media” (Phys. Rev. E 100, 012903, 2019), explain "
+            "it by friction: at the wall and between the discs. Asked here is which of their claims "
+            "an exact event-driven simulation of their model confirms. "
+            "± is one standard error, between seeds and within runs, whichever is larger; three of "
+            "them decide. What they do not decide is undecided, after "
+            f"{about.get('most_seeds_of_a_point', 32)} seeds at the points concerned. Verdicts are "
+            "computed from the tables by the rules of figures/verdicts.py; every other number that "
+            "a verdict depends on has a name in figures/claims.py. "
             + quick_sentence(about)).strip()
+
+
+# The same setting, both frictions 1 and I = 10, in several figures: (figure, curve, how).
+SAME_SETTING = (("5b", "high", "by event"), ("1b", "high", "by time, the same runs"),
+                ("restitution", "1", "by time, shorter runs, fewer seeds and N"),
+                ("inertia", "10", "by time, shorter runs, fewer seeds and N"))
+
+
+def crossings_of_one_setting(folder):
+    """N_c for both frictions 1 wherever the report has it, and whether the values agree."""
+    found = []
+    for figure, curve, how in SAME_SETTING:
+        try:
+            c = claims.Folder(folder).crossing(figure, curve)
+        except (FileNotFoundError, IndexError, KeyError):
+            continue
+        if c.verdict == "crosses":
+            found.append((figure, c.at, how))
+    if len(found) < 2:
+        return ""
+    first = found[0][1]
+    apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9)
+                for _, at, _ in found[1:])
+    listed = "; ".join(f"{claims.number(at)} (figure {figure}, {how})" for figure, at, how in found)
+    return (f"N_c for both frictions 1 is estimated more than once: {listed}. The first is the one "
+            f"to quote; the others differ from it by at most {apart:.1f} standard errors.")
 
 
 def split(figures):
@@ -218,8 +249,10 @@ def cell(text):
     return str(text).replace("|", "\\|").replace("\n", " ")
 
 
-def markdown(about, judged):
+def markdown(about, judged, same=""):
     lines = ["# The paper, claim by claim", "", intro(about), "", f"**{counts(judged)}**", ""]
+    if same:
+        lines += [same, ""]
     for heading, which in in_short(judged):
         lines += [f"{heading}:", ""] + [f"- {says} — {found}" for says, found in which] + [""]
     lines += ["## Claim by claim", "", "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
@@ -299,6 +332,9 @@ def page(folder, about, judged):
              "<title>The paper, claim by claim</title>", f"<style>{CSS}</style></head><body>\n",
              "<h1>The paper, claim by claim</h1>", f"<p>{html.escape(intro(about))}</p>\n",
              f"<p><b>{html.escape(counts(judged))}</b></p>\n"]
+    same = crossings_of_one_setting(folder)
+    if same:
+        parts += [f"<p>{rich(same)}</p>\n"]
     for heading, which in in_short(judged):
         items = "".join(f"<li>{rich(says)} <span class=small>{rich(found)}</span></li>"
                         for says, found in which)
@@ -337,7 +373,7 @@ def main():
     except FileNotFoundError:
         sys.exit(f"There is no '{folder}/paper.json'; `swirl paper` writes it.")
     judged = judge(folder)
-    write(os.path.join(folder, "report.md"), markdown(about, judged))
+    write(os.path.join(folder, "report.md"), markdown(about, judged, crossings_of_one_setting(folder)))
     write(os.path.join(folder, "report.html"), page(folder, about, judged))
 
 

@@ -22,7 +22,7 @@ Json smallest_time(const RunConfig& config, const RunControl& control) {
     std::int64_t swirls = -1;  // of the last collision; none yet
     while (run.next_event()) {
         const Event& event = run.event();
-        if (event.kind != EventKind::path_vertex) {
+        if (event.kind == EventKind::disc_disc || event.kind == EventKind::disc_wall) {
             // Across the beginning of a swirl clocks are not compared: it is one in thousands.
             if (event.swirls == swirls && event.clock > last)
                 smallest = std::min(smallest, event.clock - last);

@@ -1,6 +1,7 @@
 #include "swirl/paper/paper.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -177,7 +178,8 @@ Json result_of(const PaperTask& task, const PaperControl& control, const PaperPa
 std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results,
                                     const std::map<std::string, Json>& runs) {
     std::vector<std::string> remarks;
-    std::int64_t drifting = 0, too_short = 0, in_warmup = 0, judged = 0, disagreeing = 0;
+    std::int64_t drifting = 0, too_short = 0, in_warmup = 0, judged = 0;
+    std::vector<std::string> disagreeing;
     for (std::size_t k = 0; k < results.size(); ++k) {
         for (const PaperTask& task : plan.points[k].runs)
             if (const Json& run = runs.at(task.key)["result"]; failed(run))
@@ -189,7 +191,7 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
         drifting += seeds["drifting"].get<std::int64_t>();
         too_short += seeds["too_short"].get<std::int64_t>();
         in_warmup += seeds["ended_in_warmup"].get<std::int64_t>();
-        disagreeing += at(seeds, {"disagree"}) == true ? 1 : 0;
+        if (at(seeds, {"disagree"}) == true) disagreeing.push_back(plan.points[k].name);
     }
     if (drifting + too_short > 0)
         remarks.push_back(fmt::format(
@@ -199,11 +201,13 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     if (in_warmup > 0)
         remarks.push_back(fmt::format(
             "{} of them ended before their warm-up did and are not averaged.", in_warmup));
-    if (disagreeing > 0)
+    if (!disagreeing.empty())
         remarks.push_back(fmt::format(
             "At {} of {} points the seeds scatter more than the errors within their runs can "
-            "explain (column scatter); their errors are those between the seeds.",
-            disagreeing, results.size()));
+            "explain (column scatter): {}. Their errors are those between the seeds; where runs "
+            "are "
+            "steady, these are mixtures of states that outlive a run.",
+            disagreeing.size(), results.size(), fmt::join(disagreeing, ", ")));
     return remarks;
 }
 
