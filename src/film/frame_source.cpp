@@ -98,7 +98,8 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
                 static_cast<double>(simulation->swirls()) + simulation->clock() / period;
             for (double k = 1.0; now + k * step < swirls; ++k) advance_to(now + k * step);
             advance_to(swirls);
-            return simulation->snapshot();
+            const Snapshot seen = simulation->snapshot();
+            return seen.are_spheres() ? seen.up_to_date() : seen;
         };
     };
     footage.path = outline(path);

@@ -76,6 +76,23 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
         c.discs, R, most, advice_on_room);
 }
 
+/// What spheres cannot do yet.
+std::optional<std::string> not_for_spheres(const RunConfig& c) {
+    if (c.body == Shape::disc) {
+        if (!c.floor) return {};
+        return "--floor is sliding, but discs have no floor; --body sphere would be right, or "
+               "--floor none.";
+    }
+    if (c.path == PathShape::circle)
+        return "--path is circle, but on it the friction of the floor would turn while a sphere "
+               "slides, and its flight be no parabola; --path polygon would be right.";
+    if (c.discs <= static_cast<std::int64_t>(most_spheres)) return {};
+    return fmt::format(
+        "--discs is {}, but of spheres no more than {} can be simulated: all pairs of them are "
+        "looked at.",
+        c.discs, most_spheres);
+}
+
 std::optional<std::string> warmup_too_long(const RunConfig& c) {
     if (!c.warmup || *c.warmup == 0) return {};
     if (c.periods) {
@@ -100,6 +117,7 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto answer = out_of_range(config)) return answer;
     if (auto answer = out_of_proportion(config)) return answer;
     if (auto answer = does_not_fit(config)) return answer;
+    if (auto answer = not_for_spheres(config)) return answer;
     return warmup_too_long(config);
 }
 
@@ -145,7 +163,9 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
                        make_path(c),
                        c.container_radius,
                        {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
-                       {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration}};
+                       {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration},
+                       c.body,
+                       {c.floor ? c.floor_friction * c.gravity : 0.0}};
     // Small against the container's speed (a tenth of it in the paper's dish), and there also when
     // the container stands still.
     const double small_speed = 0.02 * c.container_radius * c.omega();

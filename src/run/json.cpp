@@ -15,11 +15,13 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json counts_json(const EventCounts& counts) {
-    return {{"total", counts.total()},
-            {"disc_disc", counts.disc_disc},
-            {"disc_wall", counts.disc_wall},
-            {"path_vertex", counts.path_vertex},
-            {"elastic_by_tc_model", counts.elastic_by_tc}};
+    Json json = {{"total", counts.total()},
+                 {"disc_disc", counts.disc_disc},
+                 {"disc_wall", counts.disc_wall},
+                 {"path_vertex", counts.path_vertex},
+                 {"elastic_by_tc_model", counts.elastic_by_tc}};
+    if (counts.begins_to_roll > 0) json["begins_to_roll"] = counts.begins_to_roll;
+    return json;
 }
 
 Json rotation_json(const RotationEstimates& rotation) {
@@ -58,8 +60,12 @@ struct ToJson {
 
 Json config_json(const RunConfig& config) {
     Json json = Json::object();
-    for (const Parameter& p : run_parameters)
-        if (p.is_written()) json[p.name] = std::visit(ToJson(), value_of(p, config));
+    for (const Parameter& p : run_parameters) {
+        if (!p.is_written()) continue;
+        const ParameterValue value = value_of(p, config);
+        if (p.said_only_if_set && std::holds_alternative<std::monostate>(value)) continue;
+        json[p.name] = std::visit(ToJson(), value);
+    }
     return json;
 }
 

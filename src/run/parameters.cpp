@@ -111,7 +111,11 @@ ParameterTexts known_texts(const ParameterTexts& given) {
     return texts;
 }
 
+constexpr const char* inertia_names[] = {"paper", "ring", "solid", "sphere", "shell"};
+
 double inertia_named(std::string_view name, double mass, double radius) {
+    if (name == "sphere") return solid_sphere_inertia(mass, radius);
+    if (name == "shell") return shell_inertia(mass, radius);
     if (name == "ring") return ring_inertia(mass, radius);
     if (name == "solid") return solid_inertia(mass, radius);
     return paper_inertia * mass * radius * radius;
@@ -170,22 +174,68 @@ void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
     config.mu_disc = config.mu_wall = mu;
 }
 
-/// Names are multiples of m r²; a number is the moment of inertia itself.
-void read_inertia(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text == "paper" || text == "ring" || text == "solid") {
-        config.inertia = inertia_named(text, config.mass, config.radius);
-        return;
-    }
+void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    if (text != "experiment") unreadable("preset", text, "experiment");
+    config.body = Shape::sphere;
+    config.floor = true;
+    config.mu_disc = config.mu_wall = experiment_friction;
+    config.restitution = experiment_restitution;
+    config.container_radius = experiment_container_radius;
+    config.amplitude = experiment_amplitude;
+    config.period = experiment_period;
+    config.floor_friction = experiment_floor_friction;
+    config.gravity = experiment_gravity;
+}
+
+void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    if (text != "disc" && text != "sphere") unreadable("body", text, "disc or sphere");
+    config.body = text == "sphere" ? Shape::sphere : Shape::disc;
+}
+/// Nothing is said of discs, which are the rule.
+ParameterValue write_body(const RunConfig& config) {
+    return config.body == Shape::sphere ? ParameterValue("sphere") : ParameterValue();
+}
+
+void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    if (text != "none" && text != "sliding")
+        unreadable("floor", text,
+                   "none or sliding (a perfectly rough floor is the limit of a large "
+                   "--floor-friction)");
+    config.floor = text == "sliding";
+}
+ParameterValue write_floor(const RunConfig& config) {
+    return config.floor ? ParameterValue("sliding") : ParameterValue();
+}
+/// Said where there is a floor, or somebody asks for another.
+ParameterValue write_floor_friction(const RunConfig& config) {
+    const bool other = config.floor_friction != experiment_floor_friction;
+    return config.floor || other ? ParameterValue(config.floor_friction) : ParameterValue();
+}
+ParameterValue write_gravity(const RunConfig& config) {
+    const bool other = config.gravity != experiment_gravity;
+    return config.floor || other ? ParameterValue(config.gravity) : ParameterValue();
+}
+
+/// Names are multiples of m r²; a number is the moment of inertia itself. Not given: the paper's,
+/// or that of a solid sphere.
+void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+    if (config.body == Shape::sphere && !given.contains("inertia")) text = "sphere";
+    for (const char* name : inertia_names)
+        if (text == name) {
+            config.inertia = inertia_named(text, config.mass, config.radius);
+            return;
+        }
     const auto value = read_number(text);
     if (!value)
         unreadable("inertia", text,
-                   "a number above 0, or paper (10 m r^2), ring (m r^2) or solid (m r^2 / 2)");
+                   "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere "
+                   "(2/5 m r^2) or shell (2/3 m r^2)");
     config.inertia = *value;
 }
 
 /// By its name where it has one, so that it follows another mass or radius.
 std::string spell_inertia(const RunConfig& config) {
-    for (const char* name : {"paper", "ring", "solid"})
+    for (const char* name : inertia_names)
         if (config.inertia == inertia_named(name, config.mass, config.radius)) return name;
     return fmt::format("{}", config.inertia);
 }
@@ -351,6 +401,12 @@ ParameterTexts texts_of(const RunConfig& config) {
 }
 
 ParameterTexts overridden(ParameterTexts file, const ParameterTexts& by_hand) {
+    // A preset takes the place of all that it sets, and of what is made of that.
+    if (by_hand.contains("preset"))
+        for (const char* name :
+             {"body", "inertia", "floor", "floor_friction", "gravity", "mu", "mu_disc", "mu_wall",
+              "restitution", "container_radius", "amplitude", "period", "speed"})
+            file.erase(name);
     for (const auto& [name, text] : by_hand)
         if (const Parameter* const p = find_parameter(name))
             for (const char* other : p->instead_of)

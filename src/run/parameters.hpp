@@ -20,11 +20,22 @@
 
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
+#include "swirl/physics/floor.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
 
 enum class PathShape { polygon, circle };
+
+/// The paper's experiment in the units of its simulation: spheres of r = 3 mm in a dish of
+/// R = 25.5 mm, swirled at A = 5.75 mm with Ω = 11.81 /s. Lengths in r, speeds in AΩ. The frictions
+/// of plastic are not in the paper.
+inline constexpr double experiment_container_radius = 25.5 / 3.0;
+inline constexpr double experiment_amplitude = 5.75 / 3.0;
+inline constexpr double experiment_period = 2.0 * pi * experiment_amplitude;
+inline constexpr double experiment_gravity = 6.382;  // 9.81 m/s², in (AΩ)²/r
+inline constexpr double experiment_floor_friction = 0.3;
+inline constexpr double experiment_friction = 0.2, experiment_restitution = 0.9;
 
 /// A second size of disc. `count` of the discs have this radius and mass; the seed decides which
 /// places they get. Their moment of inertia is the same multiple of m r² as that of the others.
@@ -41,6 +52,9 @@ struct RunConfig {
     double contact_duration = 1e-3;  // t_c of the TC model; matters only for restitution < 1
     double mass = 1.0, radius = 1.0;
     double inertia = paper_inertia;  // of one disc, not divided by m r²
+    Shape body = Shape::disc;
+    bool floor = false;  // that spheres slide and roll on
+    double floor_friction = experiment_floor_friction, gravity = experiment_gravity;
     double container_radius = paper_container_radius;
     double amplitude = paper_amplitude;  // 0: the dish stands still
     PathShape path = PathShape::polygon;
@@ -82,10 +96,10 @@ using ParameterWriter = ParameterValue(const RunConfig& config);
 using ParameterSpeller = std::string(const RunConfig& config);
 
 /// Most parameters are a member of RunConfig and nothing else; the others have these of their own.
-ParameterReader read_mu, read_inertia, read_mixture, read_speed, read_path, read_sides,
-    read_periods, read_warmup;
-ParameterWriter write_mixture, write_speed, write_omega, write_path, write_sides, write_events,
-    write_warmup;
+ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_speed,
+    read_path, read_sides, read_periods, read_warmup;
+ParameterWriter write_body, write_floor, write_floor_friction, write_gravity, write_mixture,
+    write_speed, write_omega, write_path, write_sides, write_events, write_warmup;
 ParameterSpeller spell_inertia, spell_mixture;
 
 /// When a row is read: after those of earlier times, in terms of which it is.
@@ -109,7 +123,8 @@ struct Parameter {
     ParameterSpeller* spell = nullptr;  // the text that reads back as it, if not the value's
     const char* by_default = nullptr;   // what holds if nothing is given
     ReadingOrder order = ReadingOrder::first;
-    bool follows = false;  // written, but it follows from others: not read back
+    bool follows = false;           // written, but it follows from others: not read back
+    bool said_only_if_set = false;  // of spheres alone: results of discs say nothing of it
     /// Given by hand, it takes the place of these in a file.
     std::array<const char*, 2> instead_of = {};
 
@@ -130,6 +145,14 @@ inline constexpr const char *discs = "The discs", *container = "The container", 
 
 /// In the order of `swirl run --help`, of the JSON and of the axes of a sweep.
 inline constexpr auto run_parameters = std::to_array<Parameter>({
+    {.name = "preset",
+     .form = "experiment",
+     .description = "other values where nothing else is given: the paper's experiment with its "
+                    "spheres (r = 3 mm, R = 25.5 mm, A = 5.75 mm, Ω = 11.81 /s) on a floor, "
+                    "μ = 0.2, μ_f = 0.3, e = 0.9",
+     .group = parameter_group::discs,
+     .read = read_preset,
+     .by_default = ""},
     {.name = "discs",
      .symbol = "N",
      .form = "N",
@@ -166,12 +189,20 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .lowest = 0,
      .highest = largest_value,
      .by_default = ""},
+    {.name = "body",
+     .form = "disc|sphere",
+     .description = "discs, or spheres that turn in three dimensions (docs/spheres.md)",
+     .group = parameter_group::discs,
+     .read = read_body,
+     .write = write_body,
+     .by_default = "disc",
+     .said_only_if_set = true},
     {.name = "inertia",
      .symbol = "I",
      .unit = "mass · length²",
-     .form = "NUMBER|paper|ring|solid",
-     .description =
-         "moment of inertia of a disc: paper = 10 m r^2, ring = m r^2, solid = m r^2 / 2",
+     .form = "NUMBER|paper|ring|solid|sphere|shell",
+     .description = "moment of inertia: paper = 10 m r^2, ring = m r^2, solid (disc) = m r^2 / 2, "
+                    "sphere = 2/5 m r^2 (of spheres the default), shell = 2/3 m r^2",
      .group = parameter_group::discs,
      .member = &RunConfig::inertia,
      .lowest = 1e-12,
@@ -235,6 +266,38 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .member = &RunConfig::contact_duration,
      .lowest = 0,
      .highest = largest_value},
+    {.name = "floor",
+     .form = "none|sliding",
+     .description = "what spheres lie on: nothing that rubs, or a floor on which they slide and "
+                    "roll",
+     .group = parameter_group::discs,
+     .read = read_floor,
+     .write = write_floor,
+     .by_default = "none",
+     .said_only_if_set = true},
+    {.name = "floor_friction",
+     .symbol = "μ_f",
+     .form = "NUMBER",
+     .description = "with --floor sliding: friction of spheres with the floor",
+     .group = parameter_group::discs,
+     .member = &RunConfig::floor_friction,
+     .lowest = smallest_value,
+     .highest = largest_value,
+     .write = write_floor_friction,
+     .by_default = "0.3",
+     .said_only_if_set = true},
+    {.name = "gravity",
+     .symbol = "g",
+     .unit = "length / time²",
+     .form = "NUMBER",
+     .description = "with --floor sliding: what presses spheres on the floor",
+     .group = parameter_group::discs,
+     .member = &RunConfig::gravity,
+     .lowest = smallest_value,
+     .highest = largest_value,
+     .write = write_gravity,
+     .by_default = "6.382",
+     .said_only_if_set = true},
     {.name = "container_radius",
      .symbol = "R",
      .unit = "length",

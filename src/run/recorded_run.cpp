@@ -240,6 +240,12 @@ class Recorder {
 
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance) {
+    if (config.body == Shape::sphere && !(files.trajectory.empty() && files.event_log.empty()))
+        throw WrongCall(fmt::format(
+            "{} is '{}', but recordings do not know the three spins of spheres yet; without it the "
+            "run is right.",
+            files.trajectory.empty() ? "--log-events" : "--trajectory",
+            (files.trajectory.empty() ? files.event_log : files.trajectory).string()));
     return Recorder(config, files, provenance, control.observation, control.stop)(control);
 }
 

@@ -14,6 +14,8 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
+const char* word_for(Shape body) { return body == Shape::sphere ? "sphere" : "disc"; }
+
 bool frictionless(const RunConfig& c) { return c.mu_disc == 0.0 && c.mu_wall == 0.0; }
 
 std::string energy_sentence(const RunResult& r) {
@@ -90,11 +92,13 @@ std::string sense_of_rotation(const Estimate& e) {
 
 std::string headline(const RunResult& r) {
     const Estimate& e = r.rotation.by_event;
-    if (r.config.discs == 1) return "1 disc has no rotation about its own centre of mass.";
+    const char* const body = word_for(r.config.body);
+    if (r.config.discs == 1)
+        return fmt::format("1 {} has no rotation about its own centre of mass.", body);
     if (!r.has_whole_swirl())
-        return fmt::format("{} discs made no whole swirl{}, so nothing is averaged.",
-                           r.config.discs, r.warmup > 0 ? " after the warm-up" : "");
-    const std::string who = fmt::format("{} discs {}", r.config.discs, sense_of_rotation(e));
+        return fmt::format("{} {}s made no whole swirl{}, so nothing is averaged.", r.config.discs,
+                           body, r.warmup > 0 ? " after the warm-up" : "");
+    const std::string who = fmt::format("{} {}s {}", r.config.discs, body, sense_of_rotation(e));
     if (std::isnan(e.mean)) return who + ".";
     return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", who, with_error(e),
                        with_error(r.rotation.by_time));
@@ -112,9 +116,15 @@ std::string report(const RunResult& r) {
              fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
                          r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
-    line("events", fmt::format("{}: {} disc–disc, {} disc–wall, {} corners of the path",
-                               with_commas(r.events.total()), with_commas(r.events.disc_disc),
-                               with_commas(r.events.disc_wall), with_commas(r.events.path_vertex)));
+    const char* const body = word_for(r.config.body);
+    line("events",
+         fmt::format("{}: {} {}–{}, {} {}–wall, {} corners of the path{}",
+                     with_commas(r.events.total()), with_commas(r.events.disc_disc), body, body,
+                     with_commas(r.events.disc_wall), body, with_commas(r.events.path_vertex),
+                     r.events.begins_to_roll == 0
+                         ? ""
+                         : fmt::format(", {} times one begins to roll",
+                                       with_commas(r.events.begins_to_roll))));
     line("periods",
          fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
                      r.warmup, r.config.warmup_found ? " (found automatically)" : ""));

@@ -104,7 +104,7 @@ Run::Run(const RunConfig& config, RunControl control)
       periods_at_mark_(periods()),
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0) {
-    const Budget start = budget_of(snapshot_);
+    const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
     result_.invariant_at_start = start.invariant;
@@ -184,20 +184,20 @@ bool Run::next_event() {
     event_ = simulation_.step();
     sample_rotation_by_event();
     while (next_sample(rotation_times_)) {
-        rotation().sample_by_time(snapshot_);
+        rotation().sample_by_time(snapshot());
         spin().add(mean_spin(snapshot_));
     }
     if (observes())
-        while (next_sample(observation_times_)) control_.observation->sample(snapshot_);
+        while (next_sample(observation_times_)) control_.observation->sample(snapshot());
     return true;
 }
 
 void Run::pass_event() {
     simulation_.refresh(snapshot_, event_);
-    rotation().follow(snapshot_, event_);
+    rotation().follow(snapshot(), event_);
     rotation_is_sampled_ = false;
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
-    if (observes()) control_.observation->sample(event_, snapshot_);
+    if (observes()) control_.observation->sample(event_, snapshot());
     if (event_.kind == EventKind::path_vertex && simulation_.swirls() > event_.swirls)
         begin_period();
 }
@@ -271,7 +271,7 @@ std::string Run::reason_for_collapse() const {
 /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
 /// when nobody has to wait for it to be written (cluster_rotation.hpp).
 void Run::sample_rotation_by_event() {
-    if (!rotation_is_sampled_) rotation().sample(snapshot_);
+    if (!rotation_is_sampled_) rotation().sample(snapshot());
     rotation_is_sampled_ = true;
 }
 
@@ -317,7 +317,7 @@ RunResult Run::result() {
     result_.steady_spin = find_steady_state(spin().series().block_means());
     result_.events = simulation_.events();
     result_.periods = periods();
-    const Budget end = budget_of(snapshot_);
+    const Budget end = budget_of(snapshot());
     result_.energy = end.energy;
     result_.invariant = end.invariant;
     result_.state_hash = simulation_.state_hash();

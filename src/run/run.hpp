@@ -107,7 +107,12 @@ class Run {
     void pass_event();
 
     const Event& event() const { return event_; }
-    const Snapshot& snapshot() const { return snapshot_; }
+    /// Spheres brought up to date: an observer may take it that nobody is accelerated.
+    const Snapshot& snapshot() {
+        if (!snapshot_.are_spheres()) return snapshot_;
+        dated_ = snapshot_.up_to_date();
+        return dated_;
+    }
 
     /// k T / per_period from the beginning on; or k · interval, if that is above 0.
     SampleTimes sample_times(int per_period, double interval = 0.0) const {
@@ -149,7 +154,7 @@ class Run {
     const RunControl control_;
     const ContainerPath path_;
     Simulation simulation_;
-    Snapshot snapshot_;
+    Snapshot snapshot_, dated_;
     Event event_;
     SampleTimes rotation_times_, observation_times_;
     int events_to_look_up_;  // until stop, progress and collapse are thought of again

@@ -17,7 +17,12 @@ ROW = re.compile(r"^\| `(\w+)` \| [^|]* \| (`--([a-z-]+) [^`]*`)? \|", re.MULTIL
 # Where one tenth less than the default will not do.
 OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
          "speed": "2", "path": "circle", "periods": "50", "warmup": "2", "seed": "7",
-         "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5"}
+         "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
+         "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
+         "gravity": "2"}
+# Only in results of spheres, and what needs them.
+OF_SPHERES = {"body", "floor", "floor_friction", "gravity"}
+WITH = {"floor": ["--body", "sphere"]}
 
 
 def rows():
@@ -45,7 +50,7 @@ class Everywhere(InFolder):
 
     def test_the_page_knows_them_all(self):
         self.assertGreater(len(GIVEN), 15)
-        self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu"})
+        self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu", "preset"} - OF_SPHERES)
 
     def test_help(self):
         text = swirl("run", "--help").stdout
@@ -55,13 +60,13 @@ class Everywhere(InFolder):
     def test_option_file_and_dry_run(self):
         for name, option in GIVEN.items():
             with self.subTest(name):
-                by_option = swirl("run", option, another(name), "--dry-run")
+                by_option = swirl("run", option, another(name), *WITH.get(name, []), "--dry-run")
                 self.assertEqual(by_option.returncode, 0, by_option.stderr)
                 self.assertNotEqual(settings_in(by_option.stdout), PAPER)
                 for spelling in (name, name.replace("_", "-")):
                     with open(self.path("a.toml"), "w") as file:
                         file.write(f'{spelling} = "{another(name)}"\n')
-                    by_file = swirl("run", self.path("a.toml"), "--dry-run")
+                    by_file = swirl("run", self.path("a.toml"), *WITH.get(name, []), "--dry-run")
                     self.assertEqual(by_file.stdout, by_option.stdout, by_file.stderr)
                 # What it prints is that run again.
                 with open(self.path("a.toml"), "w") as file:
@@ -74,7 +79,8 @@ class Everywhere(InFolder):
     def test_axis_of_a_sweep(self):
         for name, option in GIVEN.items():
             with self.subTest(name):
-                done = swirl("sweep", option, another(name), "--out", self.path("s"), "--dry-run")
+                done = swirl("sweep", option, another(name), *WITH.get(name, []), "--out",
+                             self.path("s"), "--dry-run")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(f"  {name}: {another(name)}", done.stdout)
 
@@ -88,7 +94,7 @@ class Everywhere(InFolder):
             with self.subTest(name):
                 shutil.copy(self.path("kept"), self.path("copy"))
                 length = [] if name in ("events", "periods") else ["--events", "1e14"]
-                done = swirl("run", *length, option, another(name), "--checkpoint",
+                done = swirl("run", *length, option, another(name), *WITH.get(name, []), "--checkpoint",
                              self.path("copy"), "--resume")
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn("belongs to another run", done.stderr)

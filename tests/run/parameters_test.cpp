@@ -77,9 +77,11 @@ TEST(RunParameters, EveryNameIsOnceInTheListAndResolves) {
 std::string another(const Parameter& p) {
     static const std::map<std::string, std::string> words = {
         {"mu", "0.5"},      {"inertia", "ring"}, {"mixture", "2:1.2"}, {"speed", "2"},
-        {"path", "circle"}, {"periods", "50"},   {"warmup", "7"}};
+        {"path", "circle"}, {"periods", "50"},   {"warmup", "7"},      {"preset", "experiment"},
+        {"body", "sphere"}, {"floor", "sliding"}};
     if (const auto found = words.find(p.name); found != words.end()) return found->second;
-    const ParameterValue value = value_of(p, {});
+    const ParameterValue value =
+        p.said_only_if_set ? ParameterValue(std::stod(p.by_default)) : value_of(p, {});
     if (const auto* number = std::get_if<double>(&value))
         return fmt::format("{}", *number == p.lowest ? 0.5 * p.highest : 0.9 * *number);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole - 1);
@@ -91,9 +93,12 @@ std::string another(const Parameter& p) {
 TEST(RunParameters, EveryOneIsInTheJsonAndComesBackFromIt) {
     const std::string paper = config_json({}).dump();
     for (const Parameter& p : run_parameters) {
-        EXPECT_EQ(config_json({}).contains(p.name), p.is_written()) << p.name;
+        EXPECT_EQ(config_json({}).contains(p.name), p.is_written() && !p.said_only_if_set)
+            << p.name;
         if (!p.can_be_given()) continue;
-        const RunConfig config = resolve({{p.name, another(p)}});
+        ParameterTexts texts{{p.name, another(p)}};
+        if (p.name == std::string("floor")) texts["body"] = "sphere";  // discs have none
+        const RunConfig config = resolve(texts);
         const nlohmann::ordered_json json = config_json(config);
         EXPECT_NE(json.dump(), paper) << p.name;
         EXPECT_EQ(config_json(resolve(parameters_in(json))), json) << p.name;
@@ -144,6 +149,35 @@ TEST(RunParameters, RangesAreRefusedAtBothEndsWithTheirNumbers) {
                     testing::HasSubstr("to "))
             << p.name;
     }
+}
+
+TEST(RunParameters, SpheresAreSolidUnlessTheirInertiaIsGiven) {
+    EXPECT_EQ(resolve({{"body", "sphere"}, {"mass", "2"}}).inertia, 0.8);
+    EXPECT_DOUBLE_EQ(resolve({{"body", "sphere"}, {"inertia", "shell"}}).inertia, 2.0 / 3.0);
+    EXPECT_EQ(resolve({{"body", "sphere"}, {"inertia", "paper"}}).inertia, 10.0);
+}
+TEST(RunParameters, ThePresetIsTheExperimentAndWhatIsGivenBesidesWins) {
+    const RunConfig experiment = resolve({{"preset", "experiment"}});
+    EXPECT_EQ(experiment.body, Shape::sphere);
+    EXPECT_TRUE(experiment.floor);
+    EXPECT_DOUBLE_EQ(experiment.container_radius, 8.5);
+    EXPECT_NEAR(experiment.amplitude / experiment.container_radius, 0.2255, 1e-4);
+    // 9.81 m/s² for a length of 3 mm and a speed of 67.9 mm/s.
+    EXPECT_NEAR(experiment.gravity, 9.81 * 3e-3 / (67.9075e-3 * 67.9075e-3), 1e-3);
+    EXPECT_EQ(experiment.inertia, 0.4);
+    const RunConfig other = resolve({{"preset", "experiment"}, {"mu", "0.15"}, {"floor", "none"}});
+    EXPECT_EQ(other.mu_wall, 0.15);
+    EXPECT_FALSE(other.floor);
+    EXPECT_EQ(resolve(texts_of(experiment)).gravity, experiment.gravity);
+    EXPECT_EQ(config_json(resolve(overridden(texts_of({}), {{"preset", "experiment"}}))),
+              config_json(resolve({{"preset", "experiment"}, {"events", "1e6"}})));
+}
+TEST(RunParameters, WhatSpheresCannotDoIsRefused) {
+    EXPECT_THAT(refusal({{"floor", "sliding"}}), testing::HasSubstr("--body sphere"));
+    EXPECT_THAT(refusal({{"body", "sphere"}, {"path", "circle"}}), testing::HasSubstr("parabola"));
+    EXPECT_THAT(refusal({{"body", "sphere"}, {"discs", "65"}, {"container_radius", "20"}}),
+                testing::HasSubstr("no more than 64"));
+    EXPECT_THAT(refusal({{"body", "sphere"}, {"floor", "rough"}}), testing::HasSubstr("limit"));
 }
 
 TEST(RunParameters, BothSpellingsOfANameAreRead) {

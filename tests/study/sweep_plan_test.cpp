@@ -42,6 +42,7 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         const std::string value = name == "mixture"   ? "2:1.2"
                                   : name == "warmup"  ? "7"
                                   : name == "periods" ? "50"
+                                  : name == "preset"  ? "experiment"
                                   : text.empty()      ? "1"
                                                       : text;
         const SweepPlan plan = make_plan({{name, value}}, 1);
