@@ -59,9 +59,11 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
                  "-movflags", "+faststart"});
             break;
         case MovieFormat::webm:
-            add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used",
-                 "5", "-row-mt", "1", "-tile-columns", "1", "-threads", "2", "-pix_fmt",
-                 "yuv420p"});
+            // The quicker way of this encoder: as like the drawing as "good" with 5 (SSIM 0.963
+            // both), in a fifth of the time, and half as large again.
+            add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "realtime",
+                 "-cpu-used", "6", "-row-mt", "1", "-tile-columns", "2", "-threads", "2",
+                 "-pix_fmt", "yuv420p"});
             break;
         case MovieFormat::gif:
             add({"-filter_threads", "1", "-filter_complex",

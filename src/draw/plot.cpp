@@ -29,6 +29,52 @@ std::string number(double value, double step) {
     return (value < -0.5 * step ? "−" : "") + std::string(text);
 }
 
+/// How times are written: where the steps are tiny, counted from the beginning and in a power of
+/// ten, since 20.000001 and 20.000002 tell nobody anything.
+struct TimeAxis {
+    double origin = 0.0, unit = 1.0;
+    std::string label;
+};
+
+std::string counted_from(double time) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", time);
+    return text;
+}
+
+TimeAxis time_axis(const PlotStyle& style, double step) {
+    TimeAxis axis{0.0, 1.0, style.time_label};
+    if (step >= 1e-3) return axis;
+    const int thousands = static_cast<int>(std::floor(std::log10(step) / 3.0 + 1e-9));
+    axis.origin = style.from;
+    axis.unit = std::pow(10.0, 3 * thousands);
+    axis.label = "10$^{−" + std::to_string(-3 * thousands) + "}$ " + style.time_label;
+    if (style.from > 0.0) axis.label += " after " + counted_from(style.from);
+    return axis;
+}
+
+/// Names that stand beside the curves, kept apart from each other and from what is above them.
+struct Tag {
+    const Curve* curve;
+    Vec2 place;
+    Align align;
+};
+
+void keep_apart(std::vector<Tag>& tags, double top, double bottom, double least) {
+    std::stable_sort(tags.begin(), tags.end(),
+                     [](const Tag& a, const Tag& b) { return a.place.y < b.place.y; });
+    double lowest = top;
+    for (Tag& tag : tags) {
+        tag.place.y = std::max(tag.place.y, lowest);
+        lowest = tag.place.y + least;
+    }
+    double highest = bottom;
+    for (auto tag = tags.rbegin(); tag != tags.rend(); ++tag) {
+        tag->place.y = std::min(tag->place.y, highest);
+        highest = tag->place.y - least;
+    }
+}
+
 void polyline(cairo_t* cairo, const Rectangle& inner, const PlotStyle& style, const Curve& curve,
               const std::vector<double>& values, double now) {
     bool drawing = false;
@@ -103,15 +149,21 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
     const double time_step =
         std::max(round_step(style.to - style.from,
                             std::max(2, static_cast<int>(inner.width / (5.0 * style.type)))),
-                 1e-9);
-    for (double k = std::ceil(style.from / time_step - 1e-9);
-         k * time_step <= style.to * (1 + 1e-9); k += 1.0) {
-        const Vec2 p = place(inner, style, k * time_step, style.lowest);
-        draw_label(canvas, number(k * time_step, time_step), {p.x, p.y + 1.2 * style.type}, tick);
+                 1e-12);
+    const TimeAxis axis = time_axis(style, time_step);
+    const double from = style.from - axis.origin, to = style.to - axis.origin;
+    for (double k = std::ceil(from / time_step - 1e-9); k * time_step <= to + 1e-9 * time_step;
+         k += 1.0) {
+        const Vec2 p = place(inner, style, axis.origin + k * time_step, style.lowest);
+        const std::string text = number(k * time_step / axis.unit, time_step / axis.unit);
+        // Nothing of it beyond the plot, and so beyond the page.
+        const double half = 0.5 * label_width(canvas, text, tick);
+        const double x = std::clamp(p.x, area.x + half, area.x + area.width - half);
+        draw_label(canvas, text, {x, p.y + 1.2 * style.type}, tick);
     }
     const LabelStyle name{.size = style.type, .color = theme.ink};
-    draw_label(canvas, style.time_label,
-               {inner.x + 0.5 * (inner.width - label_width(canvas, style.time_label, name)),
+    draw_label(canvas, axis.label,
+               {inner.x + 0.5 * (inner.width - label_width(canvas, axis.label, name)),
                 inner.y + inner.height + 2.2 * style.type},
                name);
 }
@@ -140,6 +192,7 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
         cairo_stroke(cairo);
     }
     cairo_restore(cairo);
+    std::vector<Tag> tags;
     for (const Curve& curve : curves) {
         const auto after = std::upper_bound(curve.time.begin(), curve.time.end(), now);
         if (after == curve.time.begin()) continue;
@@ -150,16 +203,24 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
         cairo_arc(cairo, p.x, p.y, 2.4 * line, 0.0, 2.0 * 3.14159265358979323846);
         canvas.set(curve.color);
         cairo_fill(cairo);
-        if (!curve.label.empty()) {
-            const bool left = p.x > inner.x + 0.8 * inner.width;
-            draw_label(canvas, curve.label,
-                       {p.x + (left ? -0.6 : 0.6) * style.type, p.y - 0.5 * style.type},
-                       {.size = 0.92 * style.type,
-                        .color = curve.color,
-                        .align = left ? Align::right : Align::left,
-                        .halo = theme.floor});
-        }
+        if (curve.label.empty()) continue;
+        const bool left = p.x > inner.x + 0.8 * inner.width;
+        tags.push_back({&curve,
+                        {p.x + (left ? -0.6 : 0.6) * style.type, p.y - 0.5 * style.type},
+                        left ? Align::right : Align::left});
     }
+    // In the upper left corner stands the name of the quantity.
+    const bool in_corner = std::any_of(tags.begin(), tags.end(), [&](const Tag& tag) {
+        return tag.place.x < inner.x + 4.0 * style.type;
+    });
+    keep_apart(tags, inner.y + (in_corner ? 2.6 : 1.0) * style.type,
+               inner.y + inner.height - 0.2 * style.type, 1.1 * style.type);
+    for (const Tag& tag : tags)
+        draw_label(canvas, tag.curve->label, tag.place,
+                   {.size = 0.92 * style.type,
+                    .color = tag.curve->color,
+                    .align = tag.align,
+                    .halo = theme.floor});
     // The name of the quantity stands upright in the upper left corner, before all lines.
     draw_label(canvas, style.vertical_label,
                {inner.x + 0.5 * style.type, inner.y + 1.35 * style.type},

@@ -33,7 +33,24 @@ Sheet::Sheet(const SheetSpec& spec) : spec_(spec) {
     lay_out(ruler);
 }
 
-void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
+/// In the middle over its dish; on the right where the number of turns stands on the left.
+void Sheet::lay_out_caption(const Canvas& canvas, const Panel& panel, const Rectangle& square,
+                            double gap) {
+    LabelStyle style{.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::center};
+    const double number = panel.turned ? 7.0 * type_ : 0.0;
+    style.size = fitting_size(canvas, panel.caption, style, square.width + 0.8 * gap - number);
+    Vec2 place{square.x + 0.5 * square.width, number_line_};
+    if (panel.turned) {
+        style.align = Align::right;
+        place.x = square.x + square.width;
+        // The clock may stand on the same line.
+        if (clock_place_ && clock_align_ == Align::right)
+            place.x = std::min(place.x, clock_place_->x - clock_width());
+    }
+    texts_.push_back({panel.caption, place, style});
+}
+
+void Sheet::lay_out_panels(const Canvas& canvas, const Rectangle& area, double side, double gap) {
     const auto count = static_cast<double>(spec_.panels.size());
     double x = area.x + 0.5 * (area.width - count * side - (count - 1.0) * gap);
     const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
@@ -45,11 +62,7 @@ void Sheet::lay_out_panels(const Rectangle& area, double side, double gap) {
         const Rectangle square{x, y, side, side};
         views_.push_back(fitting_view(square, panel.frame, panel.container_radius, panel.amplitude,
                                       panel.turned ? 0.1 : 0.0));
-        if (caption > 0.0)
-            texts_.push_back(
-                {panel.caption,
-                 {x + 0.5 * side, y - 0.55 * type_},
-                 {.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::center}});
+        if (caption > 0.0) lay_out_caption(canvas, panel, {x, y, side, side}, gap);
         x += side + gap;
     }
     // One scale for all, so that dishes can be compared by eye.
@@ -83,7 +96,7 @@ void Sheet::lay_out(const Canvas& canvas) {
         const double column = std::min(width - panels - 4.0 * margin_, column_width(canvas));
         const double total = panels + 2.0 * margin_ + column;
         const double x = 0.5 * (width - total);
-        lay_out_panels({x, margin_, panels, side}, panel, margin_);
+        lay_out_panels(canvas, {x, margin_, panels, side}, panel, margin_);
         lay_out_column(canvas, {x + panels + 2.0 * margin_, margin_, column, side});
         return;
     }
@@ -133,25 +146,43 @@ void Sheet::lay_out_column(const Canvas& canvas, const Rectangle& column) {
     if (spec_.clock) clock_place_ = Vec2{column.x, bottom - 0.5 * type_};
 }
 
+/// Whether headline, captions and clock have room beside each other.
+bool Sheet::title_shares_line(const Canvas& canvas, double inner) const {
+    const LabelStyle title{.size = 1.5 * type_, .color = spec_.style.theme.ink, .bold = true};
+    const LabelStyle caption{.size = type_, .color = spec_.style.theme.ink};
+    const auto count = static_cast<double>(spec_.panels.size());
+    double widest = 0.0;
+    for (const Panel& panel : spec_.panels) {
+        if (panel.turned) return false;
+        widest = std::max(widest, label_width(canvas, panel.caption, caption));
+    }
+    // The captions stand over dishes that are no wider than the height of the page allows.
+    const double side = std::min(0.62 * spec_.size.height, inner / count);
+    const double captions = (count - 1.0) * (side + margin_) + widest;
+    const double left = 0.5 * (inner - captions);
+    return left > label_width(canvas, spec_.title, title) + 2.0 * type_ && left > 9.5 * type_;
+}
+
 void Sheet::lay_out_bands(const Canvas& canvas) {
     const Theme& theme = spec_.style.theme;
     const double width = spec_.size.width, height = spec_.size.height;
     const double inner = width - 2.0 * margin_;
     const bool readable = type_ >= smallest_type;
     double top = margin_, bottom = height - margin_;
-    const double clock_width = readable && spec_.clock ? 7.5 * type_ : 0.0;
+    const double clock = readable && spec_.clock ? clock_width() : 0.0;
+    const bool shared = title_shares_line(canvas, inner);
     if (readable && (!spec_.title.empty() || spec_.clock)) {
         if (!spec_.title.empty()) {
             LabelStyle style{.size = 1.5 * type_, .color = theme.ink, .bold = true};
-            style.size = fitting_size(canvas, spec_.title, style, inner - clock_width);
+            style.size = fitting_size(canvas, spec_.title, style, inner - clock);
             texts_.push_back({spec_.title, {margin_, top + 1.3 * type_}, style});
         }
         if (spec_.clock) {
             clock_place_ = Vec2{width - margin_, top + 1.15 * type_};
             clock_align_ = Align::right;
         }
-        // Without a headline the clock shares the line of the captions.
-        top += spec_.title.empty() ? 0.0 : 2.2 * type_;
+        // A short headline and the clock share the line of the captions; so the dish is larger.
+        top += spec_.title.empty() || shared ? 0.0 : 2.2 * type_;
     }
     if (readable && !spec_.parameters.empty()) {
         const std::string line = joined(spec_.parameters);
@@ -163,7 +194,7 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
         }
     }
     if (readable && spec_.plot) {
-        const double plot = std::clamp(0.165 * height, 6.0 * type_, 0.3 * height);
+        const double plot = std::clamp(0.15 * height, 6.0 * type_, 0.3 * height);
         const double plot_width = std::min(inner, 2.2 * height);
         plot_area_ = Rectangle{0.5 * (width - plot_width), bottom - plot, plot_width, plot};
         spec_.plot->type = 0.85 * type_;
@@ -180,8 +211,34 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
     const double side =
         std::max(1.0, std::min(bottom - top - caption, (inner - (count - 1.0) * margin_) / count));
     const double spare = inner - count * side;
-    lay_out_panels({margin_, top, inner, bottom - top}, side,
+    lay_out_panels(canvas, {margin_, top, inner, bottom - top}, side,
                    count > 1.0 ? std::min(spare / (count - 1.0), 3.0 * margin_) : 0.0);
+}
+
+/// Of all that the legend holds, before it is made to fit.
+double Sheet::legend_width(const Canvas& canvas, const LabelStyle& label) const {
+    double width = 0.0;
+    const auto add = [&](double mark, std::string_view text) {
+        width += mark * type_ + label_width(canvas, text, label) + 1.6 * type_;
+    };
+    switch (spec_.style.coloring) {
+        case Coloring::pinned:
+            add(1.4, "pinned");
+            add(1.4, "loose");
+            break;
+        case Coloring::spin:
+            add(14.5, "spin $ω_{i}$");
+            break;
+        case Coloring::speed:
+            add(12.0, "speed");
+            break;
+        default:
+            break;
+    }
+    if (!spec_.style.forces) return width;
+    add(2.2, "centrifugal");
+    add(2.2, "Coriolis");
+    return width;
 }
 
 void Sheet::draw_legend(const Canvas& canvas) const {
@@ -191,39 +248,42 @@ void Sheet::draw_legend(const Canvas& canvas) const {
     const Theme& theme = style.theme;
     const Rectangle& area = *legend_area_;
     const double baseline = area.y + 1.05 * type_, middle = baseline - 0.34 * type_;
-    const LabelStyle label{.size = 0.95 * type_, .color = theme.ink};
+    const LabelStyle full{.size = 0.95 * type_, .color = theme.ink};
+    const double type =
+        type_ * std::min(1.0, area.width / std::max(legend_width(canvas, full), 1.0));
+    const LabelStyle label{.size = 0.95 * type, .color = theme.ink};
     double x = area.x;
     const auto spot = [&](const Color& color, std::string_view text) {
         cairo_new_sub_path(cairo);
-        cairo_arc(cairo, x + 0.45 * type_, middle, 0.45 * type_, 0.0, 2.0 * pi);
+        cairo_arc(cairo, x + 0.45 * type, middle, 0.45 * type, 0.0, 2.0 * pi);
         canvas.set(color);
         cairo_fill(cairo);
-        x += 1.4 * type_;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+        x += 1.4 * type;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
     };
     const auto arrow = [&](const Color& color, std::string_view text) {
-        draw_arrow(canvas, {x, middle}, {x + 1.7 * type_, middle}, 0.16 * type_, color);
-        x += 2.2 * type_;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+        draw_arrow(canvas, {x, middle}, {x + 1.7 * type, middle}, 0.16 * type, color);
+        x += 2.2 * type;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
     };
     const auto bar = [&](bool diverging, std::string_view low, std::string_view high,
                          std::string_view text) {
-        x += draw_label(canvas, low, {x, baseline}, label) + 0.5 * type_;
+        x += draw_label(canvas, low, {x, baseline}, label) + 0.5 * type;
         constexpr int steps = 64;
-        const double length = 7.0 * type_;
+        const double length = 7.0 * type;
         for (int k = 0; k < steps; ++k) {
             const double u = (k + 0.5) / steps;
             canvas.set(diverging ? diverging_color(2.0 * u - 1.0, theme.neutral)
                                  : sequential_color(u));
             // Each step reaches under the next, so no seam shows between them.
             const double end = k + 1 < steps ? (k + 1.5) / steps : 1.0;
-            cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * type_,
-                            length * (end - static_cast<double>(k) / steps), 0.8 * type_);
+            cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * type,
+                            length * (end - static_cast<double>(k) / steps), 0.8 * type);
             cairo_fill(cairo);
         }
-        x += length + 0.5 * type_;
-        x += draw_label(canvas, high, {x, baseline}, label) + 0.9 * type_;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type_;
+        x += length + 0.5 * type;
+        x += draw_label(canvas, high, {x, baseline}, label) + 0.9 * type;
+        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
     };
     switch (style.coloring) {
         case Coloring::pinned:
@@ -276,7 +336,7 @@ void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> cont
     if (plot_area_)
         draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
     if (clock_place_)
-        draw_label(canvas, "swirl " + fixed(swirls, 2), *clock_place_,
+        draw_label(canvas, "swirl " + fixed(swirls, spec_.clock_decimals), *clock_place_,
                    {.size = type_,
                     .color = spec_.style.theme.faint_ink,
                     .align = clock_align_,

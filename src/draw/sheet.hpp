@@ -33,6 +33,7 @@ struct SheetSpec {
     std::vector<Panel> panels;
     std::optional<PlotStyle> plot;  // its `type` is set by the layout
     bool clock = true;              // the running count of swirls
+    int clock_decimals = 2;
 };
 
 class Sheet {
@@ -59,11 +60,16 @@ class Sheet {
     void lay_out(const Canvas& canvas);
     void lay_out_column(const Canvas& canvas, const Rectangle& column);
     void lay_out_bands(const Canvas& canvas);
-    void lay_out_panels(const Rectangle& area, double side, double gap);
+    void lay_out_panels(const Canvas& canvas, const Rectangle& area, double side, double gap);
+    void lay_out_caption(const Canvas& canvas, const Panel& panel, const Rectangle& square,
+                         double gap);
+    bool title_shares_line(const Canvas& canvas, double inner) const;
+    double legend_width(const Canvas& canvas, const LabelStyle& label) const;
     void draw_legend(const Canvas& canvas) const;
     void draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const;
     double legend_height() const;
     double column_width(const Canvas& canvas) const;
+    double clock_width() const { return (6.3 + 0.6 * spec_.clock_decimals) * type_; }
 
     SheetSpec spec_;
     double type_ = 0.0;  // size of the ordinary type

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "swirl/draw/film.hpp"
@@ -14,6 +15,7 @@
 #include "swirl/files/trajectory.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
@@ -49,6 +51,18 @@ std::string symbol_of(const char* name) {
     const std::size_t subscript = symbol.find('_');
     if (subscript == symbol.npos) return "$" + symbol + "$";
     return fmt::format("${}_{{{}}}$", symbol.substr(0, subscript), symbol.substr(subscript + 1));
+}
+
+std::string caption_of(const RunConfig& config) {
+    return fmt::format("{} disc{}", config.discs, config.discs == 1 ? "" : "s");
+}
+
+/// Nothing where it is of another version, or there is nothing.
+std::optional<RunConfig> config_in(const std::string& parameters) try {
+    if (parameters.empty()) return std::nullopt;
+    return resolve(parameters_in(parameters));
+} catch (const WrongCall&) {
+    return std::nullopt;
 }
 
 }  // namespace
@@ -106,7 +120,7 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     footage.container_radius = config.container_radius;
     footage.amplitude = config.amplitude;
     footage.period = config.period;
-    footage.caption = fmt::format("{} disc{}", config.discs, config.discs == 1 ? "" : "s");
+    footage.caption = caption_of(config);
     footage.parameters = parameter_labels(config);
     return footage;
 }
@@ -120,7 +134,9 @@ Footage rolling(const RollingBall& ball, double amplitude, double period) {
     footage.container_radius = ball.container_radius;
     footage.amplitude = amplitude;
     footage.period = period;
-    footage.caption = ball.slip == 0.0 ? "one ball that slips" : "one ball that rolls";
+    footage.caption = ball.slip == 0.0   ? "one ball that slips"
+                      : ball.slip == 1.0 ? "one ball that rolls"
+                                         : "one ball that rolls and slips";
     footage.parameters = {"$s$ = " + plain(ball.slip),
                           "$γ$ = $s$ $R$/$R_{ball}$ = " + plain(rounded(ball.gamma())),
                           "$ϖ$/$Ω$ = 1 − $γ$ = " + plain(rounded(ball.rotation()))};
@@ -290,7 +306,15 @@ Footage recorded(const std::string& file) try {
     auto reader = std::make_shared<TrajectoryReader>(file);
     if (reader->frames() == 0) throw Failure("There is not one frame in " + file + ".");
     const std::string name = std::filesystem::path(file).filename().string();
-    return recorded(series_of(reader), escaped(name));
+    Footage footage = recorded(series_of(reader), escaped(name));
+    // What the file says of its run is what a film of the run itself would say.
+    if (const auto config = config_in(reader->provenance("parameters"))) {
+        footage.caption = caption_of(*config);
+        const std::string frames = footage.parameters.back();
+        footage.parameters = parameter_labels(*config);
+        footage.parameters.push_back(frames);
+    }
+    return footage;
 } catch (const FileError& error) {
     throw Failure(error.what());
 }

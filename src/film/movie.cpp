@@ -54,6 +54,7 @@ double rotation_of(const Snapshot& s) {
 /// What a first pass over the swirls finds: curves for the plot, ends of the colour scales.
 struct Survey {
     std::vector<double> spins, speeds;
+    bool single_disc = true;  // in all that was looked at
 
     Curve look(const Footage& footage, Frame frame, double start, double end) {
         const Reel reel = footage.open();
@@ -66,6 +67,7 @@ struct Survey {
             const double swirls = begin + static_cast<double>(k) / plot_samples;
             if (swirls > end + 1e-9) break;
             const Snapshot s = reel(std::min(swirls, end));
+            single_disc = single_disc && s.size() == 1;
             const double rotation = rotation_of(s) / omega;
             curve.time.push_back(swirls);
             curve.raw.push_back(rotation);
@@ -301,6 +303,10 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
     spec.style.angles = appearance.angles;
     spec.style.slice = appearance.slice;
     spec.clock = appearance.texts && appearance.clock;
+    // In slow motion the clock must still be seen to move.
+    if (end > start)
+        spec.clock_decimals =
+            std::clamp(2 + static_cast<int>(std::ceil(-std::log10(end - start))), 2, 12);
     if (appearance.texts) {
         spec.title = escaped(appearance.title);
         if (spec.title.empty() && footage.size() == 1) spec.title = footage[0].caption;
@@ -330,8 +336,8 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
     }
     const bool scaled =
         appearance.coloring == Coloring::spin || appearance.coloring == Coloring::speed;
+    Survey survey;
     if (appearance.plot || appearance.turned || scaled) {
-        Survey survey;
         for (std::size_t k = 0; k < footage.size(); ++k) {
             Curve curve = survey.look(footage[k], appearance.frames.front(), start, end);
             curve.color = k == 0 ? appearance.theme.curve : appearance.theme.pinned;
@@ -348,6 +354,8 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
                        .highest = 1.0,
                        .type = 10.0};
         fit_range(plot, curves);
+        // A disc alone has no rotation about itself but its spin.
+        if (survey.single_disc) plot.vertical_label = "$ω$/$Ω$";
         spec.plot = plot;
     }
     return Sheet(spec);

@@ -57,5 +57,80 @@ TEST(Plot, TheCurveEndsAtThePresent) {
     EXPECT_NEAR(at_half, 3.6 * 12 + 0.5 * (600 - 4.2 * 12), 4);
 }
 
+struct Rows {
+    int first = 1000, last = -1;
+};
+
+TEST(Plot, NamesOfCurvesThatMeetDoNotLieOverEachOther) {
+    const Theme theme = dark_theme();
+    for (const double height : {0.05, 0.5, 0.97})
+        for (const double now : {0.0, 3.0, 10.0}) {
+            std::vector<Curve> curves(2);
+            curves[0].color = {1.0, 0.0, 0.0};
+            curves[1].color = {0.0, 1.0, 0.0};
+            for (Curve& curve : curves) {
+                curve.time = {0.0, now};
+                curve.raw = curve.smooth = {height, height};
+                curve.label = "XXXX";
+            }
+            const PlotStyle style{
+                .from = 0.0, .to = 10.0, .lowest = 0.0, .highest = 1.0, .type = 12.0};
+            Canvas canvas(Size{600, 200});
+            canvas.fill_page(theme.page);
+            draw_plot_curves(canvas, {0, 0, 600, 200}, theme, style, curves, now);
+            // The names stand right of the dot, at the end left of it, where the lines are, too:
+            // those are in few rows.
+            const double inner = 3.6 * 12, width = 600 - 4.2 * 12;
+            const int dot = int(inner + width * now / 10.0);
+            Rows rows[2];
+            for (int k = 0; k < 2; ++k)
+                for (int y = 0; y < 200; ++y) {
+                    int found = 0;
+                    for (int x = dot + 5; x < std::min(600, dot + 60); ++x) {
+                        const Pixel p = pixel(canvas, x, y);
+                        const int own = k == 0 ? p.red : p.green, other = k == 0 ? p.green : p.red;
+                        found += own > 110 && 2 * other < own ? 1 : 0;
+                    }
+                    if (found == 0) continue;
+                    rows[k].first = std::min(rows[k].first, y);
+                    rows[k].last = std::max(rows[k].last, y);
+                }
+            if (now == 10.0) continue;  // no room on the right
+            ASSERT_GE(rows[0].last, 0);
+            ASSERT_GE(rows[1].last, 0);
+            EXPECT_TRUE(rows[0].last < rows[1].first || rows[1].last < rows[0].first)
+                << height << " at " << now;
+            // And at the beginning not over the name of the quantity in the corner.
+            if (now == 0.0) {
+                EXPECT_GT(std::min(rows[0].first, rows[1].first), 0.4 * 12 + 1.4 * 12);
+            }
+        }
+}
+
+// 20.0000001, 20.0000002 …: neither all alike nor beyond the page.
+TEST(Plot, NumbersOfATinyAxisStayOnThePageAndDiffer) {
+    const Theme theme = dark_theme();
+    for (const double span : {5e-10, 5e-7, 3e-4, 0.02, 5.0}) {
+        const PlotStyle style{
+            .from = 20.0, .to = 20.0 + span, .lowest = -1.0, .highest = 1.0, .type = 12.0};
+        Canvas canvas(Size{700, 200});
+        canvas.fill_page(theme.page);
+        // Drawn in the middle of a larger page, to see what would be cut off.
+        draw_plot_frame(canvas, {100, 0, 500, 200}, theme, style);
+        for (int y = 0; y < 200; ++y)
+            for (const int x : {99, 601}) {
+                EXPECT_TRUE(is(pixel(canvas, x, y), theme.page)) << span << ": " << x << ", " << y;
+            }
+        // Beneath the plot, the first and the last number: not the same picture.
+        const auto ink = [&](int from, int to) {
+            double sum = 0.0;
+            for (int x = from; x < to; ++x)
+                for (int y = 172; y < 187; ++y) sum += pixel(canvas, x, y).green;
+            return sum;
+        };
+        EXPECT_NE(ink(120, 170), ink(560, 601)) << span;
+    }
+}
+
 }  // namespace
 }  // namespace swirl

@@ -371,6 +371,54 @@ TEST(Sheet, DishesSideBySideHaveOneScaleAndDoNotOverlap) {
               (2.0 * reach + 1.892) * sheet.view(0).pixels_per_unit);
 }
 
+TEST(Sheet, AShortTitleLeavesMoreRoomForTheDishesThanALongOne) {
+    const auto scale = [](const std::string& title) {
+        SheetSpec spec;
+        spec.size = {1280, 720};
+        spec.title = title;
+        spec.parameters = {"$N$ = 48"};
+        spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892}, {Frame::m, "M-frame", 8.6, 1.892}};
+        spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+        return Sheet(spec).view(0).pixels_per_unit;
+    };
+    const double roomy = scale("48 discs");
+    EXPECT_GT(roomy, 1.05 * scale("A headline that is too long to stand beside the captions"));
+    EXPECT_GT(2.0 * 8.6 * roomy, 0.54 * 720);
+}
+
+TEST(Sheet, ALegendIsNoWiderThanThePage) {
+    for (const int width : {200, 320, 1280}) {
+        SheetSpec spec;
+        spec.size = {width, 900};
+        spec.style.coloring = Coloring::spin;
+        spec.style.forces = true;
+        spec.panels = {{Frame::m, "M-frame", 8.6, 1.892}};
+        const Sheet sheet(spec);
+        Canvas canvas(spec.size);
+        sheet.draw_still(canvas);
+        for (int y = 0; y < 900; ++y)
+            EXPECT_TRUE(is(pixel(canvas, width - 1, y), spec.style.theme.page)) << width;
+    }
+}
+
+TEST(Scene, ThePointsAreNamedInASmallDishToo) {
+    Canvas canvas(Size{220, 220});
+    canvas.fill_page(dark_theme().page);
+    const View view = view_of(canvas, Frame::m);
+    const Snapshot s = dish(0.0);
+    SceneStyle style = plain_style();
+    style.points = true;
+    draw_scene(canvas, view, style, {.now = s});
+    const double unit = view.pixels_per_unit * 8.6;
+    EXPECT_LT(unit, 110.0);
+    // Left of the cross that is S: its name.
+    const Vec2 S = view.on_page(FrameAt(s, Frame::m).position({0.0, 0.0}));
+    int ink = 0;
+    for (int x = int(S.x - 15.0); x < int(S.x - 0.03 * unit - 2.0); ++x)
+        for (int y = int(S.y - 16.0); y < int(S.y); ++y) ink += pixel(canvas, x, y).green > 150;
+    EXPECT_GT(ink, 15);
+}
+
 TEST(Theme, InkCanBeReadOnThePage) {
     for (const Theme& theme : {dark_theme(), light_theme()}) {
         const double contrast = std::abs(brightness(theme.ink) - brightness(theme.page));

@@ -11,6 +11,7 @@
 #include "swirl/film/movie.hpp"
 #include "swirl/film/picture.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 
 namespace swirl {
 namespace {
@@ -91,6 +92,35 @@ TEST_F(Recording, PlaysTheFramesThatWereRecorded) {
                 0.01);  // the polygon's corners may fall between
     const Reel reel = footage.open();
     for (int k = 0; k <= 40; ++k) expect_same_places(reel(1.0 + k / 20.0), frames_[k], 1e-12);
+}
+
+TEST_F(Recording, IsTitledWithWhatItsFileSaysOfTheRun) {
+    EXPECT_EQ(recorded(path("run.h5")).caption, "run.h5");  // it says nothing
+    RunConfig config = small_run();
+    config.mu_wall = 0.25;
+    const auto write = [&](const char* name, const std::string& parameters) {
+        TrajectoryWriter writer(path(name), frames_.front(), {{"parameters", parameters}});
+        for (const Snapshot& s : frames_) writer.write(s, 0);
+        writer.finish();
+        return recorded(path(name));
+    };
+    const Footage told = write("told.h5", config_text(config));
+    EXPECT_EQ(told.caption, "12 discs");
+    std::vector<std::string> labels = parameter_labels(config);
+    labels.emplace_back("41 recorded frames");
+    EXPECT_EQ(told.parameters, labels);
+    EXPECT_EQ(write("other.h5", "{\"dishes\": 3}").caption, "other.h5");
+    EXPECT_EQ(write("nonsense.h5", "nonsense").caption, "nonsense.h5");
+}
+
+TEST(Footage, TheBallsCaptionSaysHowItMoves) {
+    RollingBall ball;
+    for (const auto& [slip, caption] :
+         {std::pair(0.0, "one ball that slips"), std::pair(0.5, "one ball that rolls and slips"),
+          std::pair(1.0, "one ball that rolls")}) {
+        ball.slip = slip;
+        EXPECT_EQ(rolling(ball, 1.0, 1.0).caption, caption);
+    }
 }
 
 TEST_F(Recording, BetweenTwoFramesDiscsMoveInStraightLines) {
