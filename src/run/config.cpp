@@ -146,9 +146,9 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     const auto centres =
         place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);
     if (!centres && stop && stop->load())
-        throw Interrupted("Stopped before the discs had their places.");
+        throw_interrupted("Stopped before the discs had their places.");
     if (!centres)
-        throw WrongCall(fmt::format(
+        throw_wrong_call(fmt::format(
             "{} discs of radius {}{} could not be placed in a container of radius {} without "
             "overlap: {}{}",
             c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
@@ -182,7 +182,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
                                leg.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0, radii[i],
                                mass, inertia});
     }
-    if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
+    if (stop && stop->load()) throw_interrupted("Stopped before the first event.");
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace swirl {
 
@@ -23,5 +24,11 @@ class Interrupted : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
+
+// What reads parameters and places discs throws by these, so that it can be compiled for a page in
+// a browser, where there are no exceptions and the sentence goes to the page instead
+// (bindings/wasm).
+[[noreturn]] void throw_wrong_call(const std::string& sentence);
+[[noreturn]] void throw_interrupted(const std::string& sentence);
 
 }  // namespace swirl

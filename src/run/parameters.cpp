@@ -18,7 +18,7 @@ struct Either : Cases... {
 };
 
 [[noreturn]] void unreadable(std::string_view name, std::string_view text, const char* right) {
-    throw WrongCall(fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
+    throw_wrong_call(fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
 }
 
 double number_from(std::string_view name, std::string_view text) {
@@ -101,12 +101,12 @@ ParameterTexts known_texts(const ParameterTexts& given) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->can_be_given()) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw WrongCall(fmt::format("There is no parameter '{}'{}.", name,
-                                        meant ? fmt::format("; did you mean '{}'?", *meant)
-                                              : "; `swirl run --help` lists them"));
+            throw_wrong_call(fmt::format("There is no parameter '{}'{}.", name,
+                                         meant ? fmt::format("; did you mean '{}'?", *meant)
+                                               : "; `swirl run --help` lists them"));
         }
         if (!texts.emplace(row->name, text).second)
-            throw WrongCall(fmt::format("{} is given twice.", option_name(row->name)));
+            throw_wrong_call(fmt::format("{} is given twice.", option_name(row->name)));
     }
     return texts;
 }
@@ -277,13 +277,13 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
     if (period_given && given.contains("amplitude")) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;
-        throw WrongCall(fmt::format(
+        throw_wrong_call(fmt::format(
             "--speed is {}, but --amplitude {} and --period {} make the container move at {:.6g}; "
             "leave one of the three away.",
             speed, config.amplitude, config.period, actual));
     }
     if ((speed == 0.0) != (config.amplitude == 0.0) && !period_given)
-        throw WrongCall(fmt::format(
+        throw_wrong_call(fmt::format(
             "--speed is {}, but with --amplitude {} the container {}; give 0 for both or for "
             "neither.",
             speed, config.amplitude, speed == 0.0 ? "must move" : "stands still"));
@@ -312,7 +312,7 @@ ParameterValue write_path(const RunConfig& config) {
 void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const std::int64_t sides = whole_from("sides", text);
     if (config.path == PathShape::circle)
-        throw WrongCall(fmt::format(
+        throw_wrong_call(fmt::format(
             "--sides is {}, but --path circle has no sides; leave one of the two away.", sides));
     config.sides = clamped(sides);
 }
@@ -328,7 +328,7 @@ ParameterValue write_events(const RunConfig& config) {
 
 void read_periods(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     if (const auto events = given.find("events"); events != given.end())
-        throw WrongCall(fmt::format(
+        throw_wrong_call(fmt::format(
             "--events {} and --periods {} both give the length of the run; leave one away.",
             events->second, text));
     config.periods = whole_from("periods", text);
@@ -384,9 +384,9 @@ RunConfig resolve(const ParameterTexts& given) {
     read_all(ReadingOrder::first);
     read_all(ReadingOrder::then);
     // What the last ones are made of must be sound.
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(config)) throw_wrong_call(*wrong);
     read_all(ReadingOrder::last);
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(config)) throw_wrong_call(*wrong);
     return config;
 }
 

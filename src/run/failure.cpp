@@ -1,0 +1,8 @@
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+void throw_wrong_call(const std::string& sentence) { throw WrongCall(sentence); }
+void throw_interrupted(const std::string& sentence) { throw Interrupted(sentence); }
+
+}  // namespace swirl

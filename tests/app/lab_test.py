@@ -1,0 +1,171 @@
+"""The laboratory in the browser: the engine for WebAssembly gives the bits of the command line, and the
+page does what it says, in a real browser."""
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from program import SOURCE, swirl
+
+LAB = os.path.join(SOURCE, "web", "lab.sh")
+HERE = os.path.dirname(os.path.abspath(__file__))
+CHROMIUM = shutil.which("chromium")
+
+# As they stand in the page's address.
+SCENES = [
+    {"discs": 1}, {"discs": 5, "mu": 0.1}, {"discs": 28}, {"discs": 48}, {"discs": 50, "seed": 2},
+    {"discs": 48, "mu_disc": 0, "mu_wall": 1}, {"discs": 28, "path": "circle"},
+    {"discs": 40, "mixture": "20:0.6"}, {"discs": 48, "restitution": 0.9},
+    {"discs": 28, "inertia": "solid", "tangential_restitution": 0.5},
+    {"discs": 300, "radius": 0.3, "sides": 7}, {"discs": 48, "amplitude": 3, "container_radius": 9},
+]
+EVENTS = 5000
+
+NODE = """
+const engineOf = async (path) => {
+    const text = [], module = await WebAssembly.compile(require("fs").readFileSync(path));
+    const noSystem = new Proxy({}, {get: (_, name) => () => { text.push(name); return 52; }});
+    return () => {
+        let out;
+        const read = (at, size) => Buffer.from(out.memory.buffer, at, size).toString();
+        const refuse = (at, size) => { throw new Error(read(at, size)); };
+        out = new WebAssembly.Instance(module,
+            {wasi_snapshot_preview1: noSystem, page: {refuse}}).exports;
+        out._initialize();
+        const begin = (given) => {
+            const lines = Buffer.from(Object.entries(given).map((e) => e.join("=") + "\\n").join(""));
+            const at = out.room(lines.length);
+            Buffer.from(out.memory.buffer, at, lines.length).set(lines);
+            out.begin();
+        };
+        return {out, begin, asked: text, answer: (size) => read(out.text(), size)};
+    };
+};
+engineOf(process.argv[1]).then((make) => {
+    const said = [];
+    for (const {given, events} of JSON.parse(process.argv[2])) {
+        const engine = make();
+        try {
+            engine.begin(given);
+            engine.out.run_events(events);
+            said.push({
+                hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
+                rotation: JSON.parse(engine.answer(engine.out.rotation())),
+                measured: JSON.parse(engine.answer(engine.out.measured())),
+                asked: engine.asked});
+        } catch (error) {
+            said.push({refused: error.message});
+        }
+    }
+    const table = make();
+    console.log(JSON.stringify({said, parameters: JSON.parse(table.answer(table.out.parameters()))}));
+});
+"""
+
+
+def options(scene):
+    return [word for name, value in scene.items()
+            for word in (f"--{name.replace('_', '-')}", str(value))]
+
+
+class Laboratory(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
+            print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
+            sys.exit(77)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.page = os.path.join(cls.folder.name, "laboratory.html")
+        done = subprocess.run([LAB, "--out", cls.page], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr[-4000:])
+
+    def engine(self, calls):
+        done = subprocess.run(["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm"),
+                               json.dumps(calls)], check=True, capture_output=True, text=True)
+        return json.loads(done.stdout)
+
+    def test_twelve_scenes_have_the_bits_of_the_command_line(self):
+        said = self.engine([{"given": {**{k: str(v) for k, v in scene.items()}, "warmup": "2",
+                                       "measure": "slip"}, "events": EVENTS} for scene in SCENES])
+        for scene, there in zip(SCENES, said["said"]):
+            with self.subTest(scene):
+                self.assertNotIn("refused", there)
+                self.assertEqual(there["asked"], [])
+                here = json.loads(swirl("run", *options(scene), "--warmup", "2", "--events",
+                                        str(EVENTS), "--measure", "slip", "--json", "-",
+                                        "--quiet").stdout)
+                self.assertEqual(there["hash"], here["state_hash"])
+                if here["periods"] < 4:
+                    continue  # no whole swirl after the warm-up: nothing is averaged
+                for average in ("by_event", "by_time"):
+                    self.assertEqual(there["rotation"][average]["mean"],
+                                     here["rotation"][average]["mean"], average)
+                self.assertEqual(there["measured"]["slip"]["rows"]["cluster"]["mean"],
+                                 here["measured"]["slip"]["cluster"]["mean"])
+
+    def test_the_page_knows_every_parameter_of_the_command_line(self):
+        help_text = swirl("run", "--help").stdout
+        for row in self.engine([])["parameters"]:
+            if row["given"]:
+                self.assertIn(f"--{row['name'].replace('_', '-')} ", help_text)
+
+    def test_a_wrong_parameter_is_refused_in_the_words_of_the_command_line(self):
+        for wrong in ({"discs": "100"}, {"mu": "nan"}, {"disks": "5"}, {"path": "square"}):
+            with self.subTest(wrong):
+                there = self.engine([{"given": wrong, "events": 1}])["said"][0]
+                here = swirl("run", *options(wrong), check=False)
+                self.assertEqual(here.returncode, 2)
+                if "disks" not in wrong:  # of options CLI11 says it
+                    self.assertIn(there["refused"], here.stderr)
+                self.assertRegex(there["refused"], r"^(--)?\w.*\.$")
+
+    def test_the_page_in_a_browser(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        wanted = json.loads(swirl("run", "--discs", "28", "--mu", "0.5", "--seed", "3", "--events",
+                                  "20000", "--json", "-", "--quiet").stdout)["state_hash"]
+        done = subprocess.run(
+            ["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page, CHROMIUM, wanted],
+            capture_output=True, text=True, timeout=150)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_one_file_asks_nothing_of_anybody(self):
+        with open(self.page, encoding="utf-8") as opened:
+            text = opened.read()
+        self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
+
+    def test_it_serves_the_page_and_says_where_and_that_a_port_is_taken(self):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = str(free.getsockname()[1])
+        with subprocess.Popen([LAB, "--port", port, "--no-browser"], stdout=subprocess.PIPE,
+                              text=True) as lab:
+            self.assertIn(f"http://localhost:{port}/", lab.stdout.readline())
+            second = subprocess.run([LAB, "--port", port, "--no-browser"], capture_output=True,
+                                    text=True)
+            self.assertEqual(second.returncode, 1)
+            self.assertIn(f"Port {port} is taken", second.stderr)
+            lab.send_signal(signal.SIGINT)
+        self.assertEqual(lab.returncode, 130)
+
+    def test_wrong_calls(self):
+        for wrong, said in ((["--port", "0"], "--port is '0'"), (["--port", "x"], "--port is 'x'"),
+                            (["--speed"], "'--speed'"), (["--out"], "--out needs a value")):
+            done = subprocess.run([LAB, *wrong], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn(said, done.stderr)
+        done = subprocess.run([LAB, "--out", "/nowhere/lab.html"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot be written", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+#!/bin/sh
+# The laboratory in the browser: builds it when it is out of date, then serves it on this machine, or
+# writes it as one file that needs nothing else.
+set -eu
+home=$(dirname "$(dirname "$(readlink -f "$0")")")
+me=swirl
+. "$home/cmake/front_door.sh"
+
+usage() {
+    cat <<'TEXT'
+The laboratory in a browser: the same engine, to look at and to play with.
+Usage: swirl lab [OPTIONS]
+
+Options:
+  -h,--help                       Print this help message and exit
+  --port N                        serve it here [8720]
+  --out FILE.html                 write one file that works by double click, without a network, instead
+  --no-browser                    do not open a browser
+
+Examples:
+  swirl lab
+  swirl lab --port 9000 --no-browser
+  swirl lab --out laboratory.html
+TEXT
+}
+
+wrong_call() {
+    say "$*"
+    exit 2
+}
+
+port=8720 out= browser=yes
+while [ $# -gt 0 ]; do
+    case $1 in
+        -h | --help) usage && exit 0 ;;
+        --port | --out)
+            [ $# -gt 1 ] || wrong_call "$1 needs a value; swirl lab --help has examples."
+            [ "$1" = --out ] && out=$2 || port=$2
+            shift 2
+            ;;
+        --port=*) port=${1#*=} && shift ;;
+        --out=*) out=${1#*=} && shift ;;
+        --no-browser) browser=no && shift ;;
+        *) wrong_call "There is no option '$1' of swirl lab; --port, --out and --no-browser are all." ;;
+    esac
+done
+case $port in
+    '' | *[!0-9]* | ??????*) wrong_call "--port is '$port', but it must be a whole number from 1 to 65535." ;;
+esac
+[ "$port" -ge 1 ] && [ "$port" -le 65535 ] ||
+    wrong_call "--port is '$port', but it must be a whole number from 1 to 65535."
+
+page=$home/build/lab/index.html
+build_page() {
+    mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to $home/build, where the page is built."
+    exec 9>"$home/build/.lab.lock"
+    flock 9
+    # shellcheck disable=SC2086
+    changed=$(cd "$home" && find src/math src/physics src/simulation src/measure src/run bindings/wasm web \
+        -path web/node_modules -prune -o -path web/generated -prune -o -newer "$page" -type f -print \
+        -quit 2>/dev/null || true)
+    if [ -e "$page" ] && [ -z "$changed" ]; then return 0; fi
+    install_packages lab || exit 1
+    command -v npm >/dev/null || install_packages npm || exit 1
+    log=$home/build/lab.log
+    say "building the page, once; on two cores this takes two minutes or so"
+    if ! {
+        cmake -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja &&
+            cmake --build "$home/build/wasm" &&
+            mkdir -p "$home/web/generated" &&
+            cp "$home/build/wasm/swirl.wasm" "$home/web/generated/swirl.wasm" &&
+            cd "$home/web" && npm ci --no-audit --no-fund && npm run build
+    } >"$log" 2>&1; then
+        tail -n 30 "$log" >&2
+        give_up "the page could not be built (see above, all of it in $log)."
+    fi
+}
+build_page
+exec 9>&-
+
+if [ -n "$out" ]; then
+    aside=$out.$$.partial
+    cp "$page" "$aside" 2>/dev/null && mv "$aside" "$out" ||
+        { rm -f "$aside"; give_up "'$out' cannot be written."; }
+    say "wrote $out"
+    exit 0
+fi
+exec node "$home/web/serve.mjs" "$page" "$port" "$browser"

@@ -1,0 +1,135 @@
+// The engine behind its functions of plain numbers (bindings/wasm/laboratory.cpp).
+
+/** A sentence of the engine's: what was wrong, which value, what would be right. */
+export class Refusal extends Error {}
+
+export interface Parameter {
+    name: string;
+    symbol: string;
+    unit: string;
+    form: string;
+    description: string;
+    group: string;
+    default: string;
+    lowest: number;
+    highest: number;
+    given: boolean;
+}
+
+export interface Estimate {
+    mean: number | null;
+    error: number | null;
+    blocks: number;
+}
+
+export interface Rotation {
+    by_event: Estimate;
+    by_time: Estimate;
+    warmup: number;
+    blocks: (number | null)[];
+}
+
+interface Exports {
+    memory: WebAssembly.Memory;
+    _initialize(): void;
+    room(size: number): number;
+    text(): number;
+    parameters(): number;
+    begin(): void;
+    configuration(): number;
+    run_events(count: number): void;
+    advance_to(time: number, most: number): number;
+    frame(time: number): number;
+    event(): number;
+    time(): number;
+    events(): number;
+    state_hash(): bigint;
+    rotation(): number;
+    measured(): number;
+}
+
+/** What a frame begins with, and what follows for every disc. */
+export const frameHead = 11;
+export const frameDisc = 7;
+
+/** What the C library would ask of a system; a page has none, and 52 is its word for that. */
+const noSystem = new Proxy({}, {get: () => () => 52});
+
+export class Engine {
+    private readonly out: Exports;
+
+    /** Throws where WebAssembly or its vectors are missing. */
+    static compile(bytes: BufferSource): Promise<WebAssembly.Module> {
+        return WebAssembly.compile(bytes);
+    }
+
+    constructor(module: WebAssembly.Module) {
+        const refuse = (at: number, size: number): never => {
+            throw new Refusal(this.read(at, size));
+        };
+        const instance = new WebAssembly.Instance(module, {
+            wasi_snapshot_preview1: noSystem as WebAssembly.ModuleImports,
+            page: {refuse},
+        });
+        this.out = instance.exports as unknown as Exports;
+        this.out._initialize();
+    }
+
+    private read(at: number, size: number): string {
+        return new TextDecoder().decode(new Uint8Array(this.out.memory.buffer, at, size).slice());
+    }
+    private answer(size: number): string {
+        return this.read(this.out.text(), size);
+    }
+
+    parameters(): Parameter[] {
+        return JSON.parse(this.answer(this.out.parameters())) as Parameter[];
+    }
+    /** Throws Refusal; the engine is then of no more use. */
+    begin(given: Record<string, string>): void {
+        const lines = Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join("");
+        const bytes = new TextEncoder().encode(lines);
+        const at = this.out.room(bytes.length);
+        new Uint8Array(this.out.memory.buffer, at, bytes.length).set(bytes);
+        this.out.begin();
+    }
+    /** All parameters of the dish, also those that were not given. */
+    configuration(): Record<string, string> {
+        const lines = this.answer(this.out.configuration()).split("\n").filter(Boolean);
+        return Object.fromEntries(lines.map((line) => {
+            const equals = line.indexOf("=");
+            return [line.slice(0, equals), line.slice(equals + 1)];
+        }));
+    }
+    runEvents(count: number): void {
+        this.out.run_events(count);
+    }
+    advanceTo(time: number, most: number): boolean {
+        return this.out.advance_to(time, most) === 1;
+    }
+    /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
+    frame(time: number): Float64Array {
+        const at = this.out.frame(time);
+        const head = new Float64Array(this.out.memory.buffer, at, frameHead);
+        const size = frameHead + frameDisc * (head[10] ?? 0);
+        return new Float64Array(this.out.memory.buffer, at, size).slice();
+    }
+    event(): Float64Array {
+        return new Float64Array(this.out.memory.buffer, this.out.event(), 9).slice();
+    }
+    get time(): number {
+        return this.out.time();
+    }
+    get events(): number {
+        return this.out.events();
+    }
+    get stateHash(): string {
+        return BigInt.asUintN(64, this.out.state_hash()).toString(16).padStart(16, "0");
+    }
+    rotation(): Rotation {
+        return JSON.parse(this.answer(this.out.rotation())) as Rotation;
+    }
+    measured(): Record<string, unknown> {
+        return JSON.parse(this.answer(this.out.measured())) as Record<string, unknown>;
+    }
+}

@@ -1,0 +1,442 @@
+// The page: what is asked for, what is shown. The dish itself is with the worker.
+import "./style.css";
+import "uplot/dist/uPlot.min.css";
+import uPlot from "uplot";
+import engineUrl from "../generated/swirl.wasm?url";
+import EngineWorker from "./worker?worker&inline";
+import type {Parameter, Rotation} from "./engine";
+import type {Frame, FromWorker, ToWorker} from "./messages";
+import {draw, type Coloring, type View} from "./scene";
+import {lesson, presets, texts} from "./texts";
+
+function element<Tag extends keyof HTMLElementTagNameMap>(
+    tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
+    ...children: (Node | string)[]): HTMLElementTagNameMap[Tag] {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+}
+function byId(id: string): HTMLElement {
+    const found = document.getElementById(id);
+    if (!found) throw new Error(`The page has no element '${id}'.`);
+    return found;
+}
+
+/** With a slider: from, to, step. The others have a field for their text alone. */
+const sliders: Record<string, [number, number, number]> = {
+    discs: [1, 55, 1], mu: [0, 2, 0.05], mu_disc: [0, 2, 0.05], mu_wall: [0, 2, 0.05],
+    container_radius: [4, 20, 0.1], amplitude: [0, 5, 0.05], restitution: [0.5, 1, 0.01],
+    sides: [3, 60, 1],
+};
+const trailLength = 45; // frames
+const byHand = 350; // milliseconds after the last change before a new dish is made
+
+// --- state ------------------------------------------------------------------------------------
+
+let rows: Parameter[] = [];
+let given: Record<string, string> = {};
+let configuration: Record<string, string> = {};
+let runTo = 0; // events, from the address
+let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+let view: "lab" | "m" | "both" = "lab";
+let coloring: Coloring = "spin";
+let trails = false;
+let swirlsPerSecond = 1;
+let step = -1; // of the lesson
+let last: Frame | undefined;
+let history: Float64Array[] = [];
+let waiting = false; // for the answer to a tick
+let lastTick = 0;
+
+const worker = new EngineWorker();
+const tell = (message: ToWorker): void => worker.postMessage(message);
+
+// --- the dish ---------------------------------------------------------------------------------
+
+const canvases: Partial<Record<View, HTMLCanvasElement>> = {};
+
+function layOutViews(): void {
+    const views: View[] = view === "both" ? ["lab", "m"] : [view];
+    byId("views").replaceChildren(...views.map((each) => {
+        const canvas = element("canvas");
+        canvas.setAttribute("role", "img");
+        canvases[each] = canvas;
+        return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
+    }));
+    for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete canvases[each];
+    redraw();
+}
+
+function redraw(): void {
+    if (!last) return;
+    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    for (const [each, canvas] of Object.entries(canvases) as [View, HTMLCanvasElement][]) {
+        draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
+                                  event: last.event, dark});
+        const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
+        if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
+    }
+}
+
+// --- numbers and plot -------------------------------------------------------------------------
+
+const plot = new uPlot({
+    width: 400, height: 190,
+    scales: {x: {time: false}},
+    axes: [{label: texts.swirls, stroke: () => ink(), grid: {stroke: () => line()}},
+           {label: "ϖ/Ω", stroke: () => ink(), grid: {stroke: () => line()}}],
+    series: [{label: texts.swirls}, {label: "ϖ/Ω", stroke: () => quiet(), width: 1},
+             {label: "mean", stroke: () => accent(), width: 2}],
+    legend: {show: false},
+}, [[], [], []], byId("plot"));
+
+const style = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name);
+function ink(): string { return style("--ink"); }
+function line(): string { return style("--line"); }
+function quiet(): string { return style("--quiet"); }
+function accent(): string { return style("--accent"); }
+
+function withError(mean: number | null, error: number | null): string {
+    if (mean === null) return texts.notYet;
+    if (error === null || !(error > 0)) return mean.toFixed(3);
+    const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(error))));
+    return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`.replace(/-/g, "−");
+}
+
+function sentence(rotation: Rotation): string {
+    const discs = Number(configuration["discs"]);
+    const {mean, error} = rotation.by_time;
+    if (mean === null || error === null || Math.abs(mean) < 2 * error) return texts.undecided(discs);
+    return mean > 0 ? texts.rotates(discs) : texts.counterrotates(discs);
+}
+
+let blocks: (number | null)[] = []; // of every swirl, those of the warm-up first
+
+function showRotation(rotation: Rotation): void {
+    const time = last?.frame[0] ?? 0;
+    const pairs: [string, string][] = [
+        [texts.byTime, withError(rotation.by_time.mean, rotation.by_time.error)],
+        [texts.byEvent, withError(rotation.by_event.mean, rotation.by_event.error)],
+        [texts.swirls, (time / Number(configuration["period"])).toFixed(1)],
+    ];
+    const early = rotation.by_time.blocks === 0 ? texts.warmup(rotation.warmup) : "";
+    byId("numbers").replaceChildren(element("dl", {id: "estimates"}, ...pairs.flatMap(
+        ([name, value]) => [element("dt", {textContent: name}), element("dd", {textContent: value})])),
+        element("p", {textContent: early}));
+    const headline = sentence(rotation);
+    if (byId("headline").textContent !== headline) byId("headline").textContent = headline;
+    if (rotation.blocks.length === blocks.length) return;
+    blocks = rotation.blocks;
+    const warm = Math.min(rotation.warmup, blocks.length);
+    let sum = 0;
+    const means = blocks.map(
+        (block, k) => k < warm ? null : (sum += block ?? 0) / (k - warm + 1));
+    byId("plot").hidden = blocks.length < 2;
+    plot.setData([blocks.map((_, k) => k + 1), blocks, means]);
+}
+
+// --- asking for a dish ------------------------------------------------------------------------
+
+function commandLine(): string {
+    const options = Object.entries(given).filter(([, value]) => value !== "")
+        .map(([name, value]) => `--${name.replaceAll("_", "-")} ${value}`);
+    return ["./swirl run", ...options, `--events ${Math.max(1, last?.events ?? 1)}`].join(" ");
+}
+
+function address(): string {
+    const query = new URLSearchParams(Object.entries(given).filter(([, value]) => value !== ""));
+    const text = query.toString();
+    return text ? `?${text}` : location.pathname;
+}
+
+function begin(events = 0): void {
+    history = [];
+    blocks = [];
+    last = undefined;
+    waiting = true;
+    plot.setData([[], [], []]);
+    byId("headline").textContent = "…";
+    byId("refusal").hidden = true;
+    const asked = Object.fromEntries(Object.entries(given).filter(([, value]) => value !== ""));
+    tell({kind: "begin", given: asked, events});
+}
+
+let later: ReturnType<typeof setTimeout> | undefined;
+function changed(): void {
+    clearTimeout(later);
+    later = setTimeout(() => {
+        try {
+            window.history.replaceState(null, "", address());
+        } catch {
+            // A page from a memory stick has no address of its own in some browsers.
+        }
+        begin();
+    }, byHand);
+}
+
+function refuse(text: string): void {
+    byId("refusal").textContent = text;
+    byId("refusal").hidden = false;
+    setPlaying(false);
+}
+
+// --- controls ---------------------------------------------------------------------------------
+
+const fields: Record<string, {text: HTMLInputElement; slider?: HTMLInputElement}> = {};
+
+function setGiven(values: Record<string, string>): void {
+    given = {...values};
+    for (const [name, field] of Object.entries(fields)) showField(name, field);
+}
+
+function showField(name: string, field: {text: HTMLInputElement; slider?: HTMLInputElement}): void {
+    const value = given[name] ?? "";
+    field.text.value = value;
+    const row = rows.find((each) => each.name === name);
+    if (field.slider) field.slider.value = value || row?.default || field.slider.value;
+}
+
+function parameterRow(row: Parameter): HTMLElement {
+    const id = `parameter-${row.name}`;
+    const text = element("input", {type: "text", id, placeholder: row.default, spellcheck: false});
+    const label = element("label", {htmlFor: id, title: row.description},
+                          row.symbol ? `${row.name} ${row.symbol}` : row.name);
+    text.title = row.description + (row.unit ? ` (${row.unit})` : "");
+    text.addEventListener("input", () => {
+        given[row.name] = text.value.trim();
+        if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || row.default;
+        changed();
+    });
+    const range = sliders[row.name];
+    fields[row.name] = {text};
+    if (!range) {
+        text.className = "wide";
+        return element("div", {className: "row"}, label, text);
+    }
+    const [min, max, by] = range.map(String);
+    const slider = element("input", {type: "range", min: min!, max: max!, step: by!});
+    slider.setAttribute("aria-label", row.description);
+    slider.value = row.default || "1";
+    slider.addEventListener("input", () => {
+        given[row.name] = text.value = slider.value;
+        changed();
+    });
+    fields[row.name]!.slider = slider;
+    return element("div", {className: "row"}, label, slider, text);
+}
+
+/** Those that say how long a run is have no sense where one looks on. */
+const ofTheRun = ["events", "periods"];
+
+function layOutParameters(): void {
+    const shown = rows.filter((row) => row.given && !ofTheRun.includes(row.name));
+    const groups = [...new Set(shown.map((row) => row.group))];
+    byId("parameters").replaceChildren(...groups.map((group, k) => element(
+        "details", {open: k === 0},
+        element("summary", {textContent: texts.groups[group] ?? group}),
+        ...shown.filter((row) => row.group === group).map(parameterRow))));
+    for (const [name, field] of Object.entries(fields)) showField(name, field);
+}
+
+const playButton = element("button", {type: "button", className: "main", id: "play"});
+function setPlaying(on: boolean): void {
+    playing = on;
+    playButton.textContent = on ? texts.pause : texts.play;
+    lastTick = 0;
+}
+
+function choice<Value extends string>(name: string, options: Record<Value, string>, value: Value,
+                                      set: (value: Value) => void): HTMLElement {
+    const select = element("select", {id: `choose-${name}`}, ...Object.entries<string>(options).map(
+        ([each, text]) => element("option", {value: each, textContent: text})));
+    select.value = value;
+    select.addEventListener("change", () => set(select.value as Value));
+    return element("label", {}, `${name} `, select);
+}
+
+function save(name: string, href: string): void {
+    element("a", {href, download: name}).click();
+}
+
+function layOutBar(): void {
+    const button = (text: string, act: () => void, id = ""): HTMLElement => {
+        const made = element("button", {type: "button", textContent: text, id});
+        made.addEventListener("click", act);
+        return made;
+    };
+    playButton.addEventListener("click", () => setPlaying(!playing));
+    const speed = element("input", {type: "range", min: "-3", max: "1", step: "0.1",
+                                    value: String(Math.log10(swirlsPerSecond)), id: "speed"});
+    speed.addEventListener("input", () => { swirlsPerSecond = 10 ** Number(speed.value); });
+    const trailBox = element("input", {type: "checkbox", id: "trails"});
+    trailBox.addEventListener("change", () => { trails = trailBox.checked; redraw(); });
+    const preset = element("select", {id: "choose-preset"}, element("option", {textContent: "…"}),
+        ...presets.map(({name}) => element("option", {textContent: name})));
+    preset.addEventListener("change", () => {
+        const chosen = presets[preset.selectedIndex - 1];
+        if (!chosen) return;
+        setGiven(chosen.given);
+        changed();
+    });
+    byId("bar").replaceChildren(
+        playButton,
+        button(texts.step, () => { setPlaying(false); tell({kind: "step"}); }, "step"),
+        button(texts.restart, () => begin(), "restart"),
+        element("label", {}, `${texts.presets} `, preset),
+        choice(texts.view, texts.views, view, (value) => { view = value; layOutViews(); }),
+        choice(texts.color, texts.colors, coloring, (value) => { coloring = value; redraw(); }),
+        element("label", {}, trailBox, ` ${texts.trails}`),
+        element("label", {}, `${texts.speed} `, speed),
+        button(texts.picture, () => {
+            const canvas = canvases.lab ?? canvases.m;
+            if (canvas) save("swirl.png", canvas.toDataURL("image/png"));
+        }, "save-picture"),
+        button(texts.table, () => {
+            const text = blocks.map((block, k) => `${k + 1},${block ?? ""}\n`).join("");
+            save("rotation.csv", URL.createObjectURL(
+                new Blob([`swirl,varpi\n${text}`], {type: "text/csv"})));
+        }, "save-table"));
+    setPlaying(playing);
+}
+
+function layOutLesson(): void {
+    const show = (): void => {
+        const at = lesson[step];
+        if (!at) {
+            const start = element("button", {type: "button", textContent: texts.lesson, id: "lesson-start"});
+            start.addEventListener("click", () => go(0));
+            byId("lesson").replaceChildren(start);
+            return;
+        }
+        const move = (text: string, to: number): HTMLElement => {
+            const made = element("button", {type: "button", textContent: text});
+            made.addEventListener("click", () => go(to));
+            return made;
+        };
+        byId("lesson").replaceChildren(element("div", {className: "lesson"},
+            element("h2", {textContent: `${step + 1}. ${at.title}`}),
+            element("p", {textContent: at.text}), move(texts.back, step - 1), " ",
+            move(step + 1 < lesson.length ? texts.next : "×", step + 1)));
+    };
+    const go = (to: number): void => {
+        step = to < lesson.length ? to : -1;
+        const at = lesson[step];
+        if (at) {
+            setGiven(at.given);
+            view = at.view;
+            (byId(`choose-${texts.view}`) as HTMLSelectElement).value = view;
+            layOutViews();
+            changed();
+            setPlaying(true);
+        }
+        show();
+    };
+    show();
+}
+
+byId("copy").addEventListener("click", () => {
+    void navigator.clipboard.writeText(commandLine()).then(() => {
+        byId("copy").textContent = texts.copied;
+    });
+});
+
+document.addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    if (["INPUT", "SELECT", "BUTTON", "TEXTAREA"].includes(target.tagName)) return;
+    if (event.key === " ") {
+        event.preventDefault();
+        setPlaying(!playing);
+    } else if (event.key === ".") {
+        setPlaying(false);
+        tell({kind: "step"});
+    }
+});
+
+// --- from the worker --------------------------------------------------------------------------
+
+function received(frame: Frame): void {
+    waiting = false;
+    if (last && last.frame.length === frame.frame.length) {
+        history.push(last.frame);
+        if (history.length > trailLength) history.shift();
+    }
+    const hadRun = last === undefined && runTo > 0;
+    last = frame;
+    redraw();
+    if (frame.rotation) showRotation(frame.rotation);
+    byId("event-count").textContent = String(frame.events);
+    byId("state-hash").textContent = frame.hash;
+    byId("command").textContent = commandLine();
+    if (hadRun) {
+        runTo = 0;
+        setPlaying(false);
+    }
+}
+
+/** What the address asks for; false if it cannot be. */
+function readAddress(): boolean {
+    const query = new URLSearchParams(location.search);
+    const wanted: Record<string, string> = {};
+    for (const [key, value] of query) {
+        const name = key.replaceAll("-", "_");
+        if (name === "events") {
+            runTo = Number(value);
+            if (Number.isInteger(runTo) && runTo >= 0 && runTo <= 1e7) continue;
+            runTo = 0;
+            refuse(texts.badEvents(value));
+            return false;
+        }
+        if (!rows.some((row) => row.name === name && row.given)) {
+            refuse(texts.unknownName(key));
+            return false;
+        }
+        wanted[name] = value;
+    }
+    setGiven(wanted);
+    return true;
+}
+
+worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
+    switch (data.kind) {
+        case "ready":
+            rows = data.parameters;
+            layOutParameters();
+            layOutBar();
+            layOutLesson();
+            layOutViews();
+            if (readAddress()) begin(runTo);
+            requestAnimationFrame(animate);
+            break;
+        case "begun":
+            configuration = data.configuration;
+            break;
+        case "refused":
+            waiting = false;
+            refuse(data.sentence);
+            break;
+        case "frame":
+            received(data);
+            break;
+    }
+};
+
+function animate(now: number): void {
+    requestAnimationFrame(animate);
+    if (!playing || waiting || !last) return;
+    // After a pause, or a while in the background, time goes on from here.
+    const elapsed = lastTick > 0 ? Math.min(now - lastTick, 100) : 0;
+    lastTick = now;
+    waiting = true;
+    tell({kind: "tick", swirls: elapsed / 1000 * swirlsPerSecond});
+}
+
+const resize = (): void => {
+    byId("plot").hidden = blocks.length < 2;
+    plot.setSize({width: byId("plot").clientWidth || 400, height: 190});
+    redraw();
+};
+addEventListener("resize", resize);
+resize();
+
+fetch(engineUrl).then((answer) => answer.arrayBuffer()).then(
+    (bytes) => tell({kind: "engine", bytes}), () => refuse(texts.noWebAssembly));

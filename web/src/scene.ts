@@ -1,0 +1,182 @@
+// A frame on a canvas: in the laboratory, or in the M-frame, whose origin is the dish's centre and
+// whose −y axis points from the swirl's centre S to it.
+import {frameDisc, frameHead} from "./engine";
+
+export type View = "lab" | "m";
+export type Coloring = "spin" | "speed" | "id";
+
+export interface Look {
+    view: View;
+    coloring: Coloring;
+    trails: Float64Array[]; // earlier frames, the oldest first
+    event: Float64Array | undefined;
+    dark: boolean;
+}
+
+interface Frame {
+    centre: [number, number];
+    radius: number;
+    down: [number, number];
+    discs: number;
+}
+
+function head(f: Float64Array): Frame {
+    return {centre: [f[3]!, f[4]!], radius: f[7]!, down: [f[8]!, f[9]!], discs: f[10]!};
+}
+
+/** Of a point of the laboratory, in the frame that is shown. */
+function shown(frame: Frame, view: View, x: number, y: number): [number, number] {
+    if (view === "lab") return [x, y];
+    const [dx, dy] = [x - frame.centre[0], y - frame.centre[1]];
+    const [ex, ey] = frame.down;
+    return [-dx * ey + dy * ex, -(dx * ex + dy * ey)];
+}
+
+/** From blue (against) by grey to orange (with the swirl); safe for the colour-blind. */
+function diverging(x: number): string {
+    const t = Math.max(-1, Math.min(1, x));
+    const from = t < 0 ? [36, 99, 158] : [204, 92, 10];
+    const grey = [188, 190, 192];
+    const c = grey.map((g, k) => Math.round(g + Math.abs(t) * (from[k]! - g)));
+    return `rgb(${c.join(" ")})`;
+}
+
+const names = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
+
+function color(f: Float64Array, k: number, i: number, coloring: Coloring): string {
+    if (coloring === "id") return names[i % names.length]!;
+    if (coloring === "spin") return diverging(1.5 * f[k + 3]!); // full colour at 1.3 Ω of the paper's dish
+    const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the dish
+    return diverging(Math.hypot(vx, vy) - 1);
+}
+
+export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): void {
+    const context = canvas.getContext("2d");
+    if (!context) return;
+    const ratio = window.devicePixelRatio || 1;
+    const size = canvas.clientWidth * ratio;
+    if (canvas.width !== size) canvas.width = canvas.height = size;
+    const frame = head(f);
+    const amplitude = Math.hypot(...frame.centre);
+    const reach = (look.view === "lab" ? frame.radius + amplitude : frame.radius) * 1.06;
+    const scale = size / (2 * reach);
+    const ink = look.dark ? "#e8e6e3" : "#23272b";
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, size, size);
+    context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
+    const hair = 1.2 * ratio / scale;
+
+    const [cx, cy] = shown(frame, look.view, ...frame.centre);
+    context.lineWidth = 2 * hair;
+    context.strokeStyle = ink;
+    context.fillStyle = look.dark ? "#1d2124" : "#fbfaf8";
+    context.beginPath();
+    context.arc(cx, cy, frame.radius, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
+    if (look.view === "lab" && amplitude > 0) {
+        context.lineWidth = hair;
+        context.setLineDash([4 * hair, 4 * hair]);
+        context.beginPath();
+        context.arc(0, 0, amplitude, 0, 2 * Math.PI);
+        context.stroke();
+        context.setLineDash([]);
+    }
+
+    drawTrails(context, f, look, hair);
+    const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
+    for (let i = 0; i < frame.discs; ++i) {
+        const k = frameHead + frameDisc * i;
+        const [x, y] = shown(frame, look.view, f[k]!, f[k + 1]!);
+        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle;
+        context.beginPath();
+        context.arc(x, y, r, 0, 2 * Math.PI);
+        context.fillStyle = color(f, k, i, look.coloring);
+        context.fill();
+        if (r * scale < 3) continue;
+        context.lineWidth = Math.min(hair, 0.15 * r);
+        context.strokeStyle = "#23272b";
+        context.stroke();
+        context.beginPath();
+        context.moveTo(x, y);
+        context.lineTo(x + r * Math.cos(angle), y + r * Math.sin(angle));
+        context.stroke();
+    }
+    drawEvent(context, f, frame, look, hair);
+    drawMarks(context, frame, look, ink, hair);
+}
+
+function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Look,
+                    hair: number): void {
+    const frames = [...look.trails, f];
+    for (let t = 1; t < frames.length; ++t) {
+        const [a, b] = [frames[t - 1]!, frames[t]!];
+        if (a.length !== b.length) continue;
+        const [before, after] = [head(a), head(b)];
+        context.globalAlpha = 0.6 * t / frames.length;
+        context.lineWidth = hair;
+        for (let i = 0; i < after.discs; ++i) {
+            const k = frameHead + frameDisc * i;
+            context.strokeStyle = color(b, k, i, look.coloring);
+            context.beginPath();
+            context.moveTo(...shown(before, look.view, a[k]!, a[k + 1]!));
+            context.lineTo(...shown(after, look.view, b[k]!, b[k + 1]!));
+            context.stroke();
+        }
+    }
+    context.globalAlpha = 1;
+}
+
+/** The impulse of a single event, as an arrow on who got it; length by its size. */
+function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+                   hair: number): void {
+    const e = look.event;
+    if (!e || e[1] === 2) return;
+    const wall = e[1] === 1;
+    const k = frameHead + frameDisc * e[wall ? 2 : 3]!;
+    const [nx, ny] = [e[4]!, e[5]!];
+    const sign = wall ? -1 : 1; // on the disc, not on the wall
+    const jx = sign * (e[6]! * nx + e[7]! * ny), jy = sign * (e[6]! * ny - e[7]! * nx);
+    const [x, y] = [f[k]!, f[k + 1]!];
+    const [ax, ay] = shown(frame, look.view, x, y);
+    const [bx, by] = shown(frame, look.view, x + 3 * jx, y + 3 * jy);
+    const length = Math.hypot(bx - ax, by - ay), tip = Math.min(0.5, 0.4 * length);
+    context.strokeStyle = context.fillStyle = "#b00020";
+    context.lineWidth = 2 * hair;
+    context.beginPath();
+    context.moveTo(ax, ay);
+    context.lineTo(bx, by);
+    context.stroke();
+    if (length === 0) return;
+    const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
+    context.beginPath();
+    context.moveTo(bx, by);
+    context.lineTo(bx - tip * ux + 0.5 * tip * uy, by - tip * uy - 0.5 * tip * ux);
+    context.lineTo(bx - tip * ux - 0.5 * tip * uy, by - tip * uy + 0.5 * tip * ux);
+    context.fill();
+}
+
+/** S, the centre of the swirl, C, the dish's, and M, the wall's farthest point from S. */
+function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: Look, ink: string,
+                   hair: number): void {
+    const m: [number, number] = [frame.centre[0] + frame.radius * frame.down[0],
+                                 frame.centre[1] + frame.radius * frame.down[1]];
+    const marks: [string, [number, number]][] = [["S", [0, 0]], ["C", frame.centre], ["M", m]];
+    for (const [name, at] of marks) {
+        const [x, y] = shown(frame, look.view, ...at);
+        context.fillStyle = ink;
+        context.beginPath();
+        context.arc(x, y, 2.5 * hair, 0, 2 * Math.PI);
+        context.fill();
+        context.save();
+        context.translate(x, y);
+        context.scale(1, -1);
+        context.font = `600 ${13 * hair}px system-ui, sans-serif`;
+        context.lineWidth = 3 * hair;
+        context.strokeStyle = look.dark ? "#1d2124" : "#fbfaf8";
+        const [dx, dy] = name === "M" ? [-5 * hair, -7 * hair] : [5 * hair, -5 * hair];
+        context.strokeText(name, dx, dy);
+        context.fillText(name, dx, dy);
+        context.restore();
+    }
+}

@@ -1,0 +1,80 @@
+// Every text of the page, for who wants to translate it.
+export const texts = {
+    play: "Play",
+    pause: "Pause",
+    step: "One event",
+    restart: "From the beginning",
+    picture: "Save picture",
+    table: "Save ϖ per swirl (CSV)",
+    speed: "Swirls per second",
+    view: "View",
+    views: {lab: "Laboratory", m: "M-frame", both: "Both"},
+    color: "Colour",
+    colors: {spin: "spin", speed: "speed", id: "disc"},
+    trails: "Trails",
+    presets: "Presets",
+    copied: "Copied",
+    late: "This machine cannot keep up; the dish is shown slower than asked for.",
+    noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +
+        "Chrome 91, Firefox 89, Safari 16.4 and later have it.",
+    unknownName: (name: string): string => `The address has '${name}', but there is no such parameter.`,
+    badEvents: (text: string): string =>
+        `The address has events=${text}, but it must be a whole number from 0 to 10000000.`,
+    warmup: (swirls: number): string => `Averages begin after ${swirls} swirls.`,
+    notYet: "not known yet",
+    byTime: "ϖ/Ω by time",
+    byEvent: "ϖ/Ω by event",
+    swirls: "swirls",
+    rotates: (discs: number): string => `${discs} discs rotate with the swirl.`,
+    counterrotates: (discs: number): string => `${discs} discs turn against the swirl.`,
+    undecided: (discs: number): string => `${discs} discs: the sense of rotation is not decided yet.`,
+    dish: (discs: number, view: string): string => `${discs} discs in a swirled dish, ${view}`,
+    eventKinds: ["two discs collide", "a disc meets the wall", "the dish turns a corner of its path"],
+    lesson: "A lesson in six steps",
+    next: "Next",
+    back: "Back",
+    groups: {} as Record<string, string>,
+};
+
+export interface Step {
+    title: string;
+    text: string;
+    given: Record<string, string>;
+    view: "lab" | "m" | "both";
+}
+
+export const lesson: Step[] = [
+    {title: "A few marbles", view: "lab", given: {discs: "8"},
+     text: "Move a dish round in circles without turning it. A few marbles in it gather on one side " +
+         "and run round with the swirl: the pack rotates the way the dish goes."},
+    {title: "Many marbles", view: "lab", given: {discs: "48"},
+     text: "Add marbles. When the dish is nearly full the pack turns the other way, against the " +
+         "swirl. Nothing else has changed. Why?"},
+    {title: "A frame that turns along", view: "both", given: {discs: "48"},
+     text: "Look at it from a frame that turns with the swirl (right): there the dish stands still " +
+         "and its wall runs clockwise past the marbles, like a belt. M is the point of the wall " +
+         "farthest from the centre of the swirl; there the marbles are pressed against it."},
+    {title: "Without friction", view: "both", given: {discs: "48", mu: "0"},
+     text: "Take friction away, between marbles and at the wall. Now nothing holds a marble to the " +
+         "wall, and nothing turns the pack against the swirl."},
+    {title: "Frustration", view: "both", given: {discs: "48", mu: "1"},
+     text: "With friction a marble at the wall would like to roll along it. But neighbours that " +
+         "touch would have to turn in opposite senses, like gears, and three in a triangle cannot. " +
+         "The more there are, the less they roll and the more they are dragged along by the wall: " +
+         "backwards, seen from the room."},
+    {title: "Do it yourself", view: "lab", given: {discs: "28"},
+     text: "Film a dish from above with a telephone: 5 mm marbles, a lid of a jar. Count how far " +
+         "the pack turns in ten swirls, add a marble, and film again. At which number does it stand " +
+         "still?"},
+];
+
+export const presets: {name: string; given: Record<string, string>}[] = [
+    {name: "48 discs, μ = 1 (the paper)", given: {discs: "48"}},
+    {name: "28 discs, μ = 1", given: {discs: "28"}},
+    {name: "48 discs, μ = 0.1", given: {discs: "48", mu: "0.1"}},
+    {name: "48 discs, no friction between discs", given: {discs: "48", mu_disc: "0", mu_wall: "1"}},
+    {name: "48 discs, no friction at the wall", given: {discs: "48", mu_disc: "1", mu_wall: "0"}},
+    {name: "One large ball", given: {discs: "1", radius: "4"}},
+    {name: "Two sizes", given: {discs: "40", mixture: "20:0.6"}},
+    {name: "2000 small discs", given: {discs: "2000", radius: "0.14", inertia: "solid"}},
+];

@@ -1,0 +1,98 @@
+// The one file in a real browser: node page.mjs FILE.html CHROMIUM HASH. Ends with 1 and a sentence
+// for whatever is not as it should be.
+import assert from "node:assert/strict";
+import {pathToFileURL} from "node:url";
+import {chromium} from "playwright-core";
+
+const [file, executablePath, wantedHash] = process.argv.slice(2);
+const address = pathToFileURL(file).href;
+const browser = await chromium.launch({executablePath, args: [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
+const page = await browser.newPage({viewport: {width: 1200, height: 800}});
+const complaints = [], requests = [];
+page.on("pageerror", (error) => complaints.push(error.message));
+page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) requests.push(request.url());
+});
+const text = (id) => page.textContent(`#${id}`);
+const open = async (query) => {
+    await page.goto(address + query);
+    await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
+        !document.getElementById("refusal").hidden, null, {timeout: 60_000});
+};
+
+// The address holds the dish, and runs to exactly that event.
+await open("?discs=28&mu=0.5&seed=3&events=20000");
+assert.equal(await text("state-hash"), wantedHash);
+assert.equal(await text("event-count"), "20000");
+assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --events 20000");
+
+// One event more, drawn with its impulse.
+await page.click("#step");
+await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
+
+// It moves, and time goes on.
+await open("?discs=48");
+const before = Number(await text("event-count"));
+await page.waitForFunction((n) => Number(document.getElementById("event-count").textContent) > n,
+                           before + 1000, {timeout: 60_000});
+const painted = await page.evaluate(() => {
+    const canvas = document.querySelector("canvas");
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(Array.from({length: data.length / 400}, (_, k) => data[400 * k])).size;
+});
+assert.ok(painted > 5, `the canvas shows ${painted} shades`);
+
+// A slider and a field make another dish; the address follows where the page has one.
+await page.fill("#parameter-discs", "5");
+await page.waitForFunction(
+    () => document.getElementById("command").textContent.includes("--discs 5 "));
+await page.selectOption("#choose-preset", {index: 3});
+await page.waitForFunction(
+    () => document.getElementById("command").textContent.includes("--mu 0.1"));
+await page.selectOption("#choose-View", "both");
+assert.equal(await page.locator("canvas:visible").count() >= 2, true);
+
+// What cannot be is said in a sentence, and mended.
+await page.fill("#parameter-discs", "1000");
+await page.waitForFunction(() => !document.getElementById("refusal").hidden);
+assert.match(await text("refusal"), /1000 discs do not fit/);
+await page.fill("#parameter-discs", "12");
+await page.waitForFunction(() => document.getElementById("refusal").hidden &&
+    document.getElementById("command").textContent.includes("--discs 12 "));
+await open("?disks=5");
+assert.match(await text("refusal"), /'disks'/);
+await open("?discs=5&events=-1");
+assert.match(await text("refusal"), /events=-1/);
+
+// The lesson goes through its six steps by keyboard alone.
+await open("");
+await page.focus("#lesson-start");
+await page.keyboard.press("Enter");
+for (let step = 1; step <= 6; ++step) {
+    assert.match(await text("lesson"), new RegExp(`^${step}\\. `));
+    await page.locator("#lesson button").last().focus();
+    await page.keyboard.press("Enter");
+}
+assert.equal(await page.locator("#lesson-start").count(), 1);
+
+// Downloads.
+for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
+                                      ["#save-table", "rotation.csv", "swirl,varpi\n"]]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+    assert.equal(download.suggestedFilename(), name);
+    const chunks = [];
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+    assert.ok(Buffer.concat(chunks).toString("latin1").startsWith(begins), name);
+}
+
+// A narrow screen has nothing that sticks out.
+await page.setViewportSize({width: 360, height: 740});
+const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+assert.ok(wide <= 360, `at a width of 360 the page is ${wide} wide`);
+
+assert.deepEqual(complaints, []);
+assert.deepEqual(requests, []);
+await browser.close();
