@@ -20,6 +20,9 @@ int main() {
             case swirl::EventKind::path_vertex:
                 std::printf("the container turns a corner of its path\n");
                 break;
+            case swirl::EventKind::begins_to_roll:
+                std::printf("sphere %u begins to roll; discs never do\n", e.i);
+                break;
         }
     }
 

@@ -27,10 +27,12 @@ Places inside(const Places& places, const std::string& name) {
 
 bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 
-/// Over before its warm-up was: what was seen of it is the beginning.
+/// Over before its warm-up was, or before a whole swirl after it: what was seen of it is the
+/// beginning, and it has no average.
 bool ended_in_warmup(const Json& run) {
     const Json& asked = at(run, {"config", "warmup"});
-    return number(at(run, {"warmup", "periods"})) == 0.0 && asked != 0;
+    return (number(at(run, {"warmup", "periods"})) == 0.0 && asked != 0) ||
+           number(at(run, {"rotation", "by_event", "blocks"})) == 0.0;
 }
 
 bool is_average(const Json& json) {
@@ -189,7 +191,7 @@ Json several_seeds(const std::vector<Json>& results) {
         // Nothing to average: the first that says why.
         const auto why = std::find_if(results.begin(), results.end(), failed);
         if (why != results.end()) return *why;
-        return {{"failed", "every run ended before its warm-up did, so nothing is averaged."},
+        return {{"failed", "no run had a whole swirl after its warm-up, so nothing is averaged."},
                 {"seeds", seeds}};
     }
     std::vector<double> swirls;

@@ -6,7 +6,8 @@
 // up; lengths (events, periods) are means of one run. By time, runs count by the swirls they cover
 // after their warm-up; by event all the same.
 //
-// What is not averaged: a run that failed, and one that ended before its warm-up did.
+// What is not averaged: a run that failed, and one that ended before its warm-up did, or before a
+// whole swirl after it.
 //
 // Besides: under "seeds" how many runs there are, how many were averaged, steady, drifting, too
 // short to tell, ended inside the warm-up, failed; and how ϖ by event scatters over the seeds

@@ -98,10 +98,12 @@ SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
     const PendingEvent due = Search::take_out(state, next);
     check<Search>(state, due);
     state.clock = due.time;
-    if (is_of_floor<Search>(due)) {
-        const Event event = Bodies<Search>::begin_to_roll(state, due.disc, due.time);
-        Search::predict_changed(state, {due.disc}, due.time);
-        return event;
+    if constexpr (Bodies<Search>::have_floor) {
+        if (is_of_floor<Search>(due)) {
+            const Event event = Bodies<Search>::begin_to_roll(state, due.disc, due.time);
+            Search::predict_changed(state, {due.disc}, due.time);
+            return event;
+        }
     }
     if (due.is_with_wall()) {
         const Event event = collide_with_wall<Bodies<Search>>(state, due.disc, due.time);

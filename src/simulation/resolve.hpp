@@ -54,7 +54,6 @@ struct Discs {
         disc.time = 0.0;
         ++disc.collisions;
     }
-    static Event begin_to_roll(EngineState&, std::uint32_t, double);  // they do not
 };
 
 /// And of a sphere: it may slide, and its flight follows from its state and the floor's velocity.

@@ -40,7 +40,8 @@ class Figure5b(InFolder):
                 self.assertEqual((row["by_event"], row["steady_state"]), ("", "failed"))
                 continue
             averaged += 1
-            self.assertEqual(row["events"], "3000")
+            if int(row["discs"]) <= 48:  # beyond, where the paper has no runs, they go by swirls
+                self.assertEqual(row["events"], "3000")
             for name in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
                 float(row[name])
         self.assertGreater(averaged, len(rows) / 3)

@@ -102,16 +102,19 @@ TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
 }
 
 TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
-    const RunConfig config = short_run();
+    RunConfig config = short_run();
+    config.events = 1'000'000'000;
     const Scratch scratch;
     RunFiles files;
     files.checkpoint = scratch / "c";
     files.resume = true;
+    // Stopped as soon as it says how far it is.
     const auto stopped_run = [&](const char* list) {
-        const std::atomic<bool> stop = true;
+        std::atomic<bool> stop = false;
         Observation observation = observation_of(config, read_measurement_list(list));
         RunControl control;
         control.stop = &stop;
+        control.progress = [&](const RunProgress&) { stop = true; };
         control.observation = &observation;
         run_recorded(config, files, control, {});
     };
