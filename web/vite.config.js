@@ -5,6 +5,7 @@ import {viteSingleFile} from "vite-plugin-singlefile";
 export default defineConfig({
     base: "./",
     plugins: [viteSingleFile()],
+    assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
     build: {outDir: "../build/lab", emptyOutDir: true, assetsInlineLimit: 100_000_000,
             target: "es2022"},

@@ -1,4 +1,4 @@
-declare module "*.wasm?url" {
+declare module "*.wasm.gz?url" {
     const url: string;
     export default url;
 }

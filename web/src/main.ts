@@ -2,7 +2,7 @@
 import "./style.css";
 import "uplot/dist/uPlot.min.css";
 import uPlot from "uplot";
-import engineUrl from "../generated/swirl.wasm?url";
+import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
 import type {Parameter, Rotation} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
@@ -131,7 +131,7 @@ function showRotation(rotation: Rotation): void {
     let sum = 0;
     const means = blocks.map(
         (block, k) => k < warm ? null : (sum += block ?? 0) / (k - warm + 1));
-    byId("plot").hidden = blocks.length < 2;
+    if (byId("plot").hidden !== blocks.length < 2) resize();
     plot.setData([blocks.map((_, k) => k + 1), blocks, means]);
 }
 
@@ -430,13 +430,19 @@ function animate(now: number): void {
     tell({kind: "tick", swirls: elapsed / 1000 * swirlsPerSecond});
 }
 
-const resize = (): void => {
+function resize(): void {
     byId("plot").hidden = blocks.length < 2;
     plot.setSize({width: byId("plot").clientWidth || 400, height: 190});
     redraw();
-};
+}
 addEventListener("resize", resize);
 resize();
 
-fetch(engineUrl).then((answer) => answer.arrayBuffer()).then(
-    (bytes) => tell({kind: "engine", bytes}), () => refuse(texts.noWebAssembly));
+/** It stands in the page packed, a third of its size. */
+async function unpacked(url: string): Promise<ArrayBuffer> {
+    const packed = (await fetch(url)).body;
+    if (!packed) throw new Error("empty");
+    return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+unpacked(engineUrl).then((bytes) => tell({kind: "engine", bytes}),
+                         () => refuse(texts.noWebAssembly));

@@ -16,7 +16,7 @@ export const texts = {
     copied: "Copied",
     late: "This machine cannot keep up; the dish is shown slower than asked for.",
     noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +
-        "Chrome 91, Firefox 89, Safari 16.4 and later have it.",
+        "Chrome 91, Firefox 113, Safari 16.4 and later have it.",
     unknownName: (name: string): string => `The address has '${name}', but there is no such parameter.`,
     badEvents: (text: string): string =>
         `The address has events=${text}, but it must be a whole number from 0 to 10000000.`,
