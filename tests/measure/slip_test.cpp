@@ -131,18 +131,5 @@ TEST(Slip, LooksAtEvery64thLookOnly) {
     EXPECT_NEAR(slip.cluster().mean, 1.0, 0.003);
 }
 
-TEST(Slip, MergedRunsAreOneLongRun) {
-    Slip whole(1), first(1), second(1);
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    EXPECT_NEAR(first.cluster().mean, whole.cluster().mean, 1e-14);
-}
-
 }  // namespace
 }  // namespace swirl
