@@ -10,9 +10,9 @@
 namespace swirl {
 namespace {
 
-/// Some measurements look at every 7th or 100th sample, those of the pinned at every 64th of those
-/// that are known, all but fourteen, one at every 32nd event. Both observations must look at the
-/// same ones, so a dish is over after so many samples that each begins anew.
+/// Some measurements look at every 7th or 100th sample, those of the pinned at every 64th for
+/// which it is known who is pinned (not the first and last seven), one at every 32nd event. Both
+/// observations must look at the same ones: a dish lasts for a multiple of these.
 struct Part {
     bool of_the_pinned;
     int periods, samples;

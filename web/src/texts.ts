@@ -12,6 +12,37 @@ export const texts = {
     color: "Colour",
     colors: {spin: "spin", speed: "speed", id: "disc"},
     trails: "Trails",
+    keep: "Keep the discs",
+    keepHow: "Changed frictions, restitutions and paths act on the same discs, from the next swirl on",
+    hand: "Swirl by hand",
+    handEnds: "End swirling by hand",
+    handSays: (turns: string): string => `Move the dish with the pointer. The pack has turned ${turns} times.`,
+    turned: "turned",
+    turns: (turns: string): string => `${turns} turns`,
+    noCommand: "none: the dish was changed while it moved",
+    maps: "Maps: density, flow and profile",
+    density: "Density in the M-frame; dark is dense",
+    flow: "Flow relative to the dish",
+    theta: "angle θ in the M-frame, M is at 270°",
+    discs: "discs",
+    wall: "wall",
+    study: "Rotation against the number of discs (the paper's Figure 5b)",
+    studyHow: "A run for every N and friction, on all cores, with the other parameters as they are " +
+        "set here. Numbers and ranges FROM:STEP:TO, with commas between.",
+    start: "Start",
+    stop: "Stop",
+    stopped: "Stopped.",
+    numberOfDiscs: "number of discs N",
+    studyTable: "Save the table (CSV)",
+    studyWrong: (most: number): string => "N and μ must be numbers or ranges FROM:STEP:TO, with " +
+        `commas between, for example 5:6:53; together at most ${most} runs.`,
+    swirlsWrong: (text: string): string =>
+        `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
+    studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
+    crossing: (mu: number, discs: string, lower: number | null, upper: number | null): string =>
+        `μ = ${mu}: the sense of rotation changes at N_c = ${discs}` + (lower !== null && upper !== null
+            ? ` (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}).` : "."),
+    noCrossing: (mu: number): string => `μ = ${mu}: no change of sense is certain at these N.`,
     presets: "Presets",
     copied: "Copied",
     noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +
