@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "swirl/physics/container_path.hpp"
 #include "swirl/physics/snapshot.hpp"
+#include "swirl/simulation/simulation.hpp"
 
 namespace swirl::python {
 
@@ -26,8 +28,14 @@ struct Frames {
     bool fits(const Snapshot& snapshot) const { return size() == 0 || snapshot.size() == discs; }
     void reserve(std::size_t frames, std::size_t of_discs);
     void add(const Snapshot& snapshot);
+    /// The same as of its snapshot, in less time.
+    void add(const Simulation& simulation, const ContainerPath& path);
     void clear();
     Snapshot frame(std::size_t k) const;
+
+  private:
+    void begin(const Snapshot& snapshot);
+    void add_moment(std::int64_t swirl, double now, const Vec2& centre, const Vec2& moves);
 };
 
 }  // namespace swirl::python

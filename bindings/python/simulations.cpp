@@ -72,8 +72,58 @@ py::tuple rotation_of(const Look& look) {
     return py::make_tuple(sample.individual / omega, sample.rigid / omega);
 }
 
+/// Columns as bytes and back, for pickle: StateWriter's (files/state_archive.hpp).
+template <class Visitor>
+void visit_columns(Frames& f, Visitor&& visit) {
+    visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.radius, f.mass,
+          f.inertia, f.swirls, f.clock, f.time, f.container_centre, f.container_velocity,
+          f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);
+}
+py::bytes bytes_of(const Frames& frames) {
+    StateWriter write;
+    Frames copy = frames;
+    visit_columns(copy, write);
+    return py::bytes(write.bytes());
+}
+Frames frames_in(const py::bytes& bytes) {
+    Frames f;
+    StateReader read{std::string_view(bytes)};
+    visit_columns(f, read);
+    read.expect_end();
+    const std::size_t n = f.size(), all = n * f.discs, floor = f.are_spheres ? 2 * all : 0;
+    const auto is = [](std::size_t length, std::initializer_list<const std::vector<double>*> each) {
+        return std::all_of(each.begin(), each.end(),
+                           [&](const auto* column) { return column->size() == length; });
+    };
+    if (f.swirls.size() != n || !is(n, {&f.clock, &f.time}) ||
+        !is(2 * n, {&f.container_centre, &f.container_velocity}) ||
+        !is(f.discs, {&f.radius, &f.mass, &f.inertia}) ||
+        !is(2 * all, {&f.position, &f.velocity}) ||
+        !is(floor, {&f.acceleration, &f.rolling_spin}) || !is(all, {&f.angle, &f.spin}))
+        throw FileError("These are no frames of swirl.");
+    return f;
+}
+
+/// Only we make them: what Python would begin by itself has nothing in it.
+void refuse_to_be_begun(py::object type) {
+    type.attr("__new__") =
+        py::module_::import("builtins")
+            .attr("staticmethod")(py::cpp_function([](const py::args&, const py::kwargs&) {
+                throw py::type_error("Simulations make these, and recordings.");
+            }));
+}
+
 void bind_looks(py::module_& module) {
-    py::class_<Look>(module, "Snapshot")
+    module.def("snapshot_of", [](const py::bytes& bytes) {
+        const Frames frames = frames_in(bytes);
+        if (frames.size() != 1) throw FileError("This is no snapshot of swirl.");
+        return Look(frames.frame(0));
+    });
+    module.def("frames_of",
+               [](const py::bytes& bytes) { return std::make_shared<Frames>(frames_in(bytes)); });
+    py::class_<Look> snapshot(module, "Snapshot");
+    refuse_to_be_begun(snapshot);
+    snapshot.def("archive", [](const Look& l) { return bytes_of(l.frames); })
         .def_property_readonly("position", column<Look>(&Frames::position, per_disc_xy))
         .def_property_readonly("velocity", column<Look>(&Frames::velocity, per_disc_xy))
         .def_property_readonly("angle", column<Look>(&Frames::angle, per_disc))
@@ -103,7 +153,9 @@ void bind_looks(py::module_& module) {
         .def("rotation", &rotation_of)
         .def("__len__", [](const Look& l) { return l.frames.discs; });
 
-    py::class_<Frames, std::shared_ptr<Frames>>(module, "Frames")
+    py::class_<Frames, std::shared_ptr<Frames>> frames(module, "Frames");
+    refuse_to_be_begun(frames);
+    frames.def("archive", &bytes_of)
         .def_property_readonly("position", column<Frames>(&Frames::position, per_frame_and_disc_xy))
         .def_property_readonly("velocity", column<Frames>(&Frames::velocity, per_frame_and_disc_xy))
         .def_property_readonly("angle", column<Frames>(&Frames::angle, per_frame_and_disc))
@@ -445,7 +497,7 @@ class Dish {
                                         static_cast<std::uint64_t>(unit_of_work())))
                 return true;
             if (k == count) return false;
-            frames->add(simulation_.snapshot());
+            frames->add(simulation_, scene_.path);
             ++k;
             return true;
         });
@@ -588,8 +640,9 @@ void bind_simulations(py::module_& module) {
                          normal_impulse, tangential_impulse, overlap);
     module.attr("event_dtype") = py::dtype::of<EventRow>();
 
-    py::class_<Event>(module, "Event")
-        .def_readonly("swirls", &Event::swirls)
+    py::class_<Event> event(module, "Event");
+    refuse_to_be_begun(event);
+    event.def_readonly("swirls", &Event::swirls)
         .def_readonly("clock", &Event::clock)
         .def_property_readonly("kind", [](const Event& e) { return static_cast<int>(e.kind); })
         .def_readonly("i", &Event::i)

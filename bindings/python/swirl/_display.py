@@ -1,8 +1,9 @@
-"""A dish as a drawing in a notebook."""
+"""What snapshots, frames and events look like, in notebooks too, and how they are pickled."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from . import _engine
 
@@ -40,8 +41,26 @@ def _event_repr(self: _engine.Event) -> str:
     return f"<swirl.Event: {what} after {self.swirls} swirls and {self.clock:.6g}>"
 
 
+def _snapshot_of(archive: bytes) -> _engine.Snapshot:
+    return _engine.snapshot_of(archive)
+
+
+def _frames_of(archive: bytes) -> _engine.Frames:
+    return _engine.frames_of(archive)
+
+
+def _snapshot_reduced(self: _engine.Snapshot) -> Any:
+    return _snapshot_of, (self.archive(),)
+
+
+def _frames_reduced(self: _engine.Frames) -> Any:
+    return _frames_of, (self.archive(),)
+
+
 # The compiled classes are told how they look; nothing else of them is in Python.
 setattr(_engine.Snapshot, "_repr_svg_", dish_svg)
 setattr(_engine.Snapshot, "__repr__", _snapshot_repr)
 setattr(_engine.Frames, "__repr__", _frames_repr)
 setattr(_engine.Event, "__repr__", _event_repr)
+setattr(_engine.Snapshot, "__reduce__", _snapshot_reduced)
+setattr(_engine.Frames, "__reduce__", _frames_reduced)
