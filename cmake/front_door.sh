@@ -107,7 +107,7 @@ report_progress() {
 # Returns at once if build/PRESET (of it, those targets) is newer than everything it was made of.
 build() {
     folder=$home/build/$1
-    stamp=$folder/.built$(printf %s "${4:+ $4}" | tr ' ' -)
+    stamp="$folder/.built${4:+ $4}"
     # shellcheck disable=SC2046,SC2086
     if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
 

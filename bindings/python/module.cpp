@@ -47,4 +47,5 @@ PYBIND11_MODULE(_engine, module) {
     python::bind_simulations(module);
     python::bind_runs(module);
     python::bind_studies(module);
+    python::bind_recordings(module);
 }

@@ -12,14 +12,18 @@ from . import _display as _display
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
+from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
 from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
+from ._study import Crossing, SweepWarning, collect, crossing, sweep
+from ._study import map_runs as map
 
 __version__ = _version().split()[0]
 
 __all__ = [
-    "ArrayEstimate", "Estimate", "Event", "EventCounts", "EventKind", "Failure", "FileError",
-    "Frames", "Interrupted", "Measured", "Parameter", "Result", "Rotation", "Simulation", "Snapshot",
-    "Table", "load", "measurements", "parameters", "run", "samples_per_period",
+    "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
+    "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
+    "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
+    "crossing", "load", "map", "measurements", "parameters", "run", "samples_per_period", "sweep",
 ]

@@ -168,9 +168,12 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
         return next(iter(self.rows.values()))
 
     def __getitem__(self, name: str) -> Any:
-        for found in (self.rows, self.tables, self.tables.get("", {})):
-            if name in found:
-                return found[name]
+        if name in self.rows:
+            return self.rows[name]
+        if name in self.tables:
+            return self.tables[name]
+        if "" in self.tables and name in self.tables[""]:
+            return self.tables[""][name]
         raise KeyError(f"'{self.name}' has no '{name}'; it has {', '.join(self)}.")
 
     def __iter__(self) -> Iterator[str]:

@@ -100,7 +100,7 @@ class OwnBlocks:
             if hasattr(measurement, "block"):
                 values = [measurement.block(frames)]
             else:
-                look = getattr(measurement, "sample", measurement)
+                look: Any = getattr(measurement, "sample", measurement)
                 values = [look(frames[k]) for k in range(len(frames))]
             self._add(name, [value for value in values if value is not None])
 

@@ -229,7 +229,7 @@ def load(file: PathName) -> Simulation:
 def _number(name: str, value: object) -> float:
     if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
         raise TypeError(f"{name} is {value!r}, but it must be a number.")
-    number = float(value)  # type: ignore[arg-type]
+    number = float(value)
     if not math.isfinite(number):
         raise ValueError(f"{name} is {number}, but it must be a finite number.")
     return number

@@ -1,0 +1,92 @@
+"""The package as it is typed, documented and found."""
+
+import inspect
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import swirl
+from scenes import SOURCE
+
+PACKAGE = os.path.dirname(swirl.__file__)
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """Of mypy, which takes a minute to read numpy."""
+    return os.environ.get("MYPY_CACHE_DIR") or str(tmp_path_factory.mktemp("mypy"))
+
+
+def test_types_are_sound(cache):
+    """mypy --strict reads what is promised; numpy's own types are known to it, those of others are
+    not asked for."""
+    done = subprocess.run(["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
+                           cache, "-p", "swirl"], cwd=os.path.dirname(PACKAGE),
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_users_types_are_told(tmp_path, cache):
+    (tmp_path / "use.py").write_text(
+        "import swirl\n"
+        "r = swirl.run(discs=48)\n"
+        "reveal_type(r.rotation.by_time.mean)\n"
+        "reveal_type(swirl.Simulation(discs=3).snapshot().position)\n"
+        "r.rotation.by_tim\n")
+    done = subprocess.run(["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
+                           cache, "use.py"], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "MYPYPATH": os.path.dirname(PACKAGE)})
+    assert 'Revealed type is "builtins.float"' in done.stdout, done.stdout
+    assert "floating[numpy._typing._64Bit]" in done.stdout
+    assert '"Rotation" has no attribute "by_tim"' in done.stdout and done.stdout.count("error") <= 2
+
+
+def test_the_stubs_name_what_is_there():
+    from swirl import _engine
+    with open(os.path.join(PACKAGE, "_engine.pyi"), encoding="utf-8") as file:
+        stubs = file.read()
+    named = set(re.findall(r"^(?:class|def) (\w+)|^(\w+):", stubs, re.M))
+    named = {a or b for a, b in named}
+    assert named == {name for name in dir(_engine) if not name.startswith("__")}
+    for kind in re.findall(r"^class (\w+)(?=[:(])", stubs, re.M):
+        body = re.search(rf"^class {kind}\b.*?(?=^\S)", stubs, re.M | re.S)[0]
+        there = getattr(_engine, kind)
+        for method in re.findall(r"^    def (\w+)", body, re.M):
+            assert hasattr(there, method), (kind, method)
+
+
+def test_everything_public_says_what_it_is():
+    for name in swirl.__all__:
+        thing = getattr(swirl, name)
+        if inspect.isclass(thing) or inspect.isfunction(thing):
+            assert name in ("Snapshot", "Frames", "Event") or inspect.getdoc(thing), name
+
+
+def test_it_is_small_and_needs_numpy_alone_to_be_imported():
+    """pandas, matplotlib and xarray are asked for when they are wanted."""
+    script = "import sys, swirl; print(sorted({m.split('.')[0] for m in sys.modules} & " \
+             "{'pandas', 'matplotlib', 'xarray', 'h5py', 'tqdm'}))"
+    done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True)
+    assert done.stdout == "[]\n", done.stderr
+
+
+def test_the_bindings_look_at_nothing_above_the_floors_they_may():
+    folder = os.path.join(SOURCE, "bindings", "python")
+    for name in os.listdir(folder):
+        if name.endswith((".cpp", ".hpp")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                for floor in re.findall(r'#include "swirl/(\w+)/', file.read()):
+                    assert floor not in ("app", "paper", "film", "draw"), f"{name} includes {floor}"
+
+
+@pytest.mark.skipif(not shutil.which("clang-format"), reason="clang-format is not installed")
+def test_the_bindings_are_formatted():
+    folder = os.path.join(SOURCE, "bindings", "python")
+    files = [os.path.join(folder, n) for n in os.listdir(folder) if n.endswith((".cpp", ".hpp"))]
+    done = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], capture_output=True,
+                          text=True)
+    assert done.returncode == 0, done.stderr
