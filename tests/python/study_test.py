@@ -18,7 +18,8 @@ from scenes import command
 def table_of(folder):
     done = command("collect", folder, "--csv", "-")
     assert done.returncode == 0, done.stderr
-    return pandas.read_csv(io.StringIO(done.stdout), float_precision="round_trip")
+    return pandas.read_csv(io.StringIO(done.stdout), float_precision="round_trip",
+                           dtype={"state_hash": str, "steady_state": str})
 
 
 def test_a_sweep_is_that_of_the_command_line(tmp_path):

@@ -91,7 +91,9 @@ def collect(out: PathName) -> Any:
     import pandas
     csv, points, done, running, failed, disagreeing, not_steady, without = _engine.collect(
         os.fspath(out))
-    table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip")
+    # A hash may look like a number, 12345678e9012345 for one.
+    table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip",
+                            dtype={"state_hash": str, "steady_state": str})
     table.attrs["runs"] = {"planned": points, "done": done, "running": running, "failed": failed}
     table.attrs["disagreeing"] = disagreeing
     table.attrs["not_steady"] = not_steady
