@@ -90,3 +90,27 @@ def test_the_bindings_are_formatted():
     done = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], capture_output=True,
                           text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_wheel_is_made_and_used_from_a_clean_folder(tmp_path):
+    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode:
+        pytest.skip("pip is not installed")
+    build = os.path.dirname(os.path.dirname(PACKAGE))
+    # No network, no other packages: with nothing to fetch none is asked for.
+    done = subprocess.run([sys.executable, "-m", "pip", "install", SOURCE, "--target", tmp_path / "there",
+                           "--no-deps", "--no-index", "--config-settings", f"build-dir={build}"],
+                          capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    script = "import swirl; print(swirl.__file__, swirl.run(discs=5, events=1000).state_hash)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "there")}
+    used = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True,
+                          cwd=tmp_path, env=environment)
+    file, state = used.stdout.split()
+    assert file.startswith(str(tmp_path)) and state == swirl.run(discs=5, events=1000).state_hash
+    assert (tmp_path / "there" / "swirl" / "py.typed").exists()
+
+
+def test_links_of_the_documentation_lead_somewhere():
+    with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as file:
+        for link in re.findall(r"\]\(([^)#]+)[^)]*\)", file.read()):
+            assert os.path.exists(os.path.join(SOURCE, "docs", link)), link
