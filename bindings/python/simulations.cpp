@@ -121,7 +121,11 @@ void bind_looks(py::module_& module) {
     });
     module.def("frames_of",
                [](const py::bytes& bytes) { return std::make_shared<Frames>(frames_in(bytes)); });
-    py::class_<Look> snapshot(module, "Snapshot");
+    py::class_<Look> snapshot(
+        module, "Snapshot",
+        "All discs and the container at one instant, in the lab frame: position and velocity are\n"
+        "[disc, xy], spin, angle, radius, mass and inertia [disc]. Read-only views, which never\n"
+        "change. m_frame() turns it into the frame of the swirl.");
     refuse_to_be_begun(snapshot);
     snapshot.def("archive", [](const Look& l) { return bytes_of(l.frames); })
         .def_property_readonly("position", column<Look>(&Frames::position, per_disc_xy))
@@ -153,7 +157,10 @@ void bind_looks(py::module_& module) {
         .def("rotation", &rotation_of)
         .def("__len__", [](const Look& l) { return l.frames.discs; });
 
-    py::class_<Frames, std::shared_ptr<Frames>> frames(module, "Frames");
+    py::class_<Frames, std::shared_ptr<Frames>> frames(
+        module, "Frames",
+        "Snapshots of the same discs in order of time, as columns: position and velocity are\n"
+        "[frame, disc, xy], spin and angle [frame, disc], time [frame]. frames[k] is a Snapshot.");
     refuse_to_be_begun(frames);
     frames.def("archive", &bytes_of)
         .def_property_readonly("position", column<Frames>(&Frames::position, per_frame_and_disc_xy))
@@ -430,9 +437,12 @@ class Dish {
     }
 
     py::array step(std::int64_t count) {
-        if (count < 0 || count > std::int64_t{1} << 40)
-            throw WrongCall(
-                fmt::format("The number of events is {}, but it must be from 0 to 2^40.", count));
+        constexpr std::int64_t most = std::int64_t{1} << 26;
+        if (count < 0 || count > most)
+            throw WrongCall(fmt::format(
+                "The number of events is {}, but it must be from 0 to {}: more do not fit into an "
+                "array of reasonable size. advance(events=...) has no such limit.",
+                count, most));
         py::array_t<EventRow> rows(count);
         EventRow* const begin = rows.mutable_data();
         std::int64_t done = 0;
@@ -640,7 +650,9 @@ void bind_simulations(py::module_& module) {
                          normal_impulse, tangential_impulse, overlap);
     module.attr("event_dtype") = py::dtype::of<EventRow>();
 
-    py::class_<Event> event(module, "Event");
+    py::class_<Event> event(module, "Event",
+                            "What happened: kind (swirl.EventKind), when (swirls and clock), and\n"
+                            "to which discs, i and j.");
     refuse_to_be_begun(event);
     event.def_readonly("swirls", &Event::swirls)
         .def_readonly("clock", &Event::clock)

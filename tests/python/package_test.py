@@ -110,6 +110,25 @@ def test_a_wheel_is_made_and_used_from_a_clean_folder(tmp_path):
     assert (tmp_path / "there" / "swirl" / "py.typed").exists()
 
 
+@pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-dev is not installed")
+def test_a_debian_package_is_made(tmp_path):
+    build = os.path.dirname(os.path.dirname(PACKAGE))
+    done = subprocess.run(["cpack", "-G", "DEB", "-D", "CPACK_DEB_COMPONENT_INSTALL=ON", "-D",
+                           "CPACK_COMPONENTS_ALL=python", "-B", tmp_path], cwd=build,
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (package,) = tmp_path.glob("python3-swirl_*.deb")
+    needed = subprocess.run(["dpkg-deb", "--field", package, "Depends"], capture_output=True, text=True)
+    for name in ("python3-numpy", "libhdf5", "libfmt9", "libstdc++6"):
+        assert name in needed.stdout
+    subprocess.run(["dpkg-deb", "-x", package, tmp_path / "there"], check=True)
+    folder = tmp_path / "there" / "usr" / "lib" / "python3" / "dist-packages"
+    used = subprocess.run([sys.executable, "-B", "-c", "import swirl; print(swirl.__file__)"],
+                          capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "PYTHONPATH": str(folder)})
+    assert used.stdout.startswith(str(folder)), used.stderr
+
+
 def test_links_of_the_documentation_lead_somewhere():
     with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as file:
         for link in re.findall(r"\]\(([^)#]+)[^)]*\)", file.read()):

@@ -83,6 +83,10 @@ def test_time_goes_as_it_is_told():
         sim.advance(periods="2")
     with pytest.raises(TypeError, match="swirl.run"):
         swirl.Simulation(discs=4, events=100)
+    for too_much in (lambda: sim.step(10**9), lambda: sim.sample(1e6), lambda: sim.sample(1, 10**7),
+                     lambda: sim.step(-1), lambda: sim.sample(-1)):
+        with pytest.raises(ValueError):
+            too_much()
     assert (sim.swirls, sim.clock) == (7, 1.5)
 
 
