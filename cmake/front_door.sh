@@ -104,10 +104,10 @@ report_progress() {
 }
 
 # build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED_BESIDES [TARGETS]]
-# Returns at once if build/PRESET is newer than everything it was made of.
+# Returns at once if build/PRESET (of it, those targets) is newer than everything it was made of.
 build() {
     folder=$home/build/$1
-    stamp=$folder/.built
+    stamp="$folder/.built${4:+ $4}"
     # shellcheck disable=SC2046,SC2086
     if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
 
@@ -136,7 +136,7 @@ build() {
             -exec touch {} + 2>/dev/null) || true
     fi
     [ -e "$stamp" ] || say "building, once; on two cores this takes $long"
-    touch "$folder/.building"
+    touch "$stamp.building"
     log=$folder/build.log
     : >"$log"
     report_progress "$log" 9>&- &
@@ -150,6 +150,6 @@ build() {
         tail -n 40 "$log" >&2
         give_up "the build failed (see above, all of it in $log)."
     fi
-    mv "$folder/.building" "$stamp" # dated before the build: what changed meanwhile is newer
+    mv "$stamp.building" "$stamp" # dated before the build: what changed meanwhile is newer
     exec 9>&-
 }

@@ -52,6 +52,25 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# The Python module is a package of its own, python3-swirl:
+#
+#     cmake --build build/release --target swirl_python && cd build/release &&
+#         cpack -G DEB -D CPACK_DEB_COMPONENT_INSTALL=ON -D CPACK_COMPONENTS_ALL=python
+#
+# `cmake --install --component python` installs it; nothing else does.
+if(TARGET swirl_python)
+  install(TARGETS swirl_python LIBRARY DESTINATION lib/python3/dist-packages/swirl
+          COMPONENT python EXCLUDE_FROM_ALL)
+  install(DIRECTORY bindings/python/swirl DESTINATION lib/python3/dist-packages
+          COMPONENT python EXCLUDE_FROM_ALL
+          FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-swirl)
+  set(CPACK_DEBIAN_PYTHON_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "import swirl: simulations, measurements and sweeps as numpy has them.")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION
   "Discs in a swirled dish, simulated event by event; measurements, figures, movies, and a library.")
 include(CPack)

@@ -120,6 +120,8 @@ class Run {
     }
 
     bool complete() const;
+    /// Whether the warm-up is over, and what is seen counts.
+    bool is_warm() const { return warm_; }
     /// A run that goes on from the state of a shorter one has the bits of a run that was as long
     /// from the beginning, but not always its averages: says what they would lack.
     std::optional<std::string> trouble_with_length(const RunConfig& shorter) const;

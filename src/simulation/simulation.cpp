@@ -424,9 +424,14 @@ void Simulation::run(std::uint64_t count) {
 }
 
 void Simulation::advance_to(std::int64_t swirls, double clock) {
+    advance_to(swirls, clock, std::numeric_limits<std::uint64_t>::max());
+}
+
+bool Simulation::advance_to(std::int64_t swirls, double clock, std::uint64_t most) {
     EngineState& state = storage_->state;
-    storage_->loop->run(state, std::numeric_limits<std::uint64_t>::max(), swirls, clock);
+    if (storage_->loop->run(state, most, swirls, clock) == most) return false;
     if (state.swirls == swirls && state.clock < clock) state.clock = clock;
+    return true;
 }
 
 std::int64_t Simulation::swirls() const { return storage_->state.swirls; }

@@ -80,6 +80,8 @@ class Simulation {
     /// Executes every event up to and including the given moment, and stands there. Discs are not
     /// touched, so looking never changes a bit.
     void advance_to(std::int64_t swirls, double clock);
+    /// The same, but no more than `most` events; says whether it stands there.
+    bool advance_to(std::int64_t swirls, double clock, std::uint64_t most);
 
     std::int64_t swirls() const;
     double clock() const;

@@ -177,6 +177,24 @@ class FrontDoor(InFolder):
         self.assertIn("sudo apt-get install --no-install-recommends no-camera\n", done.stderr)
         self.assertEqual(done.stdout.split()[:1], ["first"])
 
+    def test_python_has_the_module_on_its_path(self):
+        os.makedirs(self.path("bindings/python"))
+        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
+                    self.path("bindings/python"))
+        self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
+  COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
+""")
+        for word in ("first", "second"):
+            self.write("bindings/python/swirl.py", f"word = {word!r}\n")
+            for _ in range(2):
+                done = self.call("python", "-c",
+                                 "import swirl, sys; print(swirl.word, sys.executable, sys.argv[1:])",
+                                 "a b")
+                self.assertEqual(done.stdout, f"{word} /usr/bin/python3 ['a b']\n", done.stderr)
+        # The module's build is not the program's.
+        self.assertFalse(os.path.exists(self.path("build/release/swirl")))
+        self.assertEqual(self.word(), "first")
+
     def test_a_long_build_says_how_far_it_is(self):
         self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
   COMMAND sleep 1 COMMAND ${CMAKE_COMMAND} -E touch slow.txt)

@@ -1,0 +1,153 @@
+#include "calls.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include "swirl/run/failure.hpp"
+
+namespace swirl::python {
+namespace {
+
+[[noreturn]] void wrong_type(const std::string& name, const py::handle& value, const char* right) {
+    throw py::type_error(
+        fmt::format("{} is {}, but it must be {}.", name, std::string(py::repr(value)), right));
+}
+
+bool is_truth_value(const py::handle& value) {
+    return PyBool_Check(value.ptr()) ||
+           std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
+}
+
+/// As many digits as it takes to read the same number back.
+std::string number_text(const std::string& name, const py::handle& value) {
+    constexpr auto right = "a number or a text";
+    if (is_truth_value(value) || py::isinstance<py::bytes>(value) || py::hasattr(value, "__len__"))
+        wrong_type(name, value, right);
+    PyObject* number = nullptr;
+    if (PyIndex_Check(value.ptr()))
+        number = PyNumber_Index(value.ptr());
+    else if (py::hasattr(value, "__float__"))
+        number = PyNumber_Float(value.ptr());
+    else
+        wrong_type(name, value, right);
+    if (number == nullptr) throw py::error_already_set();
+    return py::repr(py::reinterpret_steal<py::object>(number));
+}
+
+/// A tuple is one value of several parts: mixture=(12, 1.3).
+std::string value_text(const std::string& name, const py::handle& value) {
+    if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+    if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
+    std::string text;
+    for (const py::handle part : value)
+        text +=
+            (text.empty() ? "" : ":") +
+            (py::isinstance<py::str>(part) ? py::cast<std::string>(part) : number_text(name, part));
+    return text;
+}
+
+bool is_list(const py::handle& value) {
+    return !py::isinstance<py::str>(value) && !py::isinstance<py::tuple>(value) &&
+           !py::isinstance<py::bytes>(value) && py::hasattr(value, "__iter__");
+}
+
+std::string list_text(const std::string& name, const py::handle& values) {
+    std::string text;
+    for (const py::handle value : values)
+        text += (text.empty() ? "" : ",") + value_text(name, value);
+    if (text.empty())
+        throw WrongCall(
+            fmt::format("{} is an empty list, but it must have one value at least.", name));
+    return text;
+}
+
+template <class TextOf>
+ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
+    ParameterTexts texts;
+    for (const auto& [key, value] : given) {
+        if (value.is_none()) continue;
+        const auto name = py::cast<std::string>(key);
+        const Parameter* const row = find_parameter(name);
+        if (row == nullptr || !row->can_be_given() || name != row->name) {
+            const auto meant = nearest_name(plain_name(name), parameter_names());
+            throw py::type_error(fmt::format("There is no parameter '{}'{}.", name,
+                                             meant ? fmt::format("; did you mean '{}'?", *meant)
+                                                   : "; swirl.parameters() lists them"));
+        }
+        texts[name] = text_of(name, value);
+    }
+    return texts;
+}
+
+}  // namespace
+
+ParameterTexts texts_of(const py::dict& given) {
+    return texts_by(given, [](const std::string& name, const py::handle& value) {
+        if (is_list(value))
+            wrong_type(name, value, "one number or text; swirl.sweep() and swirl.map() take lists");
+        return value_text(name, value);
+    });
+}
+
+ParameterTexts lists_of(const py::dict& given) {
+    return texts_by(given, [](const std::string& name, const py::handle& value) {
+        return is_list(value) ? list_text(name, value) : value_text(name, value);
+    });
+}
+
+std::string plain_sentence(std::string_view sentence) {
+    const auto is_word = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+    std::string plain;
+    while (!sentence.empty()) {
+        if (sentence.size() > 2 && sentence.starts_with("--") && is_word(sentence[2])) {
+            sentence.remove_prefix(2);
+            for (; !sentence.empty(); sentence.remove_prefix(1)) {
+                const bool joins =
+                    sentence[0] == '-' && sentence.size() > 1 && is_word(sentence[1]);
+                if (!joins && !is_word(sentence[0])) break;
+                plain += joins ? '_' : sentence[0];
+            }
+            continue;
+        }
+        plain += sentence[0];
+        sentence.remove_prefix(1);
+    }
+    return plain;
+}
+
+WithoutInterpreter::~WithoutInterpreter() {
+    // A daemon thread that comes back when Python is leaving would be ended in the middle of this
+    // destructor, and with it the program; it waits for the end instead.
+    while (_Py_IsFinalizing()) pause();
+    PyEval_RestoreThread(state_);
+}
+
+void Raised::listen(const std::function<void()>& more) {
+    if (error_ || _Py_IsFinalizing()) return;
+    const py::gil_scoped_acquire interpreter;
+    try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (more) more();
+    } catch (...) {
+        error_ = std::current_exception();
+    }
+}
+
+py::object Raised::object() const {
+    if (!error_) return py::none();
+    try {
+        std::rethrow_exception(error_);
+    } catch (py::error_already_set& error) {
+        return error.value();
+    } catch (const std::exception& error) {
+        return py::module_::import("builtins").attr("RuntimeError")(error.what());
+    }
+}
+
+bool is_main_thread() {
+    const py::module_ threading = py::module_::import("threading");
+    return threading.attr("current_thread")().is(threading.attr("main_thread")());
+}
+
+}  // namespace swirl::python

@@ -1,0 +1,99 @@
+#include "frames.hpp"
+
+namespace swirl::python {
+
+void Frames::reserve(std::size_t frames, std::size_t of_discs) {
+    swirls.reserve(frames);
+    for (auto* column : {&clock, &time}) column->reserve(frames);
+    for (auto* column : {&container_centre, &container_velocity}) column->reserve(2 * frames);
+    for (auto* column : {&position, &velocity}) column->reserve(2 * frames * of_discs);
+    for (auto* column : {&angle, &spin}) column->reserve(frames * of_discs);
+}
+
+void Frames::begin(const Snapshot& s) {
+    discs = s.size();
+    period = s.period;
+    container_radius = s.container_radius;
+    on_floor = s.on_floor;
+    are_spheres = s.are_spheres();
+    radius = s.radius;
+    mass = s.mass;
+    inertia = s.inertia;
+}
+
+void Frames::add_moment(std::int64_t swirl, double now, const Vec2& centre, const Vec2& moves) {
+    swirls.push_back(swirl);
+    clock.push_back(now);
+    time.push_back(static_cast<double>(swirl) * period + now);
+    container_centre.insert(container_centre.end(), {centre.x, centre.y});
+    container_velocity.insert(container_velocity.end(), {moves.x, moves.y});
+}
+
+void Frames::add(const Snapshot& s) {
+    if (size() == 0) begin(s);
+    add_moment(s.swirls, s.clock, s.container_centre, s.container_velocity);
+    const auto add_vector = [](std::vector<double>& column, const Vec2& v) {
+        column.push_back(v.x);
+        column.push_back(v.y);
+    };
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        add_vector(position, s.position(i));
+        add_vector(velocity, s.velocity(i));
+        angle.push_back(s.orientation(i));
+        spin.push_back(s.spin[i]);
+        if (!s.are_spheres()) continue;
+        add_vector(acceleration, {s.ax[i], s.ay[i]});
+        add_vector(rolling_spin, {s.spin_x[i], s.spin_y[i]});
+    }
+}
+
+void Frames::add(const Simulation& simulation, const ContainerPath& path) {
+    if (size() == 0 || are_spheres) return add(simulation.snapshot());
+    const double now = simulation.clock();
+    const Leg& leg = path.leg_at(now);
+    add_moment(simulation.swirls(), now, leg.position_at(now), leg.velocity_at(now));
+    const std::size_t at = angle.size();
+    for (auto* column : {&position, &velocity}) column->resize(2 * (at + discs));
+    for (auto* column : {&angle, &spin}) column->resize(at + discs);
+    double *p = position.data() + 2 * at, *v = velocity.data() + 2 * at;
+    for (std::size_t i = 0; i < discs; ++i) {
+        const Disc d = simulation.disc(i).at(now);
+        *p++ = d.position.x;
+        *p++ = d.position.y;
+        *v++ = d.velocity.x;
+        *v++ = d.velocity.y;
+        angle[at + i] = d.angle;
+        spin[at + i] = d.spin;
+    }
+}
+
+void Frames::clear() { *this = Frames(); }
+
+Snapshot Frames::frame(std::size_t k) const {
+    Snapshot s;
+    s.swirls = swirls[k];
+    s.clock = clock[k];
+    s.period = period;
+    s.container_radius = container_radius;
+    s.on_floor = on_floor;
+    s.container_centre = {container_centre[2 * k], container_centre[2 * k + 1]};
+    s.container_velocity = {container_velocity[2 * k], container_velocity[2 * k + 1]};
+    if (are_spheres)
+        s.resize_for_spheres(discs);
+    else
+        s.resize(discs);
+    s.radius = radius;
+    s.mass = mass;
+    s.inertia = inertia;
+    for (std::size_t i = 0; i < discs; ++i) {
+        const std::size_t at = k * discs + i;
+        const auto vector = [at](const std::vector<double>& column) {
+            return Vec2{column[2 * at], column[2 * at + 1]};
+        };
+        s.set_motion(i, {vector(position), vector(velocity), clock[k]}, angle[at], spin[at]);
+        if (are_spheres) s.set_floor_motion(i, vector(rolling_spin), vector(acceleration));
+    }
+    return s;
+}
+
+}  // namespace swirl::python

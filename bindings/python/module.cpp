@@ -1,0 +1,51 @@
+// The module swirl._engine: what Python needs of the floors below the command line. The package
+// around it (swirl/) gives it names and documentation.
+#include <pybind11/pybind11.h>
+
+#include "calls.hpp"
+#include "swirl/files/file_error.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl::python {
+namespace {
+
+void tell(std::exception_ptr thrown, PyObject* failure, PyObject* file_error) {
+    const auto set = [](PyObject* kind, const std::exception& error) {
+        PyErr_SetString(kind, plain_sentence(error.what()).c_str());
+    };
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const WrongCall& error) {
+        set(PyExc_ValueError, error);
+    } catch (const Failure& error) {
+        set(failure, error);
+    } catch (const FileError& error) {
+        set(file_error, error);
+    } catch (const Interrupted& error) {
+        set(PyExc_KeyboardInterrupt, error);
+    }
+}
+
+PyObject *failure_type = nullptr, *file_error_type = nullptr;
+
+}  // namespace
+}  // namespace swirl::python
+
+PYBIND11_MODULE(_engine, module) {
+    namespace python = swirl::python;
+    using python::failure_type, python::file_error_type;
+    failure_type =
+        PyErr_NewExceptionWithDoc("swirl.Failure", "The call was right, but it could not be done.",
+                                  PyExc_RuntimeError, nullptr);
+    file_error_type = PyErr_NewExceptionWithDoc(
+        "swirl.FileError", "Something is wrong with a file.", PyExc_OSError, nullptr);
+    module.add_object("Failure", failure_type);
+    module.add_object("FileError", file_error_type);
+    pybind11::register_exception_translator([](std::exception_ptr thrown) {
+        if (thrown) python::tell(thrown, failure_type, file_error_type);
+    });
+    python::bind_simulations(module);
+    python::bind_runs(module);
+    python::bind_studies(module);
+    python::bind_recordings(module);
+}

@@ -1,0 +1,11 @@
+#!/bin/sh
+# Python with the module `swirl` on its path: builds it when it is out of date, then becomes Debian's
+# python3 with the arguments that are left.
+set -eu
+home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
+me=swirl
+long="three minutes or so"
+. "$home/cmake/front_door.sh"
+
+build release "build python" bindings/python swirl_python
+PYTHONPATH=$home/build/release/python${PYTHONPATH:+:$PYTHONPATH} exec /usr/bin/python3 "$@"

@@ -1,0 +1,29 @@
+"""swirl: exact event-driven simulation of swirled granular matter.
+
+    import swirl
+    r = swirl.run(discs=48, measure=["density"])        # one run to its averages
+    sim = swirl.Simulation(discs=48)                    # a dish, event by event
+
+The same engine, parameters and bits as the command line's. Units: length = radius of a disc, mass =
+mass of a disc, speed of the container = 1 (docs/physics.md); docs/python.md tells the rest.
+"""
+
+from . import _display as _display
+from ._engine import Event, Failure, FileError, Frames, Snapshot
+from ._engine import samples_per_period as samples_per_period
+from ._engine import version as _version
+from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
+from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Table
+from ._runs import Interrupted, Parameter, measurements, parameters, run
+from ._simulation import EventKind, Simulation, load
+from ._study import Crossing, SweepWarning, collect, crossing, sweep
+from ._study import map_runs as map
+
+__version__ = _version().split()[0]
+
+__all__ = [
+    "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
+    "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
+    "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
+    "crossing", "load", "map", "measurements", "parameters", "run", "samples_per_period", "sweep",
+]

@@ -1,0 +1,66 @@
+"""What snapshots, frames and events look like, in notebooks too, and how they are pickled."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from . import _engine
+
+
+def dish_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
+    """The dish in the frame of the snapshot, y upwards; a line in each disc shows its angle."""
+    R = snapshot.container_radius
+    cx, cy = snapshot.container_centre
+    reach = 1.03 * R
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{width}" '
+             f'viewBox="{cx - reach:.6g} {-cy - reach:.6g} {2 * reach:.6g} {2 * reach:.6g}">',
+             f'<circle cx="{cx:.6g}" cy="{-cy:.6g}" r="{R:.6g}" fill="#f7f7f5" stroke="#333" '
+             f'stroke-width="{0.01 * R:.4g}"/>']
+    for (x, y), r, angle in zip(snapshot.position, snapshot.radius, snapshot.angle):
+        parts.append(f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{r:.6g}" fill="#9db9d4" '
+                     f'stroke="#2c4a66" stroke-width="{0.006 * R:.4g}"/>')
+        if math.isfinite(angle):
+            parts.append(f'<line x1="{x:.6g}" y1="{-y:.6g}" x2="{x + r * math.cos(angle):.6g}" '
+                         f'y2="{-y - r * math.sin(angle):.6g}" stroke="#2c4a66" '
+                         f'stroke-width="{0.006 * R:.4g}"/>')
+    return "".join(parts) + "</svg>"
+
+
+def _snapshot_repr(self: _engine.Snapshot) -> str:
+    return f"<swirl.Snapshot of {len(self)} discs at {self.time:.6g}>"
+
+
+def _frames_repr(self: _engine.Frames) -> str:
+    return f"<swirl.Frames: {len(self)} of {self.discs} discs>"
+
+
+def _event_repr(self: _engine.Event) -> str:
+    what = (f"discs {self.i} and {self.j} collide", f"disc {self.i} hits the wall",
+            "the container turns", f"sphere {self.i} begins to roll")[self.kind]
+    return f"<swirl.Event: {what} after {self.swirls} swirls and {self.clock:.6g}>"
+
+
+def _snapshot_of(archive: bytes) -> _engine.Snapshot:
+    return _engine.snapshot_of(archive)
+
+
+def _frames_of(archive: bytes) -> _engine.Frames:
+    return _engine.frames_of(archive)
+
+
+def _snapshot_reduced(self: _engine.Snapshot) -> Any:
+    return _snapshot_of, (self.archive(),)
+
+
+def _frames_reduced(self: _engine.Frames) -> Any:
+    return _frames_of, (self.archive(),)
+
+
+# The compiled classes are told how they look; nothing else of them is in Python.
+setattr(_engine.Snapshot, "_repr_svg_", dish_svg)
+setattr(_engine.Snapshot, "__repr__", _snapshot_repr)
+setattr(_engine.Frames, "__repr__", _frames_repr)
+setattr(_engine.Event, "__repr__", _event_repr)
+setattr(_engine.Snapshot, "__reduce__", _snapshot_reduced)
+setattr(_engine.Frames, "__reduce__", _frames_reduced)

@@ -1,0 +1,185 @@
+"""What was recorded: trajectories of runs, and a camera's tracks."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from typing import Any, Optional, Union, overload
+
+import numpy as np
+
+from . import _engine
+from ._results import Estimate, Measured, measured_of
+from ._runs import Measure, OwnBlocks, PathName, split_measure
+
+
+class Recording:
+    """Frames that are read when they are asked for.
+
+    `len(recording)`, `recording[k]` (a Snapshot), `recording[10:200:5]` (Frames), iteration.
+    """
+
+    _frames: _engine.Recording
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+    @overload
+    def __getitem__(self, k: int) -> _engine.Snapshot: ...
+    @overload
+    def __getitem__(self, k: slice) -> _engine.Frames: ...
+
+    def __getitem__(self, k: Union[int, slice]) -> Union[_engine.Snapshot, _engine.Frames]:
+        if isinstance(k, slice):
+            begin, end, step = k.indices(len(self))
+            if step < 1:
+                raise ValueError(f"The step is {step}, but frames go forward: 1 is the least.")
+            return self._frames.frames(begin, max(begin, end), step)
+        if isinstance(k, bool) or not hasattr(k, "__index__"):
+            raise TypeError(f"Frames have whole numbers, not {k!r}.")
+        number = k.__index__()
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"Frame {number} is asked for, but there are {len(self)}.")
+        number %= len(self)
+        return self._frames.frames(number, number + 1, 1)[0]
+
+    def __iter__(self) -> Iterator[_engine.Snapshot]:
+        for k in range(len(self)):
+            yield self[k]
+
+    @property
+    def same_discs(self) -> bool:
+        """Every frame holds the same discs in the same order."""
+        return self._frames.same_discs
+
+
+class Trajectory(Recording):
+    """A recording of `swirl run --trajectory`, or of swirl.run(trajectory=…); finished or not.
+
+        t = swirl.Trajectory("frames.h5")
+        t[0].position, t[10:20].position, t.parameters, t.complete
+    """
+
+    def __init__(self, file: PathName) -> None:
+        self.file = os.fspath(file)
+        self._frames = _engine.Recording.open(self.file)
+
+    @property
+    def complete(self) -> bool:
+        """False: the run was stopped, or still goes on."""
+        return self._frames.complete
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Who made the file, from what: version, command, configuration, seed, …"""
+        return self._frames.about()
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The parameters of the run, resolved."""
+        return dict(json.loads(self.provenance.get("parameters", "{}")))
+
+    def __repr__(self) -> str:
+        return f"<swirl.Trajectory '{self.file}': {len(self)} frames>"
+
+
+class Tracks(Recording):
+    """What a camera saw: a table of trackpy (columns frame, particle, x, y; pixels, y downwards).
+
+    table: a pandas DataFrame, or anything with such columns. omega: angular velocity of the swirl, in
+    radians per unit of time. container_radius and amplitude: in disc radii. scale: pixels per disc
+    radius. camera_fps: frames per unit of time. centre: the swirl centre, in pixels. phase: of the
+    container at frame 0, in degrees counter-clockwise from the right, as the camera saw it. clockwise:
+    the swirl ran clockwise in the picture.
+
+    Short gaps are filled, and velocities are differences between frames (src/files/tracks.hpp).
+    """
+
+    def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
+                 camera_fps: float = 1.0, scale: float = 1.0,
+                 centre: tuple[float, float] = (0.0, 0.0), phase: float = 0.0,
+                 clockwise: bool = False) -> None:
+        for name, value, least in (("omega", omega, 1e-12), ("container_radius", container_radius, 1e-12),
+                                   ("amplitude", amplitude, 0.0), ("camera_fps", camera_fps, 1e-12),
+                                   ("scale", scale, 1e-12), ("phase", phase, -1e9)):
+            if isinstance(value, bool) or not hasattr(value, "__float__"):
+                raise TypeError(f"{name} is {value!r}, but it must be a number.")
+            if not least <= float(value) < math.inf:
+                raise ValueError(f"{name} is {value}, but it must be a number of at least {least:g}.")
+        try:
+            columns = {name: np.asarray(table[name]) for name in ("frame", "particle", "x", "y")}
+        except (KeyError, IndexError, ValueError):
+            raise ValueError("The tracks need columns frame, particle, x and y.") from None
+        for name, column in columns.items():
+            if column.dtype.kind not in "iuf" or column.ndim != 1:
+                raise TypeError(f"The column {name} of the tracks must be numbers.")
+        for name in ("frame", "particle"):
+            if np.any(columns[name] != np.floor(columns[name])):
+                raise ValueError(f"The column {name} of the tracks must be whole numbers.")
+        x0, y0 = (float(part) for part in centre)
+        if not (math.isfinite(x0) and math.isfinite(y0)):
+            raise ValueError(f"centre is {centre}, but it must be two finite numbers.")
+        order = np.lexsort((columns["particle"], columns["frame"]))
+        self._frames = _engine.Recording.tracks(
+            columns["frame"][order], columns["particle"][order], columns["x"][order],
+            columns["y"][order],
+            {"omega": float(omega), "container_radius": float(container_radius),
+             "amplitude": float(amplitude), "camera_fps": float(camera_fps), "scale": float(scale),
+             "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)})
+
+    @classmethod
+    def read(cls, file: PathName, **scale: Any) -> "Tracks":
+        """From a table of trackpy as CSV."""
+        import pandas
+        return cls(pandas.read_csv(file), **scale)
+
+    def __repr__(self) -> str:
+        return f"<swirl.Tracks: {len(self)} frames>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Analysis:
+    """What was seen in a recording: rotation in units of Ω, and what was measured."""
+
+    by_time: Estimate
+    rigid_by_time: Estimate
+    frames: int
+    measured: Mapping[str, Measured]
+
+
+def analyse(recording: Recording, measure: Optional[Measure] = None, *, skip: float = 0.0) -> Analysis:
+    """The measurements of a run on recorded frames: `swirl measure`.
+
+    measure: as for swirl.run(); "all" is all that frames can tell. skip: swirls at the start that do
+    not count. The frames of one swirl are a block, from which the errors come.
+    """
+    if not isinstance(recording, Recording):
+        raise TypeError(f"{recording!r} is no recording; swirl.Trajectory and swirl.Tracks are.")
+    names, own = split_measure(measure)
+    is_all = measure == "all"
+    reports, by_time, rigid, used = recording._frames.analyse(names, is_all, float(skip))
+    found = measured_of(reports)
+    if own:
+        blocks = OwnBlocks(own)
+        for begin, end in _swirls(recording, skip):
+            blocks.period_ended(recording[begin:end])
+        found.update(blocks.found())
+    return Analysis(Estimate(*by_time, unit="Ω"), Estimate(*rigid, unit="Ω"), used, found)
+
+
+def _swirls(recording: Recording, skip: float) -> Iterator[tuple[int, int]]:
+    """First and last frame of each swirl."""
+    begin, swirl = None, 0
+    for k, seen in enumerate(recording):
+        if seen.time < skip * seen.period:
+            continue
+        if begin is None:
+            begin, swirl = k, seen.swirls
+        elif seen.swirls != swirl:
+            yield begin, k
+            begin, swirl = k, seen.swirls
+    if begin is not None:
+        yield begin, len(recording)

@@ -1,0 +1,334 @@
+"""What a run has found: numbers with their errors, and tables."""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _engine
+
+FloatArray = npt.NDArray[np.float64]
+ReportRow = tuple[str, str, str, float, float, float, int, dict[str, float], bool]
+ReportTable = tuple[str, str, list[tuple[str, str]], FloatArray]
+Report = tuple[str, list[ReportRow], list[ReportTable]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Estimate:
+    """A mean with its standard error, from blocks of whole swirls.
+
+    What is not known (an error from too few blocks) is NaN. `unit` is that of docs/physics.md: r the
+    radius of a disc, m its mass, v the speed of the container, Ω = 2π/T; 1 where there is none.
+    """
+
+    mean: float
+    error: float = math.nan
+    effective_samples: float = math.nan
+    blocks: int = 0
+    unit: str = "1"
+    description: str = ""
+    details: Mapping[str, float] = dataclasses.field(default_factory=dict)
+
+    def __float__(self) -> float:
+        return self.mean
+
+    def __str__(self) -> str:
+        value = _engine.with_error(self.mean, self.error)
+        return value if self.unit == "1" else f"{value} {self.unit}"
+
+
+@dataclasses.dataclass(frozen=True)
+class ArrayEstimate:
+    """Many numbers at once, each with its standard error from blocks; all arrays have one shape."""
+
+    mean: FloatArray
+    error: FloatArray
+    effective_samples: FloatArray
+    blocks: int
+
+    def __str__(self) -> str:
+        return f"{self.mean.shape} numbers with errors, from {self.blocks} blocks"
+
+
+class Table:
+    """A table that a measurement has made.
+
+    `table["by_time"]` is a column as a numpy array. Where the rows are the cells of a map (columns x
+    and y), it is two-dimensional, [y, x], as matplotlib's `pcolormesh(x, y, …)` takes it; otherwise
+    it has one value for each row. `axes` are the coordinates along the array's axes, in their order.
+    All arrays are read-only; `units` are those of docs/physics.md.
+    """
+
+    def __init__(self, name: str, description: str, columns: list[tuple[str, str]],
+                 values: FloatArray) -> None:
+        self.name = name
+        self.description = description
+        self.units: Mapping[str, str] = MappingProxyType(dict(columns))
+        self._values = values
+        self._columns = [column for column, _ in columns]
+
+    @property
+    def columns(self) -> list[str]:
+        return list(self._columns)
+
+    @property
+    def axes(self) -> dict[str, FloatArray]:
+        """The coordinates along each axis of the columns: {"y": …, "x": …}, or {"theta": …}."""
+        if self._is_map():
+            return {name: np.unique(self._column(name)) for name in ("y", "x")}
+        return {self._columns[0]: self._column(self._columns[0])}
+
+    def __getitem__(self, column: str) -> FloatArray:
+        if column not in self._columns:
+            raise KeyError(f"There is no column '{column}' in the table of {self.name}; "
+                           f"there are {', '.join(self._columns)}.")
+        values = self._column(column)
+        if not self._is_map():
+            return values
+        y, x = self.axes.values()
+        return values.reshape(len(y), len(x))
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __contains__(self, column: object) -> bool:
+        return column in self._columns
+
+    def __array__(self, dtype: Any = None) -> npt.NDArray[Any]:
+        return np.asarray(self._values, dtype=dtype)
+
+    def __repr__(self) -> str:
+        return f"<table of {self.name}: {len(self)} rows of {', '.join(self._columns)}>"
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each of the table."""
+        import pandas
+        return pandas.DataFrame(np.array(self._values), columns=self._columns)
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset: a variable for each column that is no axis, with its unit."""
+        import xarray
+        axes = self.axes
+        variables = {
+            name: (list(axes), np.array(self[name]), {"units": self.units[name]})
+            for name in self._columns if name not in axes}
+        coordinates = {name: (name, values, {"units": self.units[name]})
+                       for name, values in axes.items()}
+        return xarray.Dataset(variables, coords=coordinates, attrs={"description": self.description})
+
+    def _column(self, name: str) -> FloatArray:
+        return self._values[:, self._columns.index(name)]
+
+    def _is_map(self) -> bool:
+        # Rows of a map run along x first; their number is that of the cells.
+        if self._columns[:2] != ["x", "y"] or len(self) == 0:
+            return False
+        x, y = np.unique(self._column("x")), np.unique(self._column("y"))
+        return len(x) * len(y) == len(self) and bool(
+            np.all(self._column("x").reshape(len(y), len(x)) == x)
+            and np.all(self._column("y").reshape(len(y), len(x)) == y[:, None]))
+
+
+class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
+    """What one measurement has found: its numbers and tables by name.
+
+    Where its only table has no name of its own, the columns stand here: measured["density"]["by_time"].
+    """
+
+    def __init__(self, name: str, rows: Mapping[str, Union[Estimate, ArrayEstimate]],
+                 tables: Mapping[str, Table]) -> None:
+        self.name = name
+        self.rows: Mapping[str, Union[Estimate, ArrayEstimate]] = MappingProxyType(dict(rows))
+        self.tables: Mapping[str, Table] = MappingProxyType(dict(tables))
+
+    @property
+    def table(self) -> Table:
+        """The only table."""
+        if len(self.tables) != 1:
+            raise KeyError(f"'{self.name}' has {len(self.tables)} tables.")
+        return next(iter(self.tables.values()))
+
+    @property
+    def estimate(self) -> Union[Estimate, ArrayEstimate]:
+        """The only number."""
+        if len(self.rows) != 1:
+            raise KeyError(f"'{self.name}' has {len(self.rows)} numbers.")
+        return next(iter(self.rows.values()))
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self.rows:
+            return self.rows[name]
+        if name in self.tables:
+            return self.tables[name]
+        if "" in self.tables and name in self.tables[""]:
+            return self.tables[""][name]
+        raise KeyError(f"'{self.name}' has no '{name}'; it has {', '.join(self)}.")
+
+    def __iter__(self) -> Iterator[str]:
+        yield from self.rows
+        yield from (name for name in self.tables if name)
+        yield from self.tables.get("", ())
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {', '.join(self)}>"
+
+    def __str__(self) -> str:
+        return "\n".join([f"{self.name}.{name}  {value}" for name, value in self.rows.items()] +
+                         [repr(table) for table in self.tables.values()])
+
+
+def measured_of(reports: list[Report]) -> dict[str, Measured]:
+    """From the engine's reports."""
+    all_found = {}
+    for measurement, rows, tables in reports:
+        estimates = {
+            name: Estimate(mean, error, effective, blocks, unit, description, details)
+            for name, unit, description, mean, error, effective, blocks, details, _ in rows}
+        made = {name: Table(f"{measurement}.{name}" if name else measurement, description, columns,
+                            values) for name, description, columns, values in tables}
+        all_found[measurement] = Measured(measurement, estimates, made)
+    return all_found
+
+
+@dataclasses.dataclass(frozen=True)
+class Rotation:
+    """The cluster's rotation ϖ in units of Ω, in the lab frame, over whole swirls after the warm-up.
+
+    `by_event` is the paper's average, over events; `rigid` is that of the rigid body that fits best
+    (src/measure/cluster_rotation.hpp). Below zero it is counterrotation.
+    """
+
+    by_event: Estimate
+    by_time: Estimate
+    rigid_by_event: Estimate
+    rigid_by_time: Estimate
+
+
+@dataclasses.dataclass(frozen=True)
+class EventCounts:
+    """How many events of each kind; `elastic_by_tc_model` are some of the collisions."""
+
+    total: int = 0
+    disc_disc: int = 0
+    disc_wall: int = 0
+    path_vertex: int = 0
+    elastic_by_tc_model: int = 0
+    begins_to_roll: int = 0
+
+
+def _number(value: Optional[float]) -> float:
+    return math.nan if value is None else float(value)
+
+
+def _estimate(value: Mapping[str, Any], unit: str) -> Estimate:
+    return Estimate(_number(value["mean"]), _number(value["error"]),
+                    _number(value["effective_samples"]), int(value["blocks"]), unit)
+
+
+class Result:
+    """What one run has found.
+
+    config                  every parameter, resolved
+    complete                False: it was stopped before its end
+    rotation                Rotation: .by_time.mean, .by_time.error, .by_event, …
+    measured                {"density": …}: what was asked for with `measure`
+    events, periods         EventCounts, and swirls simulated, warm-up included
+    warmup                  whole swirls left out of the averages
+    steady_state            "steady", "drifting" or "too short to tell"
+    state_hash              64 bits of the state at the end, as 16 hexadecimal digits: equal states
+                            of equal runs, everywhere
+    warnings                what to know before believing the numbers: full sentences
+    max_overlap, energy, energy_at_start, invariant, invariant_at_start, seconds,
+    events_per_second, version, build
+    """
+
+    def __init__(self, text: str, measured: Mapping[str, Measured], headline: str,
+                 report: str) -> None:
+        found = json.loads(text)
+        self._text = text
+        self._headline = headline
+        self._report = report
+        self.config: dict[str, Any] = found["config"]
+        self.complete: bool = found["complete"]
+        self.rotation = Rotation(**{name: _estimate(value, "Ω")
+                                    for name, value in found["rotation"].items()})
+        self.measured: Mapping[str, Measured] = dict(measured)
+        self.events = EventCounts(**found["events"])
+        self.periods = float(found["periods"])
+        self.warmup = int(found["warmup"]["periods"])
+        self.warmup_events = int(found["warmup"]["events"])
+        self.steady_state: str = found["steady_state"]["verdict"]
+        self.drift = _number(found["steady_state"]["drift"])
+        self.drift_of_the_spin = _number(found["steady_state"]["drift_of_the_spin"])
+        self.max_overlap = _number(found["max_overlap"])
+        self.energy = _number(found["energy"])
+        self.energy_at_start = _number(found["energy_at_start"])
+        self.invariant = _number(found["invariant"])
+        self.invariant_at_start = _number(found["invariant_at_start"])
+        self.state_hash: str = found["state_hash"]
+        self.seconds = float(found["seconds"])
+        self.events_per_second = float(found["events_per_second"])
+        self.warnings: list[str] = found["warnings"]
+        self.version: str = found["version"]
+        self.build: str = found["build"]
+
+    def to_json(self) -> str:
+        """The same text that `swirl run --json` writes; only `command` says how Python was asked.
+
+        What was measured by classes of your own is not in it.
+        """
+        return self._text
+
+    def save(self, file: Union[str, os.PathLike[str]]) -> None:
+        """Writes to_json(); `swirl verify FILE` runs it again and compares."""
+        write_aside(file, (self._text + "\n").encode())
+
+    def __repr__(self) -> str:
+        return self._headline
+
+    def __str__(self) -> str:
+        return self._report + "".join(f"{found}\n" for found in self.measured.values())
+
+    def _repr_html_(self) -> str:
+        rows = [(f"ϖ/Ω {name.replace('_', ' ')}", _engine.with_error(e.mean, e.error))
+                for name, e in vars(self.rotation).items()]
+        rows += [("events", f"{self.events.total:,}"), ("swirls", f"{self.periods:.1f}"),
+                 ("steady state", self.steady_state), ("state", self.state_hash)]
+        rows += [(f"{name}.{row}", str(value)) for name, found in self.measured.items()
+                 for row, value in found.rows.items()]
+        body = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+                       f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+                       for name, value in rows)
+        notes = "".join(f"<p>{html.escape(sentence)}</p>" for sentence in self.warnings)
+        return f"<p>{html.escape(self._headline)}</p><table>{body}</table>{notes}"
+
+
+def write_aside(file: Union[str, os.PathLike[str]], content: bytes) -> None:
+    """Under another name first, so that a file is whole or not there."""
+    name = os.fspath(file)
+    aside = f"{name}.{os.getpid()}.partial"
+    try:
+        with open(aside, "xb") as opened:
+            opened.write(content)
+            opened.flush()
+            os.fsync(opened.fileno())
+        os.replace(aside, name)
+    except BaseException:
+        if os.path.exists(aside):
+            os.remove(aside)
+        raise

@@ -1,0 +1,175 @@
+"""Drawings with matplotlib. Every function draws into axes (those given, or new ones) and returns
+them; nothing is shown or saved.
+
+    import swirl, swirl.plot
+    swirl.plot.dish(sim.snapshot(), color="spin")
+    swirl.plot.density(result)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _engine
+from ._results import Estimate, Measured, Result, Table
+from ._simulation import Simulation
+
+Axes = Any  # matplotlib has no types in Debian 12
+
+
+def _axes(axes: Optional[Axes]) -> Axes:
+    if axes is not None:
+        return axes
+    import matplotlib.pyplot
+    return matplotlib.pyplot.subplots(constrained_layout=True)[1]
+
+
+def dish(look: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = None,
+         m_frame: bool = False, color: Any = "tab:blue", velocities: bool = False) -> Axes:
+    """The discs in their container, in the lab frame or the M-frame.
+
+    color: one for all, "spin" or "speed" (in units of Ω and of the container's speed, with a colour
+    bar), or a number for each disc. velocities: arrows as long as a disc goes in a tenth of the period.
+    """
+    from matplotlib.collections import EllipseCollection
+    from matplotlib.patches import Circle
+    s = look.snapshot() if isinstance(look, Simulation) else look
+    if m_frame:
+        s = s.m_frame()
+    axes = _axes(axes)
+    centre = s.container_centre
+    axes.add_patch(Circle(centre, s.container_radius, facecolor="none", edgecolor="0.2", lw=1.5))
+    widths = 2.0 * s.radius
+    # A view of ours cannot be written to, and matplotlib keeps what it is given.
+    discs = EllipseCollection(widths, widths, np.zeros(len(s)), units="x", offsets=s.position.copy(),
+                              offset_transform=axes.transData, edgecolor="0.2", lw=0.6)
+    label = None
+    if isinstance(color, str) and color == "spin":
+        color, label = s.spin * s.period / (2.0 * math.pi), "spin / Ω"
+    elif isinstance(color, str) and color == "speed":
+        color, label = np.hypot(*s.velocity.T), "speed"
+    if isinstance(color, str):
+        discs.set_facecolor(color)
+    else:
+        values = np.asarray(color, dtype=float)
+        if values.shape != (len(s),):
+            raise ValueError(f"color has {values.size} values, but there are {len(s)} discs.")
+        discs.set_array(values)
+        if label == "spin / Ω":
+            most = float(np.nanmax(np.abs(values), initial=1e-12))
+            discs.set_cmap("RdBu_r")
+            discs.set_clim(-most, most)
+    axes.add_collection(discs)
+    if label:
+        axes.figure.colorbar(discs, ax=axes, label=label)
+    if velocities:
+        axes.quiver(*s.position.T, *(0.1 * s.period * s.velocity.T), angles="xy", scale_units="xy",
+                    scale=1, width=0.003)
+    reach = 1.04 * s.container_radius
+    axes.set(xlim=(centre[0] - reach, centre[0] + reach), ylim=(centre[1] - reach, centre[1] + reach),
+             aspect="equal", xlabel="x / r", ylabel="y / r")
+    return axes
+
+
+def _table(found: Any, name: str) -> Table:
+    """Of a result, of what was measured, or the table itself."""
+    if isinstance(found, Table):
+        return found
+    if not isinstance(found, Measured):
+        measured = getattr(found, "measured", {})
+        if name not in measured:
+            raise ValueError(f"This has no '{name}'; swirl.run(measure=[\"{name}\"]) measures it.")
+        found = measured[name]
+    return found.table
+
+
+def density(found: Any, *, by: str = "time", axes: Optional[Axes] = None) -> Axes:
+    """The density map in the M-frame, of a result that measured "density"; `by` "time" or "event"."""
+    table = _table(found, "density")
+    if by not in ("time", "event"):
+        raise ValueError(f"by is {by!r}, but it must be 'time' or 'event'.")
+    axes = _axes(axes)
+    x, y = table.axes["x"], table.axes["y"]
+    drawn = axes.pcolormesh(x, y, table[f"by_{by}"], cmap="magma", shading="nearest")
+    axes.figure.colorbar(drawn, ax=axes, label="density · r²")
+    _round(axes, x, y)
+    return axes
+
+
+def flow(found: Any, *, axes: Optional[Axes] = None) -> Axes:
+    """Velocities relative to the container in the M-frame, of a result that measured "flow"."""
+    table = _table(found, "flow")
+    axes = _axes(axes)
+    x, y = table.axes["x"], table.axes["y"]
+    u, v = table["u_x"], table["u_y"]
+    drawn = axes.quiver(x, y, u, v, np.hypot(u, v), cmap="viridis")
+    axes.figure.colorbar(drawn, ax=axes, label="speed relative to the container")
+    _round(axes, x, y)
+    return axes
+
+
+def _round(axes: Axes, x: Any, y: Any) -> None:
+    from matplotlib.patches import Circle
+    # The cells cover the container's bounding square.
+    radius = x[-1] + 0.5 * (x[1] - x[0])
+    axes.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor="0.5"))
+    axes.set(aspect="equal", xlabel="$x_M$ / r", ylabel="$y_M$ / r", xlim=(-radius, radius),
+             ylim=(-radius, radius))
+
+
+def profile(found: Any, column: str = "varpi_m", *, axes: Optional[Axes] = None) -> Axes:
+    """A column of "profile" (or another table) against its axis, with its error."""
+    table = _table(found, "profile")
+    axes = _axes(axes)
+    ((name, at),) = table.axes.items()
+    values = table[column]
+    axes.plot(at, values, label=column)
+    if f"{column}_error" in table:
+        error = table[f"{column}_error"]
+        axes.fill_between(at, values - error, values + error, alpha=0.3)
+    axes.set(xlabel=f"{name} ({table.units[name]})", ylabel=f"{column} ({table.units[column]})")
+    return axes
+
+
+def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
+             axes: Optional[Axes] = None, label: Optional[str] = None) -> Axes:
+    """ϖ/Ω, by time, against a parameter.
+
+    runs: the table of swirl.sweep(), with a line for each value of the column `by`; or results, for
+    example those of swirl.map().
+    """
+    axes = _axes(axes)
+    if hasattr(runs, "groupby"):
+        groups = [(None, runs)] if by is None else list(runs.groupby(by))
+        for value, rows in groups:
+            rows = rows.sort_values(against)
+            axes.errorbar(rows[against], rows["by_time"], rows["by_time_error"], marker="o", ms=3,
+                          lw=1, capsize=2, label=label if value is None else f"{by} = {value}")
+    else:
+        points = sorted((_parameter(r, against), r.rotation.by_time) for r in _results(runs))
+        at = [point[0] for point in points]
+        found: list[Estimate] = [point[1] for point in points]
+        axes.errorbar(at, [e.mean for e in found], [e.error for e in found], marker="o", ms=3, lw=1,
+                      capsize=2, label=label)
+    axes.axhline(0, color="0.6", lw=0.8)
+    axes.set(xlabel=against, ylabel="ϖ / Ω")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend()
+    return axes
+
+
+def _results(runs: Iterable[Result]) -> list[Result]:
+    results = list(runs)
+    if not all(isinstance(r, Result) for r in results):
+        raise TypeError("rotation() takes the table of swirl.sweep(), or results of runs.")
+    return results
+
+
+def _parameter(result: Result, name: str) -> float:
+    if name not in result.config:
+        raise ValueError(f"There is no parameter '{name}' in the results.")
+    return float(result.config[name])

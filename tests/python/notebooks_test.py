@@ -1,0 +1,33 @@
+"""The notebooks of examples/ run from the top, in a fresh kernel each, and what they claim is so."""
+
+import glob
+import os
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+from scenes import SOURCE
+
+NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.ipynb")))
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=os.path.basename)
+def test_a_notebook_runs(file, tmp_path):
+    book = nbformat.read(file, as_version=4)
+    nbformat.validate(book)
+    NotebookClient(book, timeout=120, kernel_name="python3",
+                   resources={"metadata": {"path": str(tmp_path)}}).execute()
+    for cell in book.cells:
+        for output in cell.get("outputs", []):
+            assert output.get("name") != "stderr", output.get("text")
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=os.path.basename)
+def test_a_notebook_is_kept_without_what_it_printed(file):
+    for cell in nbformat.read(file, as_version=4).cells:
+        assert cell.cell_type != "code" or (cell.outputs == [] and cell.execution_count is None)
+
+
+def test_there_are_four():
+    assert len(NOTEBOOKS) == 4

@@ -1,0 +1,135 @@
+"""The package as it is typed, documented and found."""
+
+import inspect
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import swirl
+from scenes import SOURCE
+
+PACKAGE = os.path.dirname(swirl.__file__)
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """Of mypy, which takes a minute to read numpy."""
+    return os.environ.get("MYPY_CACHE_DIR") or str(tmp_path_factory.mktemp("mypy"))
+
+
+def test_types_are_sound(cache):
+    """mypy --strict reads what is promised; numpy's own types are known to it, those of others are
+    not asked for."""
+    done = subprocess.run(["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
+                           cache, "-p", "swirl"], cwd=os.path.dirname(PACKAGE),
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_users_types_are_told(tmp_path, cache):
+    (tmp_path / "use.py").write_text(
+        "import swirl\n"
+        "r = swirl.run(discs=48)\n"
+        "reveal_type(r.rotation.by_time.mean)\n"
+        "reveal_type(swirl.Simulation(discs=3).snapshot().position)\n"
+        "r.rotation.by_tim\n")
+    done = subprocess.run(["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
+                           cache, "use.py"], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "MYPYPATH": os.path.dirname(PACKAGE)})
+    assert 'Revealed type is "builtins.float"' in done.stdout, done.stdout
+    assert "floating[numpy._typing._64Bit]" in done.stdout
+    assert '"Rotation" has no attribute "by_tim"' in done.stdout and done.stdout.count("error") <= 2
+
+
+def test_the_stubs_name_what_is_there():
+    from swirl import _engine
+    with open(os.path.join(PACKAGE, "_engine.pyi"), encoding="utf-8") as file:
+        stubs = file.read()
+    named = set(re.findall(r"^(?:class|def) (\w+)|^(\w+):", stubs, re.M))
+    named = {a or b for a, b in named}
+    assert named == {name for name in dir(_engine) if not name.startswith("__")}
+    for kind in re.findall(r"^class (\w+)(?=[:(])", stubs, re.M):
+        body = re.search(rf"^class {kind}\b.*?(?=^\S)", stubs, re.M | re.S)[0]
+        there = getattr(_engine, kind)
+        for method in re.findall(r"^    def (\w+)", body, re.M):
+            assert hasattr(there, method), (kind, method)
+
+
+def test_everything_public_says_what_it_is():
+    for name in swirl.__all__:
+        thing = getattr(swirl, name)
+        if inspect.isclass(thing) or inspect.isfunction(thing):
+            assert name in ("Snapshot", "Frames", "Event") or inspect.getdoc(thing), name
+
+
+def test_it_is_small_and_needs_numpy_alone_to_be_imported():
+    """pandas, matplotlib and xarray are asked for when they are wanted."""
+    script = "import sys, swirl; print(sorted({m.split('.')[0] for m in sys.modules} & " \
+             "{'pandas', 'matplotlib', 'xarray', 'h5py', 'tqdm'}))"
+    done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True)
+    assert done.stdout == "[]\n", done.stderr
+
+
+def test_the_bindings_look_at_nothing_above_the_floors_they_may():
+    folder = os.path.join(SOURCE, "bindings", "python")
+    for name in os.listdir(folder):
+        if name.endswith((".cpp", ".hpp")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                for floor in re.findall(r'#include "swirl/(\w+)/', file.read()):
+                    assert floor not in ("app", "paper", "film", "draw"), f"{name} includes {floor}"
+
+
+@pytest.mark.skipif(not shutil.which("clang-format"), reason="clang-format is not installed")
+def test_the_bindings_are_formatted():
+    folder = os.path.join(SOURCE, "bindings", "python")
+    files = [os.path.join(folder, n) for n in os.listdir(folder) if n.endswith((".cpp", ".hpp"))]
+    done = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], capture_output=True,
+                          text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_wheel_is_made_and_used_from_a_clean_folder(tmp_path):
+    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode:
+        pytest.skip("pip is not installed")
+    build = os.path.dirname(os.path.dirname(PACKAGE))
+    # No network, no other packages: with nothing to fetch none is asked for.
+    done = subprocess.run([sys.executable, "-m", "pip", "install", SOURCE, "--target", tmp_path / "there",
+                           "--no-deps", "--no-index", "--config-settings", f"build-dir={build}"],
+                          capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    script = "import swirl; print(swirl.__file__, swirl.run(discs=5, events=1000).state_hash)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "there")}
+    used = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True,
+                          cwd=tmp_path, env=environment)
+    file, state = used.stdout.split()
+    assert file.startswith(str(tmp_path)) and state == swirl.run(discs=5, events=1000).state_hash
+    assert (tmp_path / "there" / "swirl" / "py.typed").exists()
+
+
+@pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-dev is not installed")
+def test_a_debian_package_is_made(tmp_path):
+    build = os.path.dirname(os.path.dirname(PACKAGE))
+    done = subprocess.run(["cpack", "-G", "DEB", "-D", "CPACK_DEB_COMPONENT_INSTALL=ON", "-D",
+                           "CPACK_COMPONENTS_ALL=python", "-B", tmp_path], cwd=build,
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (package,) = tmp_path.glob("python3-swirl_*.deb")
+    needed = subprocess.run(["dpkg-deb", "--field", package, "Depends"], capture_output=True, text=True)
+    for name in ("python3-numpy", "libhdf5", "libfmt9", "libstdc++6"):
+        assert name in needed.stdout
+    subprocess.run(["dpkg-deb", "-x", package, tmp_path / "there"], check=True)
+    folder = tmp_path / "there" / "usr" / "lib" / "python3" / "dist-packages"
+    used = subprocess.run([sys.executable, "-B", "-c", "import swirl; print(swirl.__file__)"],
+                          capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "PYTHONPATH": str(folder)})
+    assert used.stdout.startswith(str(folder)), used.stderr
+
+
+def test_links_of_the_documentation_lead_somewhere():
+    with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as file:
+        for link in re.findall(r"\]\(([^)#]+)[^)]*\)", file.read()):
+            assert os.path.exists(os.path.join(SOURCE, "docs", link)), link

@@ -1,0 +1,186 @@
+"""Recordings and a camera's tracks in Python, against `swirl measure` and the run itself."""
+
+import json
+import math
+import threading
+
+import numpy as np
+import pandas
+import pytest
+
+import swirl
+from scenes import command, options
+
+SCENE = dict(discs=20, seed=3, periods=12, warmup=2)
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    file = tmp_path_factory.mktemp("recorded") / "frames.h5"
+    swirl.run(**SCENE, trajectory=file, frames=511)
+    return file
+
+
+def test_frames_are_those_of_the_run(file):
+    t = swirl.Trajectory(file)
+    sim = swirl.Simulation(discs=20, seed=3)
+    assert t.complete and t.same_discs and t.parameters["discs"] == 20
+    frames = t[:100]
+    assert frames.position.shape == (100, 20, 2)
+    ours = sim.sample(1, 511)
+    for name in ("swirls", "clock", "container_centre"):
+        np.testing.assert_array_equal(getattr(ours, name)[:100], getattr(frames, name))
+    np.testing.assert_allclose(ours.position[:100], frames.position, atol=1e-12)
+    np.testing.assert_array_equal(t[7].position, frames.position[7])
+    np.testing.assert_array_equal(t[-1].position, t[len(t) - 1].position)
+    assert len(t[10:20:3]) == 4 and sum(1 for _ in t) == len(t)
+    for wrong in (len(t), -len(t) - 1):
+        with pytest.raises(IndexError, match="is asked for, but there are"):
+            t[wrong]
+    with pytest.raises(TypeError):
+        t["first"]
+    with pytest.raises(ValueError):
+        t[10:0:-1]
+    assert len(t[5:5]) == 0 and t[5:5].position.size == 0
+
+
+def estimates_of(measured):
+    return {f"{name}.{row}": estimate for name, found in measured.items()
+            for row, estimate in found.rows.items()}
+
+
+def test_analysed_it_is_what_the_command_line_measures(file):
+    found = swirl.analyse(swirl.Trajectory(file), "all", skip=2)
+    done = command("measure", file, "--measure", "all", "--skip", 2, "--json", "-")
+    theirs = json.loads(done.stdout)
+    assert found.frames == theirs["frames"] and set(found.measured) == set(theirs["measured"])
+    assert found.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    compared = 0
+    for name, estimate in estimates_of(found.measured).items():
+        measurement, row = name.split(".")
+        value = theirs["measured"][measurement][row]
+        mean = value["mean"] if isinstance(value, dict) else value
+        assert (math.isnan(estimate.mean) if mean is None else estimate.mean == mean), name
+        compared += 1
+    assert compared > 20
+
+
+def test_ones_own_measurement_of_a_recording_is_that_of_the_run(file):
+    class Spread:
+        def sample(self, snapshot):
+            return snapshot.position.std()
+
+    of_run = swirl.run(**SCENE, measure=[Spread]).measured["Spread"].estimate
+    of_frames = swirl.analyse(swirl.Trajectory(file), [Spread], skip=2).measured["Spread"].estimate
+    assert of_frames.mean == pytest.approx(of_run.mean, rel=1e-9)
+    assert of_frames.error == pytest.approx(of_run.error, rel=1e-6)
+
+
+def test_what_frames_cannot_tell_is_refused(file, tmp_path):
+    t = swirl.Trajectory(file)
+    with pytest.raises(ValueError, match="measure has 'collisions' in its list, which needs every"):
+        swirl.analyse(t, ["collisions"])
+    with pytest.raises(ValueError, match="skip"):
+        swirl.analyse(t, skip=-1)
+    with pytest.raises(ValueError, match="leaves no frame"):
+        swirl.analyse(t, skip=100)
+    with pytest.raises(TypeError, match="is no recording"):
+        swirl.analyse(str(file))
+    with pytest.raises(swirl.FileError):
+        swirl.Trajectory(tmp_path / "nothing.h5")
+    (tmp_path / "text.h5").write_text("no trajectory")
+    with pytest.raises(swirl.FileError):
+        swirl.Trajectory(tmp_path / "text.h5")
+
+
+def test_several_threads_read_one_recording(file):
+    t = swirl.Trajectory(file)
+    expected = [t[k].position.copy() for k in range(0, 600, 50)]
+    wrong = []
+
+    def read(first):
+        for _ in range(20):
+            for k in range(12):
+                at = (k * 5 + first) % 12
+                if not np.array_equal(t[50 * at].position, expected[at]):
+                    wrong.append(at)
+
+    threads = [threading.Thread(target=read, args=(n,)) for n in range(4)]
+    threads.append(threading.Thread(target=swirl.analyse, args=(t, ["density"])))
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+# --- tracks -------------------------------------------------------------------------------------
+
+SCALE = dict(omega=2 * math.pi / 11.866071, container_radius=8.6, amplitude=1.892, scale=20.0,
+             camera_fps=511 / 11.866071, centre=(400.0, 300.0))
+
+
+@pytest.fixture(scope="module")
+def table(file):
+    """What trackpy would have made of a film of the run."""
+    rows = [(k, i, 400 + 20 * x, 300 - 20 * y) for k, s in enumerate(swirl.Trajectory(file)[:3000:1]
+                                                                    .position)
+            for i, (x, y) in enumerate(s)]
+    return pandas.DataFrame(rows, columns=["frame", "particle", "x", "y"])
+
+
+def test_tracks_are_what_the_command_line_reads(table, tmp_path):
+    tracks = swirl.Tracks(table, **SCALE)
+    table.to_csv(tmp_path / "tracks.csv", index=False)
+    done = command("measure", tmp_path / "tracks.csv", "--measure", "density,slip,profile", "--json", "-",
+                   "--camera-fps", repr(SCALE["camera_fps"]), "--scale", 20, "--omega",
+                   repr(SCALE["omega"]), "--centre", "400,300", "--amplitude", 1.892,
+                   "--container-radius", 8.6)
+    assert done.returncode == 0, done.stderr
+    theirs = json.loads(done.stdout)
+    found = swirl.analyse(tracks, ["density", "slip", "profile"])
+    assert found.frames == theirs["frames"]
+    assert found.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    for name, estimate in estimates_of(found.measured).items():
+        measurement, row = name.split(".")
+        assert estimate.mean == theirs["measured"][measurement][row]["mean"], name
+    density = found.measured["density"]["by_time"].ravel()
+    np.testing.assert_array_equal(density, theirs["measured"]["density"]["by_time"])
+
+
+def test_the_order_of_rows_does_not_matter(table):
+    shuffled = table.sample(frac=1, random_state=1)
+    for k in (0, 17, 400):
+        np.testing.assert_array_equal(swirl.Tracks(shuffled, **SCALE)[k].position,
+                                      swirl.Tracks(table, **SCALE)[k].position)
+
+
+@pytest.mark.parametrize("change, kind, said", [
+    (dict(omega=0), ValueError, "omega is 0"), (dict(scale=float("nan")), ValueError, "scale is nan"),
+    (dict(container_radius="8"), TypeError, "container_radius is '8'"),
+    (dict(centre=(0, float("inf"))), ValueError, "centre"), (dict(amplitude=-1), ValueError, "amplitude"),
+])
+def test_wrong_scales(table, change, kind, said):
+    with pytest.raises(kind, match=said):
+        swirl.Tracks(table, **{**SCALE, **change})
+
+
+def test_wrong_tables(table):
+    few = table[:60].copy()
+    with pytest.raises(ValueError, match="columns frame, particle, x and y"):
+        swirl.Tracks(few.drop(columns="x"), **SCALE)
+    for column, value, said in (("x", float("nan"), "no finite position"),
+                                ("particle", 0, "is in frame 0 twice"),
+                                ("frame", 0.5, "whole numbers")):
+        bad = few.copy().astype(float)
+        bad.loc[:3, column] = value
+        with pytest.raises(ValueError, match=said):
+            swirl.Tracks(bad, **SCALE)
+    with pytest.raises(ValueError, match="no positions"):
+        swirl.Tracks(few[:0], **SCALE)
+    with pytest.raises(ValueError, match="single frame"):
+        swirl.Tracks(few[:20], **SCALE)
+    with pytest.raises(TypeError):
+        swirl.Tracks(few.assign(x="here"), **SCALE)
+    with pytest.raises(ValueError, match="columns frame"):
+        swirl.Tracks(np.zeros((4, 4)), **SCALE)

@@ -1,0 +1,419 @@
+"""swirl.Simulation: the bits of the command line whoever looks and however one steps; own discs and
+paths; copies; and no way to bring it down."""
+
+import copy
+import gc
+import multiprocessing
+import pickle
+import random
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import swirl
+from scenes import SCENES, options, result_of
+
+RUNS = [scene for scene in SCENES if "warmup" not in scene]
+
+
+@pytest.mark.parametrize("scene", RUNS, ids=lambda scene: " ".join(options(scene)))
+def test_however_one_goes_the_state_is_that_of_the_command_line(scene):
+    theirs = result_of(scene, "--events", 10000)["state_hash"]
+    sims = [swirl.Simulation(**scene) for _ in range(3)]
+    sims[0].advance(events=10000)
+    rows = sims[1].step(10000)
+    seen = list(sims[2].events(4000))
+    # Looking, sampling, copying on the way change nothing.
+    sims[2].snapshot().m_frame()
+    sims[2] = copy.copy(sims[2])
+    while sims[2].counts.total < 9000:
+        sims[2].sample(0.01, 100)
+        sims[2] = pickle.loads(pickle.dumps(sims[2]))
+    if sims[2].counts.total <= 10000:
+        sims[2].advance(events=10000 - sims[2].counts.total)
+        assert sims[2].state_hash == theirs
+    assert [sim.state_hash for sim in sims[:2]] == [theirs] * 2
+    for name in ("swirls", "clock", "kind", "i", "j", "normal_impulse", "overlap"):
+        np.testing.assert_array_equal(rows[name][:4000], [getattr(e, name) for e in seen])
+
+
+def test_events_say_what_happens():
+    sim = swirl.Simulation(discs=10, seed=3)
+    rows = sim.step(5000)
+    collisions = rows[rows["kind"] == swirl.EventKind.disc_disc]
+    assert np.all(collisions["i"] < collisions["j"]) and np.all(np.diff(rows["time"]) >= 0)
+    np.testing.assert_allclose(np.hypot(rows["normal_x"], rows["normal_y"])[rows["kind"] < 2], 1)
+    # Coulomb: no contact pulls harder along the surface than friction lets it.
+    assert np.all(np.abs(collisions["tangential_impulse"]) <=
+                  collisions["normal_impulse"] * (1 + 1e-12))
+    counts = sim.counts
+    assert counts.disc_disc == len(collisions) and counts.total == 5000
+    for event in sim.events(200):
+        if event.kind == swirl.EventKind.disc_disc:
+            s = sim.snapshot()
+            apart = s.position[event.j] - s.position[event.i]
+            np.testing.assert_allclose(apart, 2 * np.array(event.normal), atol=1e-9)
+
+
+def test_time_goes_as_it_is_told():
+    sim = swirl.Simulation(discs=20)
+    sim.advance(periods=2)
+    assert (sim.swirls, sim.clock) == (2, 0.0)
+    sim.advance(periods=0.25)
+    assert sim.periods == pytest.approx(2.25, abs=1e-12)
+    sim.advance(time=sim.period)
+    assert sim.time == pytest.approx(3.25 * sim.period, abs=1e-9)
+    sim.advance_to(7, 1.5)
+    assert (sim.swirls, sim.clock) == (7, 1.5)
+    for swirls, clock, said in ((6, 0, "does not go back"), (7, 1.25, "does not go back"),
+                                (8, 12, "below the period"), (8, float("nan"), "finite")):
+        with pytest.raises(ValueError, match=said):
+            sim.advance_to(swirls, clock)
+    for wrong in (dict(), dict(periods=1, time=1), dict(events=1, periods=1)):
+        with pytest.raises(TypeError, match="one of periods, time and events"):
+            sim.advance(**wrong)
+    for wrong in (dict(periods=-1), dict(periods=float("inf")), dict(events=-1), dict(events=0.5),
+                  dict(time=float("nan")), dict(time=1e300)):
+        with pytest.raises(ValueError):
+            sim.advance(**wrong)
+    with pytest.raises(TypeError):
+        sim.advance(periods="2")
+    with pytest.raises(TypeError, match="swirl.run"):
+        swirl.Simulation(discs=4, events=100)
+    for too_much in (lambda: sim.step(10**9), lambda: sim.sample(1e6), lambda: sim.sample(1, 10**7),
+                     lambda: sim.step(-1), lambda: sim.sample(-1)):
+        with pytest.raises(ValueError):
+            too_much()
+    assert (sim.swirls, sim.clock) == (7, 1.5)
+
+
+def test_samples_are_what_snapshots_show():
+    a, b = swirl.Simulation(discs=30, seed=5), swirl.Simulation(discs=30, seed=5)
+    a.advance(periods=0.37)
+    b.advance(periods=0.37)
+    frames = a.sample(periods=1.5, per_period=40)
+    assert len(frames) == 60 and frames.position.shape == (60, 30, 2)
+    start = b.periods
+    for k in range(60):
+        assert frames.time[k] == pytest.approx((start + k / 40) * b.period, abs=1e-9)
+        b.advance_to(int(frames.swirls[k]), frames.clock[k])
+        s = b.snapshot()
+        for name in ("position", "velocity", "angle", "spin", "container_centre", "clock", "time",
+                     "container_velocity"):
+            np.testing.assert_array_equal(getattr(frames, name)[k], getattr(s, name), name)
+            np.testing.assert_array_equal(getattr(frames[k], name), getattr(s, name), name)
+    assert a.periods == pytest.approx(start + 1.5)
+    turned = frames.m_frame()
+    np.testing.assert_array_equal(turned[7].position, frames[7].m_frame().position)
+    with pytest.raises(IndexError):
+        frames[60]
+    assert frames[-1].time == frames[59].time
+
+
+def test_m_frame_is_that_of_its_definition():
+    sim = swirl.Simulation(discs=30, path="circle")
+    sim.advance(periods=3.3)
+    s = sim.snapshot()
+    m = s.m_frame()
+    down = s.container_centre / np.hypot(*s.container_centre)
+    across = np.array([-down[1], down[0]])
+    relative = s.position - s.container_centre
+    np.testing.assert_allclose(m.position, np.stack([relative @ across, -(relative @ down)], axis=1),
+                               atol=1e-12)
+    np.testing.assert_allclose(m.spin, s.spin - sim.omega, atol=1e-12)
+    np.testing.assert_array_equal(m.container_centre, [0, 0])
+
+
+def test_rotation_of_a_rigid_turn():
+    angles = np.arange(6) * np.pi / 3
+    position = 4 * np.stack([np.cos(angles), np.sin(angles)], axis=1) + [1.892, 0]
+    sim = swirl.Simulation(position=position, amplitude=1.892)
+    turning = 0.3 * sim.omega
+    around = position - [1.892, 0]
+    sim = swirl.Simulation(position=position,
+                           velocity=turning * np.stack([-around[:, 1], around[:, 0]], axis=1))
+    for found in sim.snapshot().rotation():
+        assert found == pytest.approx(0.3, rel=1e-12)
+
+
+# --- discs and paths of one's own ---------------------------------------------------------------
+
+
+def test_discs_that_are_given_back_go_on_alike():
+    first = swirl.Simulation(discs=40, mixture=(10, 1.3), seed=8)
+    s = first.snapshot()
+    again = swirl.Simulation(position=s.position, velocity=s.velocity, spin=s.spin, angle=s.angle,
+                             radius=s.radius, mass=s.mass, inertia=s.inertia)
+    first.advance(events=5000)
+    again.advance(events=5000)
+    assert first.state_hash == again.state_hash
+
+
+def test_a_polygon_of_ones_own_is_the_papers():
+    first = swirl.Simulation(discs=30)
+    path = first.container_path()
+    again = swirl.Simulation(discs=30, path=path[:, 1:], path_times=path[:, 0])
+    even = swirl.Simulation(discs=30, path=path[:, 1:])
+    for sim in (first, again, even):
+        sim.advance(periods=0.5)
+    # Speeds are differences of vertices over differences of times: the last bit may differ.
+    for sim in (again, even):
+        np.testing.assert_allclose(sim.snapshot().container_centre, first.snapshot().container_centre,
+                                   atol=1e-12)
+
+
+def test_a_path_of_ones_own_is_gone_along():
+    square = np.array([[2, 2], [-2, 2], [-2, -2], [2, -2]], dtype=float)
+    sim = swirl.Simulation(discs=20, path=square, period=16)
+    frames = sim.sample(periods=3, per_period=16)
+    np.testing.assert_allclose(frames.container_centre[:5], [[2, 2], [1, 2], [0, 2], [-1, 2], [-2, 2]],
+                               atol=1e-12)
+    inside = np.linalg.norm(frames.position - frames.container_centre[:, None], axis=2)
+    assert inside.max() <= sim.container_radius - 1 + 1e-9
+    back = pickle.loads(pickle.dumps(sim))
+    for each in (sim, back):
+        each.advance(periods=2)
+    assert back.state_hash == sim.state_hash
+    np.testing.assert_array_equal(back.container_path(), sim.container_path())
+
+
+two = [[1.0, 0.0], [4.0, 0.0]]
+
+
+@pytest.mark.parametrize("wrong, said", [
+    (dict(position=[[0, 0], [1, 0]]), "Discs 0 and 1 are 1 apart, but their radii add up to 2"),
+    (dict(position=[[0, 0], [20, 0]]), "Disc 1 at \\(20, 0\\) sticks out of the container"),
+    (dict(position=[[0, 0, 0]]), "position is 1 × 3, but it must be N × 2"),
+    (dict(position=3), "position is one number, but"), (dict(path=3), "path is one number, but"),
+    (dict(position=[]), "position is 0, but it must be N × 2"),
+    (dict(position=np.zeros((0, 2))), "one disc at least"),
+    (dict(position=[[0, float("nan")]]), "position has nan among its values"),
+    (dict(position=two, velocity=[[1, 1]]), "velocity is 1 × 2, but it must be 2 × 2"),
+    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "velocity has inf"),
+    (dict(position=two, spin=[1, 2, 3]), "spin is 3, but it must be 2 numbers"),
+    (dict(position=two, radius=[1, -1]), "radius is -1 of a disc"),
+    (dict(position=two, mass=[1, 0]), "mass is 0 of a disc"),
+    (dict(position=two, inertia=[1, 0]), "inertia is 0 of a disc"),
+    (dict(position=two, discs=2), "discs is given, but the discs are those of position"),
+    (dict(velocity=two), "velocity is given for each disc, but not their position"),
+    (dict(position=two, body="sphere"), "body is sphere"),
+    (dict(path=[[0, 0]]), "needs two"), (dict(path=[[1, 1], [1, 1]]), "the same point"),
+    (dict(path=[[0, 0], [1, 0], [1, 0]]), "no two vertices be the same"),
+    (dict(path=two, path_times=[0, 20]), "times must ascend"),
+    (dict(path=two, path_times=[1, 2]), "begins with 1"),
+    (dict(path=two, path_times=[0, 1, 2]), "path_times is 3, but"),
+    (dict(path=two, amplitude=2), "leave one"), (dict(path_times=[0, 1]), "path_times needs the path"),
+    (dict(path="spiral"), "path is 'spiral'"), (dict(position=two, mu=-1), "mu is '-1'"),
+])
+def test_what_is_wrong_with_them_is_said(wrong, said):
+    with pytest.raises(ValueError, match=said):
+        swirl.Simulation(**wrong)
+
+
+@pytest.mark.parametrize("wrong", [
+    dict(position="here"), dict(position=[["a", "b"]]), dict(position=[[1], [2, 3]]),
+    dict(position=two, spin=object()), dict(path=[[1j, 0], [0, 0]]),
+    dict(position=np.array(two, dtype=object)), dict(nonsense=3), dict(mu=[1, 2]),
+])
+def test_wrong_types(wrong):
+    with pytest.raises(TypeError):
+        swirl.Simulation(**wrong)
+
+
+def test_arrays_of_any_layout_are_taken():
+    position = np.array([[1, 0], [4, 0], [-3, 2]], dtype=np.int8)
+    spread = np.zeros((6, 4))
+    spread[::2, ::2] = position
+    states = set()
+    for given in (position, position.astype(np.float32), np.asfortranarray(position, dtype=float),
+                  spread[::2, ::2], position.tolist(), position.astype(">f8")):
+        sim = swirl.Simulation(position=given)
+        sim.advance(events=100)
+        states.add(sim.state_hash)
+    assert len(states) == 1
+
+
+# --- keeping ------------------------------------------------------------------------------------
+
+
+def test_saved_and_loaded_it_goes_on_with_the_same_bits(tmp_path):
+    sim = swirl.Simulation(discs=48, seed=2)
+    sim.advance(periods=1.7)
+    sim.save(tmp_path / "dish")
+    sim.advance(events=3000)
+    again = swirl.load(tmp_path / "dish")
+    assert again.config == sim.config
+    again.advance(events=3000)
+    assert (again.state_hash, again.time) == (sim.state_hash, sim.time)
+
+
+def test_a_damaged_file_is_refused(tmp_path):
+    file = tmp_path / "dish"
+    swirl.Simulation(discs=5).save(file)
+    whole = file.read_bytes()
+    random.seed(1)
+    for _ in range(60):
+        bad = bytearray(whole)
+        if random.random() < 0.5:
+            bad[random.randrange(len(bad))] ^= 1 << random.randrange(8)
+        else:
+            bad = bad[:random.randrange(len(bad))]
+        file.write_bytes(bad)
+        with pytest.raises(swirl.FileError, match="no simulation of swirl that could go on"):
+            swirl.load(file)
+    with pytest.raises(FileNotFoundError):
+        swirl.load(tmp_path / "nothing")
+
+
+def test_copies_go_on_by_themselves():
+    sim = swirl.Simulation(discs=10)
+    for make in (copy.copy, copy.deepcopy):
+        other = make(sim)
+        other.advance(periods=1)
+        assert sim.swirls == 0 and other.swirls == 1
+
+
+def advanced(sim):
+    sim.advance(events=2000)
+    return sim.state_hash
+
+
+def test_another_process_gives_the_same_bits():
+    sim = swirl.Simulation(discs=30, seed=9)
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        elsewhere = pool.apply(advanced, (sim,))
+    assert elsewhere == advanced(sim)
+
+
+# --- views, threads -----------------------------------------------------------------------------
+
+
+def test_views_stay_what_they_are():
+    sim = swirl.Simulation(discs=48)
+    s = sim.snapshot()
+    position = s.position
+    before = position.copy()
+    for name in ("position", "velocity", "spin", "angle", "radius", "container_centre"):
+        view = getattr(s, name)
+        assert not view.flags.writeable and not view.flags.owndata
+        with pytest.raises(ValueError):
+            view[...] = 0
+        with pytest.raises(ValueError):
+            view.flags.writeable = True
+    count = sys.getrefcount(s)
+    more = [s.position for _ in range(100)]
+    assert sys.getrefcount(s) == count + 100
+    del more
+    assert sys.getrefcount(s) == count
+    sim.advance(periods=5)
+    del s, sim
+    gc.collect()
+    [np.full((48, 2), 7.0) for _ in range(100)]
+    np.testing.assert_array_equal(position, before)
+
+
+def test_nothing_leaks():
+    resource = pytest.importorskip("resource")
+
+    def work():
+        sim = swirl.Simulation(discs=48)
+        for _ in range(40):
+            sim.step(500)["time"].sum()
+            sim.sample(0.5).position.sum()
+            sim.snapshot().m_frame().position.sum()
+
+    work()
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for _ in range(10):
+        work()
+    # What one round holds is some ten megabytes.
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20000
+
+
+def test_two_threads_on_two_simulations():
+    alone = [swirl.Simulation(discs=48, seed=seed) for seed in (1, 2)]
+    for sim in alone:
+        sim.advance(events=100000)
+    sims = [swirl.Simulation(discs=48, seed=seed) for seed in (1, 2)]
+    threads = [threading.Thread(target=sim.advance, kwargs=dict(events=100000)) for sim in sims]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [sim.state_hash for sim in sims] == [sim.state_hash for sim in alone]
+
+
+def test_many_threads_on_one_simulation_take_turns():
+    sim = swirl.Simulation(discs=48)
+    raised = []
+
+    def use(k):
+        try:
+            for _ in range(30):
+                [lambda: sim.step(500), lambda: sim.advance(events=500), lambda: sim.snapshot().position,
+                 lambda: pickle.dumps(sim), lambda: list(sim.events(20)), lambda: sim.state_hash,
+                 lambda: sim.sample(0.01)][k % 7]()
+        except Exception as error:
+            raised.append(error)
+
+    threads = [threading.Thread(target=use, args=(k,)) for k in range(14)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not raised
+    total = sim.counts.total
+    fresh = swirl.Simulation(discs=48)
+    fresh.advance(events=total)
+    assert fresh.state_hash == sim.state_hash
+
+
+LEAVING = """
+import swirl, threading, time
+def work():
+    while True:
+        swirl.Simulation(discs=48).advance(events=10**6)
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+threading.Thread(target=swirl.run, kwargs=dict(events=1e12), daemon=True).start()
+time.sleep(0.3)
+print("leaving")
+"""
+
+
+def test_python_may_leave_while_threads_work():
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-B", "-c", LEAVING], capture_output=True, text=True,
+                              timeout=60)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "leaving\n", "")
+
+
+def test_it_cannot_be_made_without_its_dish():
+    """Objects that were never begun say so."""
+    bare = swirl.Simulation.__new__(swirl.Simulation)
+    with pytest.raises(AttributeError):
+        bare.step(1)
+    for kind in (swirl.Snapshot, swirl.Frames, swirl.Event):
+        with pytest.raises(TypeError):
+            kind()
+        with pytest.raises(TypeError):
+            kind.__new__(kind)
+
+
+def test_snapshots_and_frames_can_be_sent():
+    sim = swirl.Simulation(discs=7, body="sphere", floor="sliding")
+    sim.advance(periods=0.3)
+    for seen in (sim.snapshot(), sim.sample(0.5)):
+        again = pickle.loads(pickle.dumps(seen))
+        for name in ("position", "velocity", "spin", "time", "mass"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(seen, name))
+    with pytest.raises(swirl.FileError):
+        swirl._engine.frames_of(b"nonsense")
+
+
+def test_a_dish_is_drawn():
+    svg = swirl.Simulation(discs=7)._repr_svg_()
+    assert svg.startswith("<svg") and svg.count("<circle") == 8

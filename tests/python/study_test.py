@@ -1,0 +1,150 @@
+"""swirl.sweep(), crossing() and map() find what the command line finds, in the same folders."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+import warnings
+
+import numpy as np
+import pandas
+import pytest
+
+import swirl
+from scenes import command
+
+
+def table_of(folder):
+    done = command("collect", folder, "--csv", "-")
+    assert done.returncode == 0, done.stderr
+    return pandas.read_csv(io.StringIO(done.stdout), float_precision="round_trip",
+                           dtype={"state_hash": str, "steady_state": str})
+
+
+def test_a_sweep_is_that_of_the_command_line(tmp_path):
+    ours = swirl.sweep(tmp_path / "ours", discs=range(5, 8), mu=[0.1, 0.5], events=5000, seeds=2,
+                       measure=["slip", "density"])
+    done = command("sweep", "--discs", "5:7", "--mu", "0.1,0.5", "--events", "5000", "--seeds", "2",
+                   "--measure", "slip,density", "--out", tmp_path / "theirs", "--quiet")
+    assert done.returncode == 0, done.stderr
+    pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "theirs"), check_exact=True)
+    pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "ours"), check_exact=True)
+    assert len(ours) == 6 and ours.attrs["runs"] == dict(planned=12, done=12, running=0, failed=0)
+    assert {"slip.cluster", "discs", "mu"} <= set(ours.columns)
+    # Either goes on with what the other has begun.
+    again = command("sweep", "--out", tmp_path / "ours", "--quiet")
+    assert again.returncode == 0
+    more = swirl.sweep(tmp_path / "theirs", discs=[8], seeds=3, grow=True)
+    assert len(more) == 8 and more.attrs["runs"]["done"] == 24
+    pandas.testing.assert_frame_equal(swirl.sweep(tmp_path / "theirs"), more)
+
+
+def test_a_sweep_without_a_folder_leaves_none(tmp_path, monkeypatch):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    import tempfile
+    tempfile.tempdir = None
+    table = swirl.sweep(discs="5:7", events=2000)
+    assert len(table) == 3 and os.listdir(tmp_path) == []
+    tempfile.tempdir = None
+
+
+def test_another_sweep_in_the_same_folder_is_refused(tmp_path):
+    swirl.sweep(tmp_path, discs=[5], events=1000)
+    with pytest.raises(swirl.Failure, match="plan"):
+        swirl.sweep(tmp_path, discs=[6], events=1000)
+
+
+@pytest.mark.parametrize("wrong, kind, said", [
+    (dict(discs=[]), ValueError, "discs is an empty list"),
+    (dict(discs=[5, 5]), ValueError, "5"), (dict(discs="5:x"), ValueError, "discs"),
+    (dict(discs=[5, 900]), ValueError, "900 discs do not fit"), (dict(mu=[0.1, None]), TypeError, "mu"),
+    (dict(discs=[5], seeds=0), ValueError, "seeds is 0"), (dict(discs=[5], seeds=1.5), TypeError, "seeds"),
+    (dict(discs=[5], measure="nothing"), ValueError, "measure has 'nothing'"),
+    (dict(discs=[5], measure=[print]), TypeError, "swirl.map"),
+    (dict(discs=[5], frames=10), ValueError, "needs a folder"), (dict(disks=[5]), TypeError, "did you"),
+    (dict(discs=[5], threads=-1), ValueError, "threads"), (dict(discs=[True]), TypeError, "True"),
+])
+def test_wrong_sweeps(wrong, kind, said):
+    with pytest.raises(kind, match=said):
+        swirl.sweep(**wrong)
+
+
+def test_nothing_to_sweep_over(tmp_path):
+    with pytest.raises(ValueError, match="nothing to sweep over"):
+        swirl.sweep(tmp_path / "empty")
+    with pytest.raises(swirl.FileError):
+        swirl.collect(tmp_path / "nowhere")
+
+
+def test_ctrl_c_keeps_what_is_done(tmp_path):
+    script = f"""
+import swirl, os, signal, threading
+threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    swirl.sweep({str(tmp_path / "s")!r}, discs=[5, 6], events=[20000, 3e10])
+except KeyboardInterrupt:
+    print("stopped", swirl.collect({str(tmp_path / "s")!r}).attrs["runs"]["planned"])
+"""
+    done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True,
+                          timeout=60)
+    assert done.stdout.split() == ["stopped", "4"], done.stderr
+    status = command("sweep", "--out", tmp_path / "s", "--status")
+    assert "4 runs done, 0 running, 0 failed" in status.stdout
+
+
+def test_a_crossing_is_that_of_the_command_line():
+    call = dict(fewest=30, most=46, tolerance=1.0)
+    ours = swirl.crossing(**call, mu=1, events=20000)
+    done = command("crossing", "--from", 30, "--to", 46, "--tolerance", 1.0, "--mu", 1, "--events",
+                   20000, "--json", "-", "--quiet")
+    assert done.returncode == 0, done.stderr
+    theirs = json.loads(done.stdout)
+    for found in (ours.found, theirs):
+        for of_the_call in ("command", "seconds"):
+            found.pop(of_the_call, None)
+    assert ours.found == theirs
+    assert ours.verdict == "crosses" and float(ours) == theirs["N_c"]
+    assert str(ours) in done.stderr + ours.sentence and ours.sentence.startswith("N_c = ")
+
+
+@pytest.mark.parametrize("wrong, kind", [
+    (dict(fewest=10, most=5), ValueError), (dict(tolerance=0), ValueError), (dict(fewest=0), ValueError),
+    (dict(discs=40), TypeError), (dict(mu=[0.1, 1]), TypeError), (dict(most=2.5), TypeError),
+    (dict(tolerance=float("nan")), ValueError), (dict(fewest=400, most=500), ValueError),
+])
+def test_wrong_crossings(wrong, kind):
+    with pytest.raises(kind):
+        swirl.crossing(**wrong)
+
+
+def test_a_map_has_the_seeds_of_a_sweep(tmp_path):
+    told = []
+    results = swirl.map(discs=[5, 9], mu=[0.1, 1], events=4000, seeds=2, measure=["slip"],
+                        progress=lambda done, runs: told.append((done, runs)))
+    assert [(r.config["discs"], r.config["mu_disc"]) for r in results] == \
+        [(n, mu) for n in (5, 9) for mu in (0.1, 1) for _ in range(2)]
+    assert told == [(k, 8) for k in range(1, 9)]
+    command("sweep", "--discs", "5,9", "--mu", "0.1,1", "--events", "4000", "--seeds", "2", "--out",
+            tmp_path, "--quiet")
+    hashes = []
+    for name in sorted(os.listdir(tmp_path / "results")):
+        with open(tmp_path / "results" / name) as file:
+            hashes.append(json.load(file)["state_hash"])
+    assert [r.state_hash for r in results] == hashes
+    assert all("slip" in r.measured for r in results)
+
+
+def test_a_map_takes_measurements_of_ones_own_and_their_errors():
+    class Fast:
+        def sample(self, snapshot):
+            return float(np.hypot(*snapshot.velocity.T).max())
+
+    found = swirl.map(discs=[5, 6], events=5000, measure=[Fast])
+    assert all(r.measured["Fast"].estimate.mean > 0 for r in found)
+
+    def broken(snapshot):
+        raise LookupError("no")
+
+    with pytest.raises(LookupError):
+        swirl.map(discs=[5, 6], events=[5000, 10**10], measure=[broken])
