@@ -18,7 +18,7 @@ const markdown = markdownIt({html: true}).use(anchor, {
 const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 const titles = {parameters: "Parameters", measurements: "Measurements", paper: "The paper, regenerated",
                 physics: "Physics", spheres: "Spheres that roll", pictures: "Pictures and movies",
-                lab: "The laboratory", files: "Files", determinism: "The same bits everywhere",
+                lab: "The laboratory", python: "Python", files: "Files", determinism: "The same bits everywhere",
                 performance: "Performance", reliability: "Reliability", design: "Design"};
 const documents = readdirSync(join(root, "docs")).filter((name) => name.endsWith(".md"))
     .map((name) => basename(name, ".md"))
