@@ -1,4 +1,4 @@
-"""Figure 4a: the slip parameter of the pinned discs, for a low and a high friction.
+"""Figure 4a: the slip parameter of the discs at the wall, for a low and a high friction.
 
     /usr/bin/python3 figures/figure_4a.py out/figure_4a.csv
 """
@@ -13,8 +13,10 @@ def main():
     for setting, label, color, marker in (("high", r"rough ($\mu = 1$)", style.RED, "o"),
                                           ("low", r"smooth ($\mu = 0.1$)", style.SKY, "D")):
         curve = style.select(rows, setting=setting)
-        style.curve(axes, curve, "discs", "pinned_region", color=color, marker=marker,
-                    label=label + ", pinned")
+        style.curve(axes, curve, "discs", "pinned_at_wall", color=color, marker=marker,
+                    label=label + ", pinned at the wall")
+        style.curve(axes, curve, "discs", "pinned_region", color=color, marker=".", linewidth=0.6,
+                    linestyle="--", label=label + ", pinned (SI)")
         style.curve(axes, curve, "discs", "cluster", color=color, marker=marker, fillstyle="none",
                     linestyle=":", label=label + ", all discs")
     axes.axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)

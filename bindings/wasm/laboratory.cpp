@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/crossing.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
@@ -86,14 +87,28 @@ std::vector<std::string> names_in(std::string_view list) {
     return names;
 }
 
+struct Asked {
+    RunConfig config;
+    std::vector<std::string> measured;
+};
+Asked asked_for(std::string_view lines) {
+    ParameterTexts given = texts_in(lines);
+    std::vector<std::string> measured;
+    if (const auto found = given.find("measure"); found != given.end()) {
+        measured = names_in(found->second);
+        given.erase(found);
+    }
+    return {resolve(given), std::move(measured)};
+}
+
 /// One dish under observation. An event is found first, by executing it: until then the state of
 /// the snapshot holds, and can be looked at in between; then it is passed.
 class Dish {
   public:
-    Dish(const RunConfig& config, std::vector<std::string> measured)
+    Dish(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
         : config_(config),
-          path_(make_path(config)),
-          simulation_(make_initial_state(config)),
+          path_(begin.path),
+          simulation_(begin),
           snapshot_(simulation_.snapshot()),
           seen_(snapshot_),
           rotation_times_(rotation_samples, config.period),
@@ -127,14 +142,33 @@ class Dish {
     const Snapshot& seen_at(double time) {
         seen_ = snapshot_;
         const double clock = time - static_cast<double>(seen_.swirls) * config_.period;
-        seen_.clock = std::fmin(std::fmax(seen_.clock, clock), config_.period);
+        // The samples may have moved the snapshot on towards the next event.
+        seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
         const Leg& leg = path_.leg_at(seen_.clock);
         seen_.container_centre = leg.position_at(seen_.clock);
         seen_.container_velocity = leg.velocity_at(seen_.clock);
         return seen_;
     }
     /// Of the last event that was passed.
-    double time() const { return snapshot_.time(); }
+    double time() const {
+        return static_cast<double>(snapshot_.swirls) * config_.period + passed_clock_;
+    }
+
+    /// What another dish begins with whose discs are where they are at this moment, as seen from
+    /// the container, which is put where that dish's path begins. Velocities stay as they are: to
+    /// the discs it is a corner.
+    InitialState going_on(double time, const RunConfig& config, const ContainerPath& path) {
+        InitialState state = without_discs(config, path);
+        const Snapshot now = seen_at(time).up_to_date();
+        const Leg& leg = path.legs.front();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            Disc disc = now.disc(i);
+            disc.position = disc.position + (leg.start - now.container_centre);
+            disc.time = 0.0;
+            state.discs.push_back(disc);
+        }
+        return state;
+    }
 
   private:
     static constexpr int rotation_samples = 64;  // per swirl, as in every run
@@ -159,6 +193,7 @@ class Dish {
         ClusterRotation& rotation = rotation_now();
         const bool observed = observes();
         simulation_.refresh(snapshot_, event_);
+        passed_clock_ = snapshot_.clock;
         rotation.follow(snapshot_, event_);
         rotation.sample(snapshot_);
         if (observed) observation_.sample(event_, snapshot_);
@@ -174,6 +209,7 @@ class Dish {
     Snapshot snapshot_, seen_;
     Event event_{};
     bool found_ = false;
+    double passed_clock_ = 0.0;  // of the last event that was passed
     SampleTimes rotation_times_, observation_times_;
     ClusterRotation in_warmup_, rotation_;
     Observation observation_;
@@ -181,6 +217,33 @@ class Dish {
 
 std::unique_ptr<Dish> dish;
 std::vector<double> numbers;
+
+/// The parameters that change at contacts, and where the container goes: discs go on with others of
+/// these; with any other parameter it is another dish.
+bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
+    b.mu_disc = a.mu_disc;
+    b.mu_wall = a.mu_wall;
+    b.restitution = a.restitution;
+    b.tangential_restitution = a.tangential_restitution;
+    b.contact_duration = a.contact_duration;
+    b.floor_friction = a.floor_friction;
+    b.gravity = a.gravity;
+    b.amplitude = a.amplitude;
+    b.period = a.period;
+    b.sides = a.sides;
+    b.path = a.path;
+    b.warmup = a.warmup;
+    return texts_of(a) == texts_of(b);
+}
+
+/// Straight to a point, and there it waits to be told where next. At rest at once: that is a
+/// corner, as all others.
+ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
+    constexpr double long_enough = 1e6;  // periods of a container without any
+    return {long_enough,
+            {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},
+             {duration, long_enough, to, {0.0, 0.0}, 0.0}}};
+}
 
 std::string row_json(const Parameter& p) {
     return fmt::format(
@@ -228,15 +291,29 @@ EXPORTED(parameters) std::uint32_t parameters() {
 
 /// A new dish, at rest: "name=value" on every line, as on the command line, and "measure=a,b,c".
 EXPORTED(begin) void begin() {
-    ParameterTexts given = texts_in(buffer);
-    std::vector<std::string> measured;
-    if (const auto found = given.find("measure"); found != given.end()) {
-        measured = names_in(found->second);
-        given.erase(found);
-    }
-    const RunConfig config = resolve(given);
+    const auto [config, measured] = asked_for(buffer);
     dish.reset();
-    dish = std::make_unique<Dish>(config, std::move(measured));
+    dish = std::make_unique<Dish>(config, make_initial_state(config), measured);
+}
+
+/// The same discs, at this moment and from the container's first leg on, with other frictions,
+/// restitutions or another path; the averages begin anew. 0: it would be another dish.
+EXPORTED(change) std::uint32_t change(double time) {
+    const auto [config, measured] = asked_for(buffer);
+    if (!only_contacts_and_path_differ(dish->config(), config)) return 0;
+    const InitialState state = dish->going_on(time, config, make_path(config));
+    dish = std::make_unique<Dish>(config, state, measured);
+    return 1;
+}
+
+/// By hand: from this moment on the container goes straight to (x, y), which takes the duration
+/// (above 0), and stays there. Times begin anew, and so do averages, which have no swirl to go by.
+EXPORTED(steer) void steer(double time, double x, double y, double duration) {
+    RunConfig config = dish->config();
+    const Vec2 from = dish->seen_at(time).container_centre;
+    const InitialState state = dish->going_on(time, config, path_by_hand(from, {x, y}, duration));
+    config.period = state.path.period;
+    dish = std::make_unique<Dish>(config, state, std::vector<std::string>{});
 }
 
 /// What the dish is, "name=value" on every line: what was not given is there, too.
@@ -302,6 +379,44 @@ EXPORTED(rotation) std::uint32_t rotation() {
     return answer(fmt::format(R"({{"by_event":{},"by_time":{},"warmup":{},"blocks":[{}]}})",
                               estimate_json(e.by_event), estimate_json(e.by_time), dish->warmup(),
                               blocks));
+}
+
+/// A column of a table of what is measured: "density//by_time". How many values there are; 0 if
+/// there is no such column.
+EXPORTED(column) std::uint32_t column() {
+    const std::string_view path = buffer;
+    const std::size_t first = path.find('/'), second = path.find('/', first + 1);
+    if (second == path.npos) return 0;
+    for (const auto& [name, report] : dish->observation().report()) {
+        if (name != path.substr(0, first)) continue;
+        for (const ReportTable& table : report.tables) {
+            if (table.name != path.substr(first + 1, second - first - 1)) continue;
+            for (std::size_t c = 0; c < table.columns.size(); ++c) {
+                if (table.columns[c].name != path.substr(second + 1)) continue;
+                numbers.clear();
+                for (std::size_t r = 0; r < table.rows(); ++r) numbers.push_back(table.at(r, c));
+                return static_cast<std::uint32_t>(numbers.size());
+            }
+        }
+    }
+    return 0;
+}
+EXPORTED(values) const double* values() { return numbers.data(); }
+
+/// N_c of a curve ϖ(N): so many points of three numbers, N, mean and error, from values() on. JSON;
+/// null without a crossing.
+EXPORTED(points) double* points(std::uint32_t count) {
+    numbers.resize(3 * std::size_t{count});
+    return numbers.data();
+}
+EXPORTED(crossing) std::uint32_t crossing() {
+    std::vector<RotationPoint> curve;
+    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+        curve.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+    const Crossing c = find_crossing(curve);
+    if (c.verdict != Crossing::Verdict::crosses) return answer("null");
+    return answer(fmt::format(R"({{"discs":{},"error":{},"lower":{},"upper":{}}})", number(c.discs),
+                              number(c.error), number(c.lower), number(c.upper)));
 }
 
 /// What was asked for with "measure", as `swirl run --json` has it under "measured".

@@ -112,7 +112,7 @@ void make_paper(PaperCall& call) {
 std::string figure_list() {
     std::string text = "Figures:";
     for (const PaperFigure& figure : paper_figures())
-        text += fmt::format("\n  {:<11}{}", figure.name, figure.description);
+        text += fmt::format("\n  {:<12} {}", figure.name, figure.description);
     return text;
 }
 

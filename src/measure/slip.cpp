@@ -1,5 +1,7 @@
 #include "swirl/measure/slip.hpp"
 
+#include "swirl/measure/wall_stays.hpp"
+
 namespace swirl {
 namespace {
 
@@ -32,6 +34,7 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     pancake_.add(pancake_rotation(P, P_container));
 
     double all = 0.0, all_count = 0.0, held = 0.0, held_count = 0.0;
+    double at_wall = 0.0, at_wall_count = 0.0;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const double rate = view.varpi[i];
         const Vec2 d = view.position(i) - view.centre_of_mass;
@@ -41,9 +44,14 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
         if (i >= pinned.size() || pinned[i] == 0) continue;
         held += rate;
         held_count += 1.0;
+        if (!in_wall_layer(view, i)) continue;
+        at_wall += rate;
+        at_wall_count += 1.0;
     }
     const double factor = P / (P_container * view.frame.omega);
     if (all_count > 0.0) cluster_.add((view.frame.omega - all / all_count) * factor);
+    if (at_wall_count > 0.0)
+        pinned_at_wall_.add((view.frame.omega - at_wall / at_wall_count) * factor);
     if (held_count > 0.0) pinned_.add((view.frame.omega - held / held_count) * factor);
 }
 

@@ -28,10 +28,8 @@ void WallStays::sample(const MFrameView& view) {
         std::array<double, least.size()> held{};
         for (std::size_t i = 0; i < n; ++i) {
             const Vec2 p = view.position(i);
-            const double inner = view.container_radius - layers[l] * view.radius[i];
             Stay& stay = stays_[l * n + i];
-            // A layer thicker than the dish is all of it.
-            if (inner > 0.0 && !(dot(p, p) > inner * inner)) {
+            if (!in_wall_layer(view, i, layers[l])) {
                 if (stay.samples > 0.0) end(l, stay, period);
                 stay = {};
                 continue;

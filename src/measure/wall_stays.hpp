@@ -38,6 +38,13 @@
 
 namespace swirl {
 
+/// Is disc i within so many of its radii of the wall? A layer thicker than the dish is all of it.
+inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = 1.5) {
+    const Vec2 p = view.position(i);
+    const double inner = view.container_radius - radii * view.radius[i];
+    return !(inner > 0.0) || dot(p, p) > inner * inner;
+}
+
 class WallStays {
   public:
     static constexpr std::array layers{1.3, 1.5, 1.7};  // radii between centre and wall

@@ -145,14 +145,20 @@ FigurePlan plan_figure_1b(const PaperSettings& settings) {
 }
 
 FigurePlan plan_figure_4a(const PaperSettings& settings) {
-    return plan_against_n(settings, "4a", {smooth, rough}, {"slip.cluster", "slip.pinned_region"},
-                          [](const std::vector<Point>& points, const std::vector<Json>& results) {
-                              return std::vector<std::string>{
-                                  first_and_last("slip of the pinned region", smooth, "slip",
-                                                 "pinned_region", points, results),
-                                  first_and_last("slip of the pinned region", rough, "slip",
-                                                 "pinned_region", points, results)};
-                          });
+    return plan_against_n(
+        settings, "4a", {smooth, rough},
+        {"slip.cluster", "slip.pinned_region", "slip.pinned_at_wall"},
+        [](const std::vector<Point>& points, const std::vector<Json>& results) {
+            std::vector<std::string> sentences;
+            for (const Friction& friction : {smooth, rough}) {
+                sentences.push_back(first_and_last("slip of the pinned in the wall layer", friction,
+                                                   "slip", "pinned_at_wall", points, results));
+                sentences.push_back(first_and_last("slip of all pinned, by the SI's criterion",
+                                                   friction, "slip", "pinned_region", points,
+                                                   results));
+            }
+            return sentences;
+        });
 }
 
 FigurePlan plan_figure_4b(const PaperSettings& settings) {

@@ -137,6 +137,16 @@ Tuning stopped_by(const std::atomic<bool>* stop) {
     return tuning;
 }
 
+InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
+    return {{},
+            path,
+            c.container_radius,
+            {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
+            {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration},
+            c.body,
+            {c.floor ? c.floor_friction * c.gravity : 0.0}};
+}
+
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {
     const auto n = static_cast<std::size_t>(c.discs);
     const std::size_t second = c.mixture ? static_cast<std::size_t>(c.mixture->count) : 0;
@@ -159,13 +169,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
                                     most_discs_in_dish(c.radius, c.container_radius)),
             advice_on_room));
 
-    InitialState scene{{},
-                       make_path(c),
-                       c.container_radius,
-                       {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
-                       {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration},
-                       c.body,
-                       {c.floor ? c.floor_friction * c.gravity : 0.0}};
+    InitialState scene = without_discs(c, make_path(c));
     // Small against the container's speed (a tenth of it in the paper's dish), and there also when
     // the container stands still.
     const double small_speed = 0.02 * c.container_radius * c.omega();

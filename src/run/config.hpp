@@ -17,6 +17,9 @@ std::optional<std::string> problem(const RunConfig& config);
 
 ContainerPath make_path(const RunConfig& config);
 
+/// A dish without its discs: surfaces, floor, and a path that need not be the configuration's.
+InitialState without_discs(const RunConfig& config, const ContainerPath& path);
+
 /// The initial state: discs placed without overlap, with small random velocities relative to the
 /// container, all from the seed. Throws WrongCall if the discs do not fit, Interrupted if `stop` is
 /// set meanwhile; places may be sought for seconds.

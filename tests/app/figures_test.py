@@ -15,7 +15,7 @@ FIGURES = {
     "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free",
            "stay_begins", "stay_ends", "stay_share", "stay_ends_resultant", "distance", "speed"},
     "3b": {"discs", "theta", "normalised", "normalised_error", "wall"},
-    "4a": {"setting", "discs", "pinned_region", "pinned_region_error", "cluster"},
+    "4a": {"setting", "discs", "pinned_at_wall", "pinned_at_wall_error", "pinned_region", "cluster"},
     "4b": {"discs", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
            "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "disc_disc_rate"},
     "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},

@@ -2,6 +2,7 @@
 page does what it says, in a real browser."""
 
 import json
+import math
 import os
 import shutil
 import signal
@@ -38,23 +39,30 @@ const engineOf = async (path) => {
         out = new WebAssembly.Instance(module,
             {wasi_snapshot_preview1: noSystem, page: {refuse}}).exports;
         out._initialize();
-        const begin = (given) => {
+        const write = (given) => {
             const lines = Buffer.from(Object.entries(given).map((e) => e.join("=") + "\\n").join(""));
             const at = out.room(lines.length);
             Buffer.from(out.memory.buffer, at, lines.length).set(lines);
-            out.begin();
         };
-        return {out, begin, asked: text, answer: (size) => read(out.text(), size)};
+        const begin = (given) => { write(given); out.begin(); };
+        return {out, write, begin, asked: text, answer: (size) => read(out.text(), size)};
     };
 };
 engineOf(process.argv[1]).then((make) => {
     const said = [];
-    for (const {given, events} of JSON.parse(process.argv[2])) {
-        const engine = make();
+    for (const {given, events, steps} of JSON.parse(process.argv[2])) {
+        const engine = make(), answers = [];
         try {
             engine.begin(given);
             engine.out.run_events(events);
+            for (const [name, ...values] of steps ?? []) {
+                if (name === "change") engine.write(values.pop());
+                answers.push(engine.out[name](...values));
+            }
+            const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
+            const frame = new Float64Array(engine.out.memory.buffer, seen, 11 + 7 * given.discs);
             said.push({
+                answers, frame: answers.length ? [...frame] : [],
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 measured: JSON.parse(engine.answer(engine.out.measured())),
@@ -108,6 +116,55 @@ class Laboratory(unittest.TestCase):
                                      here["rotation"][average]["mean"], average)
                 self.assertEqual(there["measured"]["slip"]["rows"]["cluster"]["mean"],
                                  here["measured"]["slip"]["cluster"]["mean"])
+
+    def discs(self, given, steps):
+        """What the last step, an advance to some time, shows of every disc: x, y, angle, spin, v."""
+        said = self.engine([{"given": {"discs": "5", "seed": "3", **given}, "events": 0,
+                             "steps": steps}])["said"][0]
+        self.assertNotIn("refused", said)
+        frame, discs = said["frame"][11:], []
+        for begin in range(0, len(frame), 7):
+            discs.append(frame[begin:begin + 6])
+        return discs, said["answers"]
+
+    def assert_same_discs(self, these, those):
+        # Positions are shifted into the other dish and rounded, and a few collisions make ten times
+        # as much of that each.
+        for one, other in zip(these, those, strict=True):
+            for a, b in zip(one, other, strict=True):
+                self.assertAlmostEqual(a, b, delta=1e-9)
+
+    def test_by_hand_along_the_polygon_is_the_polygon(self):
+        period, amplitude, sides = 11.866071, 1.892, 30
+        corner = [[amplitude * f(2 * math.pi * k / sides) for f in (math.cos, math.sin)]
+                  for k in range(4)]
+        leg = period / sides
+        swirled, _ = self.discs({}, [["advance_to", 3 * leg * (1 - 1e-12), 10 ** 6]])
+        steps = []
+        for k in range(3):
+            now = 0 if k == 0 else leg
+            steps += [["steer", now, *corner[k + 1], leg], ["advance_to", leg * (1 - 1e-12), 10 ** 6]]
+        by_hand, answers = self.discs({}, steps)
+        self.assertEqual(answers[1::2], [1, 1, 1])
+        self.assert_same_discs(by_hand, swirled)
+
+    def test_a_change_keeps_the_discs_and_another_dish_is_refused(self):
+        period = 11.866071
+        same, _ = self.discs({}, [["advance_to", 1.1 * period, 10 ** 6]])
+        given = {"discs": "5", "seed": "3"}
+        change = lambda **more: ["change", period, {**given, **more}]  # noqa: E731
+        steps = [["advance_to", period, 10 ** 6], change(), ["advance_to", 0.1 * period, 10 ** 6]]
+        kept, answers = self.discs({}, steps)
+        self.assertEqual(answers, [1, 1, 1])
+        # In the laboratory: the container is where it was.
+        self.assert_same_discs(kept, same)
+        steps[1] = change(mu="0")
+        other, answers = self.discs({}, steps)
+        self.assertEqual(answers, [1, 1, 1])
+        self.assertNotEqual(other, kept)
+        for more in ({"discs": "6"}, {"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}):
+            steps[1] = change(**more)
+            self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
 
     def test_the_page_knows_every_parameter_of_the_command_line(self):
         help_text = swirl("run", "--help").stdout

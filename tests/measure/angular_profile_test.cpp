@@ -65,22 +65,5 @@ TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
     for (std::size_t k = 0; k < 8; ++k) EXPECT_TRUE(std::isnan(profile.normalised(k).mean));
 }
 
-TEST(AngularProfile, MergedRunsAreOneLongRun) {
-    AngularProfile whole, first, second;
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    for (std::size_t k = 0; k < whole.slices(); ++k) {
-        if (whole.visits(k) == 0.0) continue;
-        EXPECT_NEAR(first.plain(k).mean, whole.plain(k).mean, 1e-12);
-        EXPECT_NEAR(first.plain(k).error, whole.plain(k).error, 1e-6);
-    }
-}
-
 }  // namespace
 }  // namespace swirl

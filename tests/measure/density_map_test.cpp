@@ -78,21 +78,5 @@ TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
     EXPECT_EQ(map.density(0).mean, 0.0);
 }
 
-TEST(DensityMap, MergedRunsAreOneLongRun) {
-    DensityMap whole(R, 20), first(R, 20), second(R, 20);
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    for (std::size_t c = 0; c < whole.grid().cells(); ++c) {
-        EXPECT_EQ(first.density(c).mean, whole.density(c).mean);
-        EXPECT_EQ(first.density(c).error, whole.density(c).error);
-    }
-}
-
 }  // namespace
 }  // namespace swirl

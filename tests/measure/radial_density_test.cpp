@@ -39,19 +39,5 @@ TEST(RadialDensity, NothingSeenIsNotANumberAndNobodyThereIsZero) {
     EXPECT_EQ(density.density(0).mean, 0.0);
 }
 
-TEST(RadialDensity, MergedRunsAreOneLongRun) {
-    RadialDensity whole(8.6), first(8.6), second(8.6);
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    for (std::size_t k = 0; k < whole.rings(); ++k)
-        EXPECT_EQ(first.density(k).mean, whole.density(k).mean);
-}
-
 }  // namespace
 }  // namespace swirl

@@ -55,7 +55,6 @@ TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
 
 TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     Snapshot s = rim(0.3, 1.0);
-    const MFrame f = m_frame(s);
     const Snapshot still = rim(0.3, 0.0);
     // Every other pair of opposite discs at rest in the M-frame would move the centre of mass;
     // flags alone decide here.
@@ -69,7 +68,37 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     none.sample(still, pinned);
     none.close_block();
     EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
-    (void)f;
+}
+
+/// Four discs far inside, at rest in the M-frame.
+void add_still_discs(Snapshot& s) {
+    const MFrame f = m_frame(s);
+    for (int k = 0; k < 4; ++k) {
+        const Vec2 p = 3.0 * unit_circle(0.25 * k);
+        add_disc(s, f.lab_position(p), f.lab_velocity(p, {}));
+    }
+}
+
+TEST(Slip, OfThePinnedAtTheWallOnlyThoseInTheWallLayerCount) {
+    Snapshot s = rim(0.3, 1.0);
+    const std::vector<std::uint8_t> everybody(27, 1);
+    Slip alone(1);
+    alone.sample(s, everybody);
+    alone.close_block();
+    EXPECT_EQ(alone.pinned_at_wall().mean, alone.pinned_region().mean);
+    add_still_discs(s);
+    Slip both(1);
+    both.sample(s, everybody);
+    both.close_block();
+    EXPECT_NEAR(both.pinned_at_wall().mean, alone.pinned_at_wall().mean, 1e-13);
+    EXPECT_LT(both.pinned_region().mean, 0.9 * alone.pinned_region().mean);
+    Snapshot inside = empty_dish(0.3);
+    add_still_discs(inside);
+    Slip none(1);
+    none.sample(inside, everybody);
+    none.close_block();
+    EXPECT_TRUE(std::isnan(none.pinned_at_wall().mean));
+    EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
 }
 
 TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
@@ -100,19 +129,6 @@ TEST(Slip, LooksAtEvery64thLookOnly) {
     for (int k = 0; k < 128; ++k) slip.sample(rim(0.1, k % 64 == 0 ? 1.0 : 0.3));
     slip.close_block();
     EXPECT_NEAR(slip.cluster().mean, 1.0, 0.003);
-}
-
-TEST(Slip, MergedRunsAreOneLongRun) {
-    Slip whole(1), first(1), second(1);
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(30, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    EXPECT_NEAR(first.cluster().mean, whole.cluster().mean, 1e-14);
 }
 
 }  // namespace

@@ -115,20 +115,6 @@ TEST(SpinFrustration, LooksAtEvery64thLookOnly) {
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
 }
 
-TEST(SpinFrustration, MergedRunsAreOneLongRun) {
-    SpinFrustration whole(0.1, 1), first(0.1, 1), second(0.1, 1);
-    for (int k = 0; k < 12; ++k) {
-        const Snapshot s = random_discs(60, k, k / 12.0);
-        whole.sample(s);
-        whole.close_block();
-        (k < 5 ? first : second).sample(s);
-        (k < 5 ? first : second).close_block();
-    }
-    first.merge(second);
-    EXPECT_NEAR(first.correlation().mean, whole.correlation().mean, 1e-14);
-    EXPECT_NEAR(first.triangles().mean, whole.triangles().mean, 1e-14);
-}
-
 TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
     TouchingPairs touching;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

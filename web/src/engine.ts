@@ -45,7 +45,20 @@ interface Exports {
     events(): number;
     state_hash(): bigint;
     rotation(): number;
-    measured(): number;
+    change(time: number): number;
+    steer(time: number, x: number, y: number, duration: number): void;
+    column(): number;
+    values(): number;
+    points(count: number): number;
+    crossing(): number;
+}
+
+/** N_c, its standard error, its interval of 95 %. */
+export interface Crossing {
+    discs: number;
+    error: number;
+    lower: number | null;
+    upper: number | null;
 }
 
 /** What a frame begins with, and what follows for every disc. */
@@ -85,13 +98,39 @@ export class Engine {
     parameters(): Parameter[] {
         return JSON.parse(this.answer(this.out.parameters())) as Parameter[];
     }
-    /** Throws Refusal; the engine is then of no more use. */
-    begin(given: Record<string, string>): void {
-        const lines = Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join("");
-        const bytes = new TextEncoder().encode(lines);
+    private hand(text: string): void {
+        const bytes = new TextEncoder().encode(text);
         const at = this.out.room(bytes.length);
         new Uint8Array(this.out.memory.buffer, at, bytes.length).set(bytes);
+    }
+    private handLines(given: Record<string, string>): void {
+        this.hand(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
+    }
+    /** Throws Refusal; the engine is then of no more use. */
+    begin(given: Record<string, string>): void {
+        this.handLines(given);
         this.out.begin();
+    }
+    /** The same discs go on from a moment at which a swirl begins; false if that is another dish. */
+    change(time: number, given: Record<string, string>): boolean {
+        this.handLines(given);
+        return this.out.change(time) === 1;
+    }
+    /** From a moment on the container goes straight to a point; the engine's time begins anew. */
+    steer(time: number, x: number, y: number, duration: number): void {
+        this.out.steer(time, x, y, duration);
+    }
+    /** Of what is measured: "density//by_time". */
+    column(path: string): Float64Array {
+        this.hand(path);
+        const size = this.out.column();
+        return new Float64Array(this.out.memory.buffer, this.out.values(), size).slice();
+    }
+    /** Of points N, ϖ/Ω, error, one after the other. */
+    crossing(points: number[]): Crossing | null {
+        const at = this.out.points(points.length / 3);
+        new Float64Array(this.out.memory.buffer, at, points.length).set(points);
+        return JSON.parse(this.answer(this.out.crossing())) as Crossing | null;
     }
     /** All parameters of the dish, also those that were not given. */
     configuration(): Record<string, string> {
@@ -128,8 +167,5 @@ export class Engine {
     }
     rotation(): Rotation {
         return JSON.parse(this.answer(this.out.rotation())) as Rotation;
-    }
-    measured(): Record<string, unknown> {
-        return JSON.parse(this.answer(this.out.measured())) as Record<string, unknown>;
     }
 }

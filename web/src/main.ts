@@ -6,21 +6,11 @@ import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
 import type {Parameter, Rotation} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
-import {draw, type Coloring, type View} from "./scene";
+import {MapsPanel} from "./maps";
+import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
+import {draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
+import {Study} from "./study";
 import {lesson, presets, texts} from "./texts";
-
-function element<Tag extends keyof HTMLElementTagNameMap>(
-    tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
-    ...children: (Node | string)[]): HTMLElementTagNameMap[Tag] {
-    const made = Object.assign(document.createElement(tag), properties);
-    made.append(...children);
-    return made;
-}
-function byId(id: string): HTMLElement {
-    const found = document.getElementById(id);
-    if (!found) throw new Error(`The page has no element '${id}'.`);
-    return found;
-}
 
 /** With a slider: from, to, step. The others have a field for their text alone. */
 const sliders: Record<string, [number, number, number]> = {
@@ -29,7 +19,7 @@ const sliders: Record<string, [number, number, number]> = {
     sides: [3, 60, 1],
 };
 const trailLength = 45; // frames
-const byHand = 350; // milliseconds after the last change before a new dish is made
+const settling = 350; // milliseconds after the last change before it is made
 
 // --- state ------------------------------------------------------------------------------------
 
@@ -47,6 +37,11 @@ let last: Frame | undefined;
 let history: Float64Array[] = [];
 let waiting = false; // for the answer to a tick
 let lastTick = 0;
+let keepDiscs = false; // where a parameter changes
+let hasHistory = false; // no command line makes this dish
+let byHand = false;
+let pointer: [number, number] | undefined; // where the container is to go, by hand
+let turned = 0; // of the pack, in turns
 
 const worker = new EngineWorker();
 const tell = (message: ToWorker): void => worker.postMessage(message);
@@ -61,18 +56,33 @@ function layOutViews(): void {
         const canvas = element("canvas");
         canvas.setAttribute("role", "img");
         canvases[each] = canvas;
+        if (each === "lab") {
+            const follow = (event: PointerEvent): void => {
+                if (byHand && last)
+                    pointer = pointedAt(canvas, last.frame, room(), event.clientX, event.clientY);
+            };
+            canvas.addEventListener("pointermove", follow);
+            canvas.addEventListener("pointerdown", follow);
+        }
         return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
     }));
     for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete canvases[each];
     redraw();
 }
 
+/** How far from S the container may come; by hand, twice as far as it is swirled. */
+function room(): number {
+    const amplitude = Number(configuration["amplitude"] ?? 0);
+    return byHand ? Math.max(2 * amplitude, 0.3 * Number(configuration["container_radius"]))
+                  : amplitude;
+}
+
 function redraw(): void {
     if (!last) return;
-    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
     for (const [each, canvas] of Object.entries(canvases) as [View, HTMLCanvasElement][]) {
         draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
-                                  event: last.event, dark});
+                                  event: last.event, dark: dark(),
+                                  room: room(), turned});
         const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
         if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
     }
@@ -83,27 +93,15 @@ function redraw(): void {
 const plot = new uPlot({
     width: 400, height: 190,
     scales: {x: {time: false}},
-    axes: [{label: texts.swirls, stroke: () => ink(), grid: {stroke: () => line()}},
-           {label: "ϖ/Ω", stroke: () => ink(), grid: {stroke: () => line()}}],
-    series: [{label: texts.swirls}, {label: "ϖ/Ω", stroke: () => quiet(), width: 1},
-             {label: "mean", stroke: () => accent(), width: 2}],
+    axes: [{label: texts.swirls, stroke: ink, grid: {stroke: line}},
+           {label: "ϖ/Ω", stroke: ink, grid: {stroke: line}}],
+    series: [{label: texts.swirls}, {label: "ϖ/Ω", stroke: quiet, width: 1},
+             {label: "mean", stroke: accent, width: 2}],
     legend: {show: false},
 }, [[], [], []], byId("plot"));
 
-const style = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name);
-function ink(): string { return style("--ink"); }
-function line(): string { return style("--line"); }
-function quiet(): string { return style("--quiet"); }
-function accent(): string { return style("--accent"); }
-
-function withError(mean: number | null, error: number | null): string {
-    if (mean === null) return texts.notYet;
-    if (error === null || !(error > 0)) return mean.toFixed(3);
-    const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(error))));
-    return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`.replace(/-/g, "−");
-}
-
 function sentence(rotation: Rotation): string {
+    if (byHand) return texts.handSays(turned.toFixed(2).replace("-", "−"));
     const discs = Number(configuration["discs"]);
     const {mean, error} = rotation.by_time;
     if (mean === null || error === null || Math.abs(mean) < 2 * error) return texts.undecided(discs);
@@ -115,11 +113,13 @@ let blocks: (number | null)[] = []; // of every swirl, those of the warm-up firs
 function showRotation(rotation: Rotation): void {
     const time = last?.frame[0] ?? 0;
     const pairs: [string, string][] = [
-        [texts.byTime, withError(rotation.by_time.mean, rotation.by_time.error)],
-        [texts.byEvent, withError(rotation.by_event.mean, rotation.by_event.error)],
+        [texts.byTime, withError(rotation.by_time.mean, rotation.by_time.error, texts.notYet)],
+        [texts.byEvent, withError(rotation.by_event.mean, rotation.by_event.error, texts.notYet)],
         [texts.swirls, (time / Number(configuration["period"])).toFixed(1)],
+        [texts.turned, texts.turns(turned.toFixed(2).replace("-", "−"))],
     ];
-    const early = rotation.by_time.blocks === 0 ? texts.warmup(rotation.warmup) : "";
+    if (byHand) pairs.splice(0, 3); // no swirl to go by
+    const early = rotation.by_time.blocks === 0 && !byHand ? texts.warmup(rotation.warmup) : "";
     byId("numbers").replaceChildren(element("dl", {id: "estimates"}, ...pairs.flatMap(
         ([name, value]) => [element("dt", {textContent: name}), element("dd", {textContent: value})])),
         element("p", {textContent: early}));
@@ -154,11 +154,17 @@ function begin(events = 0): void {
     blocks = [];
     last = undefined;
     waiting = true;
+    hasHistory = false;
+    setByHand(false);
+    turned = 0;
     plot.setData([[], [], []]);
     byId("headline").textContent = "…";
     byId("refusal").hidden = true;
-    const asked = Object.fromEntries(Object.entries(given).filter(([, value]) => value !== ""));
-    tell({kind: "begin", given: asked, events});
+    tell({kind: "begin", given: asked(), events});
+}
+
+function asked(): Record<string, string> {
+    return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== ""));
 }
 
 let later: ReturnType<typeof setTimeout> | undefined;
@@ -170,8 +176,11 @@ function changed(): void {
         } catch {
             // A page from a memory stick has no address of its own in some browsers.
         }
-        begin();
-    }, byHand);
+        // What was refused has no dish to go on with.
+        if (keepDiscs && last && !byHand && byId("refusal").hidden)
+            tell({kind: "change", given: asked()});
+        else begin();
+    }, settling);
 }
 
 function refuse(text: string): void {
@@ -245,6 +254,25 @@ function setPlaying(on: boolean): void {
     lastTick = 0;
 }
 
+const handButton = button(texts.hand, () => {
+    if (byHand) return begin();
+    if (!last) return;
+    view = "lab";
+    (byId(`choose-${texts.view}`) as HTMLSelectElement).value = view;
+    hasHistory = true;
+    turned = 0;
+    pointer = [last.frame[3]!, last.frame[4]!];
+    setByHand(true);
+    layOutViews();
+    setPlaying(true);
+}, "by-hand");
+function setByHand(on: boolean): void {
+    byHand = on;
+    handButton.textContent = on ? texts.handEnds : texts.hand;
+    handButton.setAttribute("aria-pressed", String(on));
+    document.body.classList.toggle("by-hand", on);
+}
+
 function choice<Value extends string>(name: string, options: Record<Value, string>, value: Value,
                                       set: (value: Value) => void): HTMLElement {
     const select = element("select", {id: `choose-${name}`}, ...Object.entries<string>(options).map(
@@ -254,22 +282,15 @@ function choice<Value extends string>(name: string, options: Record<Value, strin
     return element("label", {}, `${name} `, select);
 }
 
-function save(name: string, href: string): void {
-    element("a", {href, download: name}).click();
-}
-
 function layOutBar(): void {
-    const button = (text: string, act: () => void, id = ""): HTMLElement => {
-        const made = element("button", {type: "button", textContent: text, id});
-        made.addEventListener("click", act);
-        return made;
-    };
     playButton.addEventListener("click", () => setPlaying(!playing));
     const speed = element("input", {type: "range", min: "-3", max: "1", step: "0.1",
                                     value: String(Math.log10(swirlsPerSecond)), id: "speed"});
     speed.addEventListener("input", () => { swirlsPerSecond = 10 ** Number(speed.value); });
     const trailBox = element("input", {type: "checkbox", id: "trails"});
     trailBox.addEventListener("change", () => { trails = trailBox.checked; redraw(); });
+    const keepBox = element("input", {type: "checkbox", id: "keep"});
+    keepBox.addEventListener("change", () => { keepDiscs = keepBox.checked; });
     const preset = element("select", {id: "choose-preset"}, element("option", {textContent: "…"}),
         ...presets.map(({name}) => element("option", {textContent: name})));
     preset.addEventListener("change", () => {
@@ -286,15 +307,16 @@ function layOutBar(): void {
         choice(texts.view, texts.views, view, (value) => { view = value; layOutViews(); }),
         choice(texts.color, texts.colors, coloring, (value) => { coloring = value; redraw(); }),
         element("label", {}, trailBox, ` ${texts.trails}`),
+        element("label", {title: texts.keepHow}, keepBox, ` ${texts.keep}`),
+        handButton,
         element("label", {}, `${texts.speed} `, speed),
         button(texts.picture, () => {
             const canvas = canvases.lab ?? canvases.m;
-            if (canvas) save("swirl.png", canvas.toDataURL("image/png"));
+            if (canvas) save("swirl.png", {href: canvas.toDataURL("image/png")});
         }, "save-picture"),
         button(texts.table, () => {
             const text = blocks.map((block, k) => `${k + 1},${block ?? ""}\n`).join("");
-            save("rotation.csv", URL.createObjectURL(
-                new Blob([`swirl,varpi\n${text}`], {type: "text/csv"})));
+            save("rotation.csv", {text: `swirl,varpi\n${text}`, type: "text/csv"});
         }, "save-table"));
     setPlaying(playing);
 }
@@ -357,6 +379,7 @@ document.addEventListener("keydown", (event) => {
 function received(frame: Frame): void {
     waiting = false;
     if (last && last.frame.length === frame.frame.length) {
+        turned += turnBetween(last.frame, frame.frame);
         history.push(last.frame);
         if (history.length > trailLength) history.shift();
     }
@@ -366,7 +389,8 @@ function received(frame: Frame): void {
     if (frame.rotation) showRotation(frame.rotation);
     byId("event-count").textContent = String(frame.events);
     byId("state-hash").textContent = frame.hash;
-    byId("command").textContent = commandLine();
+    byId("command").textContent = hasHistory ? texts.noCommand : commandLine();
+    if (maps.open && performance.now() - lastMaps > betweenMaps) askForMaps();
     if (hadRun) {
         runTo = 0;
         setPlaying(false);
@@ -410,6 +434,23 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
         case "begun":
             configuration = data.configuration;
             break;
+        case "changed":
+            if (!data.kept) {
+                begin();
+                break;
+            }
+            configuration = data.configuration;
+            hasHistory = true;
+            history = [];
+            blocks = [];
+            plot.setData([[], [], []]);
+            break;
+        case "maps":
+            maps.show(data);
+            break;
+        case "unsupported":
+            refuse(texts.noWebAssembly);
+            break;
         case "refused":
             waiting = false;
             refuse(data.sentence);
@@ -426,8 +467,23 @@ function animate(now: number): void {
     // After a pause, or a while in the background, time goes on from here.
     const elapsed = lastTick > 0 ? Math.min(now - lastTick, 100) : 0;
     lastTick = now;
+    const swirls = elapsed / 1000 * swirlsPerSecond;
     waiting = true;
-    tell({kind: "tick", swirls: elapsed / 1000 * swirlsPerSecond});
+    if (byHand && pointer) steerTo(pointer, last.frame, swirls);
+    else tell({kind: "tick", swirls});
+}
+
+/** Straight to where the pointer is, or as far as the hand may go: four times as fast as the dish is
+ *  swirled, and not out of the picture. */
+function steerTo([x, y]: [number, number], frame: Float64Array, swirls: number): void {
+    const period = Number(configuration["period"]), amplitude = Number(configuration["amplitude"]);
+    const duration = Math.max(swirls, 1e-4) * period;
+    const [fromX, fromY] = [frame[3]!, frame[4]!];
+    const outside = Math.max(1, Math.hypot(x, y) / room());
+    const [dx, dy] = [x / outside - fromX, y / outside - fromY];
+    const usual = 2 * Math.PI * (amplitude || 0.2 * Number(configuration["container_radius"])) / period;
+    const share = Math.min(1, 4 * usual * duration / (Math.hypot(dx, dy) || 1));
+    tell({kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration});
 }
 
 function resize(): void {
@@ -444,5 +500,25 @@ async function unpacked(url: string): Promise<ArrayBuffer> {
     if (!packed) throw new Error("empty");
     return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
-unpacked(engineUrl).then((bytes) => tell({kind: "engine", bytes}),
-                         () => refuse(texts.noWebAssembly));
+const engine = unpacked(engineUrl);
+engine.then((bytes) => tell({kind: "engine", bytes}), () => refuse(texts.noWebAssembly));
+
+// --- maps, and the paper's figure by oneself --------------------------------------------------
+
+const betweenMaps = 1000; // milliseconds
+let lastMaps = 0;
+function askForMaps(): void {
+    if (byHand) return;
+    lastMaps = performance.now();
+    tell({kind: "maps"});
+}
+const maps = new MapsPanel(askForMaps);
+const study = new Study(() => {
+    const one = new EngineWorker();
+    void engine.then((bytes) => one.postMessage({kind: "engine", bytes} satisfies ToWorker));
+    return one;
+}, () => {
+    const {discs: _, mu: __, mu_disc: ___, mu_wall: ____, ...others} = asked();
+    return others;
+});
+byId("panels").replaceChildren(maps.panel, study.panel);

@@ -1,12 +1,28 @@
 // What the page and its worker say to each other.
-import type {Parameter, Rotation} from "./engine";
+import type {Crossing, Estimate, Parameter, Rotation} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
     | {kind: "begin"; given: Record<string, string>; events: number}
     /** Time has gone on by so many swirls. Answered by a frame. */
     | {kind: "tick"; swirls: number}
-    | {kind: "step"};
+    | {kind: "step"}
+    /** Other frictions or another path for the same discs, from the next swirl on. */
+    | {kind: "change"; given: Record<string, string>}
+    /** By hand: the container goes straight to a point, for so long a time. Answered by a frame. */
+    | {kind: "steer"; x: number; y: number; duration: number}
+    | {kind: "maps"}
+    /** A run from beginning to end, of so many swirls after the warm-up. */
+    | {kind: "point"; given: Record<string, string>; swirls: number}
+    | {kind: "crossing"; curve: string; points: number[]};
+
+/** What fills up while the dish is swirled, in cells of the M-frame, and against θ. */
+export interface Maps {
+    kind: "maps";
+    density: Float64Array;
+    flow: {x: Float64Array; y: Float64Array; ux: Float64Array; uy: Float64Array};
+    profile: {theta: Float64Array; varpi: Float64Array; wall: Float64Array};
+}
 
 export interface Frame {
     kind: "frame";
@@ -17,12 +33,17 @@ export interface Frame {
     event?: Float64Array;
     /** Now and then. */
     rotation?: Rotation;
-    /** The dish cannot keep up with the clock. */
-    late: boolean;
 }
 
 export type FromWorker =
     | {kind: "ready"; parameters: Parameter[]}
     | {kind: "begun"; configuration: Record<string, string>}
     | {kind: "refused"; sentence: string}
+    /** The browser lacks what the engine needs. */
+    | {kind: "unsupported"}
+    /** Whether the discs have gone on with what was changed; if not, it is another dish. */
+    | {kind: "changed"; kept: boolean; configuration: Record<string, string>}
+    | Maps
+    | {kind: "point"; rotation: Estimate}
+    | {kind: "crossing"; curve: string; crossing: Crossing | null}
     | Frame;

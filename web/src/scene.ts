@@ -11,6 +11,8 @@ export interface Look {
     trails: Float64Array[]; // earlier frames, the oldest first
     event: Float64Array | undefined;
     dark: boolean;
+    room: number; // how far from S the container may come, for the laboratory's scale
+    turned: number; // of the pack, in turns with the swirl; drawn as an arc in the laboratory
 }
 
 interface Frame {
@@ -30,6 +32,42 @@ function shown(frame: Frame, view: View, x: number, y: number): [number, number]
     const [dx, dy] = [x - frame.centre[0], y - frame.centre[1]];
     const [ex, ey] = frame.down;
     return [-dx * ey + dy * ex, -(dx * ex + dy * ey)];
+}
+
+/** Half the width of the picture. */
+function reachOf(frame: Frame, look: {view: View; room: number}): number {
+    const room = Math.max(look.room, Math.hypot(...frame.centre));
+    return (look.view === "lab" ? frame.radius + room : frame.radius) * 1.06;
+}
+
+/** The point of the laboratory at these coordinates of the window. */
+export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: number, clientX: number,
+                          clientY: number): [number, number] {
+    const box = canvas.getBoundingClientRect();
+    const scale = 2 * reachOf(head(f), {view: "lab", room}) / box.width;
+    return [(clientX - box.left - box.width / 2) * scale,
+            (box.top + box.height / 2 - clientY) * scale];
+}
+
+/** By how much the pack has turned about its centre of mass from one frame to a later one, in turns:
+ *  the rigid rotation that moves the discs most nearly as they moved. */
+export function turnBetween(a: Float64Array, b: Float64Array): number {
+    if (a.length !== b.length) return 0;
+    const discs = head(b).discs;
+    const mean = (f: Float64Array, at: number): number => {
+        let sum = 0;
+        for (let i = 0; i < discs; ++i) sum += f[frameHead + frameDisc * i + at]!;
+        return sum / discs;
+    };
+    const [ax, ay, bx, by] = [mean(a, 0), mean(a, 1), mean(b, 0), mean(b, 1)];
+    let along = 0, across = 0;
+    for (let i = 0; i < discs; ++i) {
+        const k = frameHead + frameDisc * i;
+        const [px, py, qx, qy] = [a[k]! - ax, a[k + 1]! - ay, b[k]! - bx, b[k + 1]! - by];
+        along += px * qx + py * qy;
+        across += px * qy - py * qx;
+    }
+    return Math.atan2(across, along) / (2 * Math.PI);
 }
 
 /** From blue (against) by grey to orange (with the swirl); safe for the colour-blind. */
@@ -58,8 +96,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     if (canvas.width !== size) canvas.width = canvas.height = size;
     const frame = head(f);
     const amplitude = Math.hypot(...frame.centre);
-    const reach = (look.view === "lab" ? frame.radius + amplitude : frame.radius) * 1.06;
-    const scale = size / (2 * reach);
+    const scale = size / (2 * reachOf(frame, look));
     const ink = look.dark ? "#e8e6e3" : "#23272b";
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, size, size);
@@ -83,6 +120,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
         context.setLineDash([]);
     }
 
+    if (look.view === "lab") drawTurned(context, frame, look.turned, hair);
     drawTrails(context, f, look, hair);
     const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
     for (let i = 0; i < frame.discs; ++i) {
@@ -104,6 +142,25 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     }
     drawEvent(context, f, frame, look, hair);
     drawMarks(context, frame, look, ink, hair);
+}
+
+/** Along the rim, from the right: how far the pack has turned; every turn further in. */
+function drawTurned(context: CanvasRenderingContext2D, frame: Frame, turned: number,
+                    hair: number): void {
+    const whole = Math.trunc(turned), rest = turned - whole;
+    const radius = frame.radius - 4 * hair;
+    context.strokeStyle = context.fillStyle = turned < 0 ? "#24639e" : "#cc5c0a";
+    context.lineWidth = 4 * hair;
+    context.globalAlpha = 0.8;
+    if (whole !== 0) {
+        context.beginPath();
+        context.arc(...frame.centre, radius - 5 * hair, 0, 2 * Math.PI);
+        context.stroke();
+    }
+    context.beginPath();
+    context.arc(...frame.centre, radius, 0, 2 * Math.PI * rest, rest < 0);
+    context.stroke();
+    context.globalAlpha = 1;
 }
 
 function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Look,

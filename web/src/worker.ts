@@ -1,7 +1,6 @@
 // The engine at work, beside the page so that the page never waits for it.
 import {Engine, Refusal} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
-import {texts} from "./texts";
 
 /** A tick works for so long at most; what is left of it is not made up for. */
 const patience = 12; // milliseconds
@@ -13,8 +12,10 @@ const collapse = 4000; // milliseconds
 let module: WebAssembly.Module | undefined;
 let engine: Engine | undefined;
 let now = 0; // the moment that is shown
+let period = 1;
 let lastAverages = 0;
 let stuckSince: number | undefined;
+let change: Record<string, string> | undefined; // waits for the end of the swirl
 
 const say = (message: FromWorker): void => postMessage(message);
 
@@ -24,10 +25,10 @@ function refuse(error: unknown): void {
         `The engine stopped: ${String(error)}. Reload the page.`});
 }
 
-function show(late: boolean, single = false): void {
+function show(single = false): void {
     if (!engine) return;
     const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
-                          hash: engine.stateHash, late};
+                          hash: engine.stateHash};
     if (single) frame.event = engine.event();
     if (single || performance.now() - lastAverages > betweenAverages) {
         frame.rotation = engine.rotation();
@@ -39,20 +40,26 @@ function show(late: boolean, single = false): void {
 function begin(given: Record<string, string>, events: number): void {
     if (!module) return;
     engine = new Engine(module);
-    engine.begin(given);
+    engine.begin({...given, ...watched});
     now = 0;
     lastAverages = 0;
     stuckSince = undefined;
-    say({kind: "begun", configuration: engine.configuration()});
+    change = undefined;
+    const configuration = engine.configuration();
+    period = Number(configuration["period"]);
+    say({kind: "begun", configuration});
     if (events > 0) engine.runEvents(events);
     now = engine.time;
-    show(false, events > 0);
+    show(events > 0);
 }
+
+/** The page's own measurements go along with every dish: they change no bit. */
+const watched = {measure: "density,flow,profile"};
 
 function tick(swirls: number): void {
     if (!engine) return;
-    const period = Number(engine.configuration()["period"]);
-    const target = now + swirls * period;
+    const swirlEnds = (Math.floor(now / period + 1e-9) + 1) * period;
+    const target = change ? Math.min(now + swirls * period, swirlEnds) : now + swirls * period;
     const deadline = performance.now() + patience;
     let arrived = engine.advanceTo(target, eventsAtOnce);
     while (!arrived && performance.now() < deadline)
@@ -64,17 +71,68 @@ function tick(swirls: number): void {
             "faster, and the model has no state after that (a collapse). Another seed may not " +
             "meet it; with a restitution below 1 a longer contact_duration keeps them apart.");
     now = Math.max(now, reached);
-    show(!arrived);
+    if (change && now === swirlEnds) goOn(change);
+    show();
+}
+
+function goOn(given: Record<string, string>): void {
+    if (!engine) return;
+    change = undefined;
+    const kept = engine.change(now, {...given, ...watched});
+    const configuration = engine.configuration();
+    if (kept) {
+        now = 0;
+        period = Number(configuration["period"]);
+    }
+    say({kind: "changed", kept, configuration});
+}
+
+function steer(x: number, y: number, duration: number): void {
+    if (!engine) return;
+    engine.steer(now, x, y, duration);
+    period = Number.POSITIVE_INFINITY;
+    const deadline = performance.now() + patience;
+    let arrived = engine.advanceTo(duration, eventsAtOnce);
+    while (!arrived && performance.now() < deadline)
+        arrived = engine.advanceTo(duration, eventsAtOnce);
+    now = arrived ? duration : engine.time;
+    show();
+}
+
+function maps(): void {
+    if (!engine) return;
+    const of = (column: string): Float64Array => engine!.column(column);
+    say({kind: "maps", density: of("density//by_time"),
+         flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
+         profile: {theta: of("profile//theta"), varpi: of("profile//varpi_m"),
+                   wall: of("profile//wall")}});
+}
+
+/** A run of one's own study. Whoever asks for it asks nothing else of this worker meanwhile. */
+function point(given: Record<string, string>, swirls: number): void {
+    if (!module) return;
+    engine = new Engine(module);
+    engine.begin(given);
+    const {period: length, warmup} = engine.configuration();
+    const end = (swirls + Number(warmup || engine.rotation().warmup)) * Number(length);
+    const begun = performance.now();
+    let before = engine.time;
+    let progress = begun;
+    while (!engine.advanceTo(end, eventsAtOnce)) {
+        if (engine.time > before) [before, progress] = [engine.time, performance.now()];
+        else if (performance.now() - progress > collapse) break;
+    }
+    say({kind: "point", rotation: engine.rotation().by_time});
+    engine = undefined;
 }
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
     try {
         switch (data.kind) {
             case "engine":
-                module = await Engine.compile(data.bytes).catch(() => {
-                    throw new Refusal(texts.noWebAssembly);
-                });
-                say({kind: "ready", parameters: new Engine(module).parameters()});
+                module = await Engine.compile(data.bytes).catch(() => undefined);
+                say(module ? {kind: "ready", parameters: new Engine(module).parameters()}
+                           : {kind: "unsupported"});
                 break;
             case "begin":
                 begin(data.given, data.events);
@@ -82,11 +140,27 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
             case "tick":
                 tick(data.swirls);
                 break;
+            case "change":
+                change = data.given;
+                break;
+            case "steer":
+                steer(data.x, data.y, data.duration);
+                break;
+            case "maps":
+                maps();
+                break;
+            case "point":
+                point(data.given, data.swirls);
+                break;
+            case "crossing":
+                if (module) say({kind: "crossing", curve: data.curve,
+                                 crossing: new Engine(module).crossing(data.points)});
+                break;
             case "step":
                 if (!engine) break;
                 engine.runEvents(1);
                 now = engine.time;
-                show(false, true);
+                show(true);
                 break;
         }
     } catch (error) {

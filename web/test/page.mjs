@@ -67,6 +67,68 @@ assert.match(await text("refusal"), /'disks'/);
 await open("?discs=5&events=-1");
 assert.match(await text("refusal"), /events=-1/);
 
+// Changed on the way: the same discs go on, and no command line makes them.
+await open("?discs=8");
+await page.check("#keep");
+await page.evaluate(() => { // ten swirls a second
+    const speed = document.getElementById("speed");
+    speed.value = "1";
+    speed.dispatchEvent(new Event("input"));
+});
+await page.fill("#parameter-mu", "0.2");
+await page.waitForFunction(() => document.getElementById("command").textContent.startsWith("none"));
+await page.fill("#parameter-discs", "9"); // that is another dish
+await page.waitForFunction(
+    () => document.getElementById("command").textContent.includes("--discs 9 --mu 0.2"));
+await page.uncheck("#keep");
+
+// Maps fill up.
+await page.click("#maps summary");
+await page.waitForFunction(() => {
+    const canvas = document.getElementById("density-map");
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width || 1, canvas.height || 1);
+    return new Set(Array.from({length: data.length / 40}, (_, k) => data[40 * k])).size > 10;
+}, null, {timeout: 60_000});
+await page.waitForSelector("#profile canvas");
+await page.click("#maps summary");
+
+// By hand: the dish goes where the pointer goes, and ends where one says.
+await page.click("#by-hand");
+const dish = await page.locator("#views canvas").boundingBox();
+for (let k = 0; k < 40; ++k) {
+    await page.mouse.move(dish.x + dish.width * (0.5 + 0.1 * Math.cos(k / 3)),
+                          dish.y + dish.height * (0.5 + 0.1 * Math.sin(k / 3)));
+    await page.waitForTimeout(20);
+}
+assert.match(await text("headline"), /^Move the dish/);
+await page.click("#by-hand");
+await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headline").textContent));
+
+// The paper's figure by oneself, in small.
+await page.click("#study summary");
+for (const [wrong, said] of [["5:x", /must be numbers or ranges/], ["", /must be numbers/]]) {
+    await page.fill("#study-discs", wrong);
+    await page.click("#study-start");
+    assert.match(await text("study-said"), said);
+}
+await page.fill("#study-discs", "5, 8:2:10");
+await page.fill("#study-mu", "0, 1");
+await page.fill("#study-swirls", "20");
+await page.click("#study-start");
+await page.waitForFunction(() => document.querySelectorAll("#study-findings li").length === 2, null,
+                           {timeout: 60_000});
+assert.match(await text("study-said"), /^6 of 6 runs/);
+const study = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
+const table = (await (await study[0].createReadStream()).toArray()).join("").trim().split("\n");
+assert.equal(table.length, 7);
+assert.equal(table[0], "mu,discs,varpi,varpi_error");
+assert.ok(table.slice(1).every((row) => row.split(",").every((x) => Number.isFinite(Number(x)))));
+await page.fill("#study-discs", "1000");
+await page.click("#study-start");
+await page.waitForFunction(
+    () => /do not fit/.test(document.getElementById("study-said").textContent));
+await page.click("#study summary");
+
 // The lesson goes through its six steps by keyboard alone.
 await open("");
 await page.focus("#lesson-start");

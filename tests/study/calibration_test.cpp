@@ -1,0 +1,132 @@
+// Are the errors what they say? Many independent repetitions of the same call, each with its
+// interval of 95 %, mean ± 1.96 errors, against a truth that is known far better. Of 40 intervals
+// 34 to 40 must hold it: fewer than 34 happen to a right estimator in one of 600 cases (binomial,
+// p = 0.95), and more than 40 there are not. Wide intervals are no way out: the error that is given
+// must not be more than twice the scatter of the repetitions.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <vector>
+
+#include "swirl/measure/several_runs.hpp"
+#include "swirl/run/run.hpp"
+#include "swirl/study/all_cores.hpp"
+#include "swirl/study/crossing.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr std::size_t repetitions = 40;
+constexpr double ninety_five = 1.959963984540054;
+
+struct Point {
+    std::int64_t discs;
+    double mu;
+};
+
+class SlowCalibration : public testing::TestWithParam<Point> {
+  protected:
+    /// ϖ by time of `count` runs over so many swirls after a warm-up of 100.
+    static std::vector<Estimate> rotations(std::size_t count, std::int64_t swirls,
+                                           std::uint64_t first_seed) {
+        std::vector<Estimate> all(count);
+        on_all_cores(count, [&](std::size_t k) {
+            RunConfig config;
+            config.discs = GetParam().discs;
+            config.mu_disc = config.mu_wall = GetParam().mu;
+            config.warmup = 100;
+            config.periods = 100 + swirls;
+            config.seed = first_seed + k;
+            all[k] = swirl::run(config).rotation.by_time;
+        });
+        return all;
+    }
+
+    /// From ten times as much as all forty that are judged: uncertain by a twentieth of one's
+    /// error.
+    static Estimate truth() { return several_runs(rotations(40, 2000, 100'000)).estimate; }
+};
+
+struct Judgement {
+    int held = 0;
+    double scatter_to_error = 0.0;  // rms deviation from the truth over the rms error given
+};
+
+Judgement judge(const std::vector<Estimate>& given, double truth) {
+    Judgement all;
+    double off = 0.0, error = 0.0;
+    for (const Estimate& e : given) {
+        all.held += std::fabs(e.mean - truth) <= ninety_five * e.error ? 1 : 0;
+        off += std::pow(e.mean - truth, 2);
+        error += e.error * e.error;
+    }
+    all.scatter_to_error = std::sqrt(off / error);
+    return all;
+}
+
+void expect_calibrated(const char* what, const std::vector<Estimate>& given, double truth) {
+    ASSERT_EQ(given.size(), repetitions);
+    const Judgement found = judge(given, truth);
+    testing::Test::RecordProperty(what, found.held);
+    std::printf("%s: %d of %zu intervals of 95 %% hold the truth; scatter / error = %.2f\n", what,
+                found.held, repetitions, found.scatter_to_error);
+    EXPECT_GE(found.held, 34) << what;
+    EXPECT_GT(found.scatter_to_error, 0.5) << what << ": the errors are far too large";
+}
+
+TEST_P(SlowCalibration, ARunsErrorIsThatOfItsMean) {
+    expect_calibrated("run", rotations(repetitions, 200, 1), truth().mean);
+}
+
+TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
+    const std::vector<Estimate> runs = rotations(4 * repetitions, 200, 10'000);
+    std::vector<Estimate> collected;
+    for (std::size_t k = 0; k < repetitions; ++k)
+        collected.push_back(several_runs(std::span(runs).subspan(4 * k, 4)).estimate);
+    expect_calibrated("four runs", collected, truth().mean);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
+                         testing::Values(Point{8, 1.0}, Point{28, 1.0}, Point{36, 0.2},
+                                         Point{48, 1.0}),
+                         [](const auto& point) {
+                             return "N" + std::to_string(point.param.discs) +
+                                    (point.param.mu == 1.0 ? "Rough" : "Smooth");
+                         });
+
+TEST(SlowCalibrationOfTheCrossing, ItsIntervalHoldsTheCrossing) {
+    CrossingSettings settings;
+    settings.from = 20;
+    settings.config.seed = 1'000'000;
+    settings.config.events = 4'000'000;
+    settings.tolerance = 0.02;
+    settings.seeds = 8;
+    settings.rounds = 2;
+    const CrossingSearch best = search_crossing(settings);
+    ASSERT_EQ(best.crossing.verdict, Crossing::Verdict::crosses);
+    std::printf("N_c = %.3f +- %.3f\n", best.crossing.discs, best.crossing.error);
+    std::vector<Estimate> found;
+    int held = 0;
+    for (std::size_t k = 0; k < repetitions; ++k) {
+        CrossingSettings one;
+        one.from = 20;
+        one.config.events = 200'000;
+        one.config.seed = 1 + 1000 * k;
+        const Crossing crossing = search_crossing(one).crossing;
+        ASSERT_EQ(crossing.verdict, Crossing::Verdict::crosses) << "seed " << one.config.seed;
+        // The interval of the crossing need not be symmetric: the one that it gives is judged.
+        held += crossing.lower <= best.crossing.discs && best.crossing.discs <= crossing.upper;
+        Estimate e;
+        e.mean = crossing.discs;
+        e.error = crossing.error;
+        found.push_back(e);
+    }
+    const Judgement judgement = judge(found, best.crossing.discs);
+    std::printf("crossing: %d of %zu intervals of 95 %% hold it; scatter / error = %.2f\n", held,
+                repetitions, judgement.scatter_to_error);
+    EXPECT_GE(held, 34);
+    EXPECT_GT(judgement.scatter_to_error, 0.5) << "the errors are far too large";
+}
+
+}  // namespace
+}  // namespace swirl

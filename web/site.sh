@@ -1,0 +1,78 @@
+#!/bin/sh
+# The site: README and docs as pages, the laboratory, the help of every command, in one folder that
+# any web server, or none, can show.
+set -eu
+home=$(dirname "$(dirname "$(readlink -f "$0")")")
+me=swirl
+. "$home/cmake/front_door.sh"
+
+usage() {
+    cat <<'TEXT'
+The site: documentation, the laboratory and the commands' help as pages in one folder.
+Usage: swirl site --out DIR [--report DIR]
+
+Options:
+  -h,--help                       Print this help message and exit
+  --out DIR                       the folder to write; a site that is there is replaced
+  --report DIR                    put in what swirl paper wrote to DIR
+
+Examples:
+  swirl site --out site
+  swirl paper --out results && swirl site --out site --report results
+TEXT
+}
+wrong_call() {
+    say "$*"
+    exit 2
+}
+
+out= report=
+while [ $# -gt 0 ]; do
+    case $1 in
+        -h | --help) usage && exit 0 ;;
+        --out | --report)
+            [ $# -gt 1 ] && [ -n "$2" ] || wrong_call "$1 needs a value; swirl site --help has examples."
+            [ "$1" = --out ] && out=$2 || report=$2
+            shift 2
+            ;;
+        --out=*) out=${1#*=} && shift ;;
+        --report=*) report=${1#*=} && shift ;;
+        *) wrong_call "There is no option '$1' of swirl site; --out and --report are all." ;;
+    esac
+done
+[ -n "$out" ] || wrong_call "swirl site needs --out DIR: the folder to write."
+if [ -n "$report" ] && ! [ -e "$report/report.html" ]; then
+    wrong_call "--report is '$report', but there is no report.html in it; swirl paper writes one."
+fi
+# Only a site of ours is replaced.
+if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/null || echo no folder)" ]; then
+    wrong_call "--out is '$out', which is not empty and not a site; another name would be right."
+fi
+
+aside=$out.$$.partial
+trap 'rm -rf "$aside"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+mkdir -p "$aside/.help" 2>/dev/null || give_up "'$out' cannot be written."
+"$home/web/lab.sh" --out "$aside/lab.html"
+program=${SWIRL-$home/swirl}
+"$program" --help >"$aside/.help/swirl.txt"
+for command in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\).*/\1/p' "$aside/.help/swirl.txt"); do
+    "$program" "$command" --help >"$aside/.help/$command.txt"
+done
+for command in lab site; do
+    "$home/web/$command.sh" --help >"$aside/.help/$command.txt"
+done
+node "$home/web/site.mjs" "$home" "$aside" "$aside/.help" ${report:+"$report"} >"$aside/.log" 2>&1 || {
+    tail -n 5 "$aside/.log" >&2
+    give_up "the site could not be made (see above)."
+}
+pages=$(cat "$aside/.log")
+rm -rf "$aside/.help" "$aside/.log"
+touch "$aside/.swirl-site"
+if [ -e "$out" ]; then
+    mv "$out" "$aside.old" && mv "$aside" "$out" && rm -rf "$aside.old"
+else
+    mv "$aside" "$out"
+fi
+say "wrote $out/index.html and what belongs to it, $pages"

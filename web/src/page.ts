@@ -1,0 +1,43 @@
+// Making elements of a page, and finding them.
+
+export function element<Tag extends keyof HTMLElementTagNameMap>(
+    tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
+    ...children: (Node | string)[]): HTMLElementTagNameMap[Tag] {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+}
+
+export function byId(id: string): HTMLElement {
+    const found = document.getElementById(id);
+    if (!found) throw new Error(`The page has no element '${id}'.`);
+    return found;
+}
+
+export function button(text: string, act: () => void, id = ""): HTMLButtonElement {
+    const made = element("button", {type: "button", textContent: text, id});
+    made.addEventListener("click", act);
+    return made;
+}
+
+/** A file of one's own: of a text, or of what is at an address. */
+export function save(name: string, content: {href: string} | {text: string; type: string}): void {
+    const href = "href" in content ? content.href :
+        URL.createObjectURL(new Blob([content.text], {type: content.type}));
+    element("a", {href, download: name}).click();
+}
+
+const style = (name: string): string =>
+    getComputedStyle(document.documentElement).getPropertyValue(name);
+export const ink = (): string => style("--ink");
+export const line = (): string => style("--line");
+export const quiet = (): string => style("--quiet");
+export const accent = (): string => style("--accent");
+export const dark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
+
+export function withError(mean: number | null, error: number | null, unknown: string): string {
+    if (mean === null) return unknown;
+    if (error === null || !(error > 0)) return mean.toFixed(3);
+    const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(error))));
+    return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`.replace(/-/g, "−");
+}

@@ -1,0 +1,186 @@
+// The paper's Figure 5b by oneself: ϖ(N) for frictions of one's choice, a run for every point, on
+// all cores, and where the curves cross zero.
+import uPlot from "uplot";
+import type {Crossing} from "./engine";
+import type {FromWorker, ToWorker} from "./messages";
+import {button, element, ink, line, save, withError} from "./page";
+import {texts} from "./texts";
+
+interface Point {
+    mu: number;
+    discs: number;
+    mean?: number;
+    error?: number;
+}
+
+const colors = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"];
+const most = 400; // points
+
+/** "5, 10, 20:5:40": numbers, and ranges FROM:STEP:TO. Nothing if it is neither. */
+export function numbersIn(text: string): number[] | undefined {
+    const all: number[] = [];
+    for (const part of text.split(",").map((each) => each.trim()).filter(Boolean)) {
+        const [from, by, to] = part.split(":").map(Number) as [number, number?, number?];
+        if (!Number.isFinite(from)) return undefined;
+        if (by === undefined) all.push(from);
+        else if (to === undefined || !(by > 0) || !(to >= from)) return undefined;
+        else for (let k = 0; from + k * by <= to * (1 + 1e-12) && all.length <= most; ++k)
+            all.push(from + k * by);
+    }
+    return all.length > 0 && all.length <= most ? all : undefined;
+}
+
+export class Study {
+    readonly panel: HTMLDetailsElement;
+    private readonly discs = element("input", {type: "text", id: "study-discs", value: "5:6:53"});
+    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1"});
+    private readonly swirls = element("input", {type: "text", id: "study-swirls", value: "200"});
+    private readonly said = element("p", {id: "study-said"});
+    private readonly findings = element("ul", {id: "study-findings"});
+    private readonly place = element("div", {id: "study-plot"});
+    private readonly start = button(texts.start, () => this.toggle(), "study-start");
+    private plot: uPlot | undefined;
+    private points: Point[] = [];
+    private curves: number[] = [];
+    private waiting: Point[] = [];
+    private workers: Worker[] = [];
+
+    /** `begin` makes a worker that has the engine; `given` says what else holds of every dish. */
+    constructor(private readonly begin: () => Worker,
+                private readonly given: () => Record<string, string>) {
+        const field = (label: string, input: HTMLInputElement): HTMLElement =>
+            element("label", {}, `${label} `, input);
+        this.panel = element("details", {id: "study"},
+            element("summary", {textContent: texts.study}),
+            element("p", {textContent: texts.studyHow}),
+            element("div", {className: "bar"}, field("N", this.discs), field("μ", this.frictions),
+                    field(texts.swirls, this.swirls), this.start,
+                    button(texts.studyTable, () => this.saveTable(), "study-table")),
+            this.said, this.place, this.findings);
+    }
+
+    private toggle(): void {
+        if (this.workers.length > 0) {
+            this.stop();
+            this.said.textContent = texts.stopped;
+            return;
+        }
+        const discs = numbersIn(this.discs.value), frictions = numbersIn(this.frictions.value);
+        const swirls = Number(this.swirls.value);
+        if (!discs || !frictions || discs.length * frictions.length > most) {
+            this.said.textContent = texts.studyWrong(most);
+            return;
+        }
+        if (!(Number.isInteger(swirls) && swirls >= 10 && swirls <= 100000)) {
+            this.said.textContent = texts.swirlsWrong(this.swirls.value);
+            return;
+        }
+        this.curves = [...new Set(frictions)];
+        // Dense dishes take longest, so they come first.
+        const numbers = [...new Set(discs)].sort((a, b) => b - a);
+        this.points = numbers.flatMap((n) => this.curves.map((mu) => ({mu, discs: n})));
+        this.waiting = [...this.points];
+        this.findings.replaceChildren();
+        this.draw();
+        this.start.textContent = texts.stop;
+        const cores = Math.min(navigator.hardwareConcurrency || 1, this.points.length, 16);
+        this.workers = Array.from({length: cores}, () => this.begin());
+        for (const worker of this.workers) this.employ(worker, swirls);
+    }
+
+    private stop(): void {
+        for (const worker of this.workers) worker.terminate();
+        this.workers = [];
+        this.start.textContent = texts.start;
+    }
+
+    private employ(worker: Worker, swirls: number): void {
+        let at: Point | undefined;
+        const tell = (message: ToWorker): void => worker.postMessage(message);
+        const next = (): void => {
+            at = this.waiting.shift();
+            if (at) tell({kind: "point", swirls, given: {...this.given(), discs: String(at.discs),
+                                                         mu: String(at.mu)}});
+            else if (this.points.every((each) => each.mean !== undefined)) this.askCrossings(tell);
+        };
+        worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
+            if (data.kind === "ready") next();
+            if (data.kind === "point" && at) {
+                at.mean = data.rotation.mean ?? NaN;
+                at.error = data.rotation.error ?? NaN;
+                this.said.textContent = texts.studyProgress(
+                    this.points.filter((each) => each.mean !== undefined).length, this.points.length);
+                this.draw();
+                next();
+            }
+            if (data.kind === "crossing") this.showCrossing(Number(data.curve), data.crossing);
+            if (data.kind === "refused") {
+                this.stop();
+                this.said.textContent = data.sentence;
+            }
+        };
+    }
+
+    private askCrossings(tell: (message: ToWorker) => void): void {
+        for (const mu of this.curves)
+            tell({kind: "crossing", curve: String(mu), points: this.points
+                .filter((each) => each.mu === mu)
+                .flatMap((each) => [each.discs, each.mean ?? NaN, each.error ?? NaN])});
+    }
+
+    private showCrossing(mu: number, crossing: Crossing | null): void {
+        this.findings.append(element("li", {textContent: crossing === null ? texts.noCrossing(mu) :
+            texts.crossing(mu, withError(crossing.discs, crossing.error, ""),
+                           crossing.lower, crossing.upper)}));
+        if (this.findings.childElementCount === this.curves.length) this.stop();
+    }
+
+    private saveTable(): void {
+        const rows = this.points.filter((each) => each.mean !== undefined)
+            .map(({mu, discs, mean, error}) => `${mu},${discs},${mean},${error}\n`);
+        save("rotation_against_N.csv",
+             {text: `mu,discs,varpi,varpi_error\n${rows.join("")}`, type: "text/csv"});
+    }
+
+    private draw(): void {
+        const numbers = [...new Set(this.points.map((each) => each.discs))].sort((a, b) => a - b);
+        const values = (mu: number): (number | null)[] => numbers.map(
+            (n) => this.points.find((each) => each.mu === mu && each.discs === n)?.mean ?? null);
+        this.plot?.destroy();
+        this.plot = new uPlot({
+            width: this.place.clientWidth || 400, height: 260,
+            scales: {x: {time: false}},
+            axes: [{label: texts.numberOfDiscs, stroke: ink, grid: {stroke: line}},
+                   {label: "ϖ/Ω", stroke: ink, grid: {stroke: line}}],
+            series: [{label: "N"}, ...this.curves.map((mu, k) => (
+                {label: `μ = ${mu}`, stroke: colors[k % colors.length]!, width: 1.5,
+                 spanGaps: true, points: {show: true, size: 5}}))],
+            hooks: {draw: [(plot) => this.drawErrors(plot)]},
+        }, [numbers, ...this.curves.map(values)], this.place);
+    }
+
+    /** One standard error up and down, and the line ϖ = 0. */
+    private drawErrors(plot: uPlot): void {
+        const context = plot.ctx;
+        context.save();
+        context.strokeStyle = ink();
+        context.lineWidth = 1;
+        const zero = plot.valToPos(0, "y", true);
+        if (zero > plot.bbox.top && zero < plot.bbox.top + plot.bbox.height) {
+            context.beginPath();
+            context.moveTo(plot.bbox.left, zero);
+            context.lineTo(plot.bbox.left + plot.bbox.width, zero);
+            context.stroke();
+        }
+        for (const {mu, discs, mean, error} of this.points) {
+            if (mean === undefined || error === undefined || !Number.isFinite(mean + error)) continue;
+            context.strokeStyle = colors[this.curves.indexOf(mu) % colors.length]!;
+            const x = plot.valToPos(discs, "x", true);
+            context.beginPath();
+            context.moveTo(x, plot.valToPos(mean - error, "y", true));
+            context.lineTo(x, plot.valToPos(mean + error, "y", true));
+            context.stroke();
+        }
+        context.restore();
+    }
+}
