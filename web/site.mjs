@@ -18,7 +18,8 @@ const markdown = markdownIt({html: true}).use(anchor, {
 const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 const titles = {parameters: "Parameters", measurements: "Measurements", paper: "The paper, regenerated",
                 physics: "Physics", spheres: "Spheres that roll", pictures: "Pictures and movies",
-                lab: "The laboratory", python: "Python", files: "Files", determinism: "The same bits everywhere",
+                lab: "The laboratory", python: "Python", python_reference: "Python: reference",
+                files: "Files", determinism: "The same bits everywhere",
                 performance: "Performance", reliability: "Reliability", design: "Design"};
 const documents = readdirSync(join(root, "docs")).filter((name) => name.endsWith(".md"))
     .map((name) => basename(name, ".md"))
@@ -83,8 +84,8 @@ ${body}
 `);
 }
 
-function rendered(file) {
-    const tokens = markdown.parse(readFileSync(join(root, file), "utf-8"), {});
+function rendered(file, text = readFileSync(join(root, file), "utf-8")) {
+    const tokens = markdown.parse(text, {});
     for (const token of tokens.flatMap((each) => each.children ?? [])) {
         for (const name of ["href", "src"]) {
             const value = token.attrGet?.(name);
@@ -95,11 +96,18 @@ function rendered(file) {
         .replace(/<table>/g, '<div class="wide"><table>').replace(/<\/table>/g, "</table></div>");
 }
 
+/** The cells of a notebook, which is kept without what they print. */
+function notebook(file) {
+    return JSON.parse(readFileSync(join(root, file), "utf-8")).cells.map(({cell_type, source}) =>
+        cell_type === "markdown" ? rendered(file, source.join(""))
+            : `<pre class="source"><code>${escaped(source.join(""))}</code></pre>`).join("\n");
+}
+
 function pageOf(file) {
     const place = placeOf(file), from = join(root, file);
     if (statSync(from).isDirectory()) {
         const names = readdirSync(from).filter((name) => !name.startsWith(".") &&
-            !["node_modules", "generated", "build"].includes(name));
+            !["node_modules", "generated", "build", "__pycache__"].includes(name));
         const rows = names.map((name) =>
             `<li><a href="${address(posix.join(file, name), file)}">${escaped(name)}</a></li>`);
         write(place, file, `<h1>${escaped(file)}</h1>\n<ul>\n${rows.join("\n")}\n</ul>`);
@@ -111,6 +119,8 @@ function pageOf(file) {
 <p><a href="lab.html">The laboratory on a page of its own</a></p>\n<h2`);
         write(place, file === "README.md" ? "swirl: marbles in a swirled dish"
             : titles[basename(file, ".md")] ?? file, body);
+    } else if (file.endsWith(".ipynb")) {
+        write(place, file, notebook(file));
     } else if (place === file) {
         mkdirSync(dirname(join(out, file)), {recursive: true});
         cpSync(from, join(out, file));

@@ -114,6 +114,14 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     return std::make_unique<Recording>(series_of(std::move(tracks), s));
 }
 
+/// Frames that are there already.
+std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& frames) {
+    SnapshotSeries series;
+    series.frames = frames->size();
+    series.frame = [frames](std::uint64_t k) { return frames->frame(k); };
+    return std::make_unique<Recording>(std::move(series));
+}
+
 /// Whether the same discs are seen long enough for their tracks to say anything.
 bool holds_tracks(const Recording& recording) {
     std::uint64_t begin = 0, longest = 0;
@@ -208,6 +216,8 @@ void bind_recordings(py::module_& module) {
     py::class_<Recording>(module, "Recording")
         .def_static("open", &Recording::open)
         .def_static("tracks", &tracks)
+        .def_static("of_frames",
+                    [](const std::shared_ptr<Frames>& frames) { return recording_of(frames); })
         .def("__len__", &Recording::size)
         .def("frames",
              [](Recording& r, std::uint64_t begin, std::uint64_t end, std::uint64_t step) {

@@ -241,12 +241,16 @@ std::string shape_text(const Numbers& a) {
     return a.ndim() == 0 ? "one number" : text;
 }
 
-void expect_finite(const char* name, const Numbers& values) {
+/// Beyond, squares and products of them would not be numbers any more; the parameters of a run
+/// cannot make a speed as large.
+constexpr double largest_given = 1e15;
+
+void expect_sound(const char* name, const Numbers& values) {
     for (py::ssize_t k = 0; k < values.size(); ++k)
-        if (!std::isfinite(values.data()[k]))
+        if (!(std::abs(values.data()[k]) <= largest_given))
             throw WrongCall(
-                fmt::format("{} has {} among its values, but all must be finite numbers.", name,
-                            values.data()[k]));
+                fmt::format("{} has {} among its values, but all must be numbers from {} to {}.",
+                            name, values.data()[k], -largest_given, largest_given));
 }
 
 void expect_pairs(const char* name, const Numbers& values, std::size_t rows) {
@@ -254,14 +258,14 @@ void expect_pairs(const char* name, const Numbers& values, std::size_t rows) {
         (rows && values.shape(0) != signed_size(rows)))
         throw WrongCall(fmt::format("{} is {}, but it must be {} × 2: x and y of each.", name,
                                     shape_text(values), rows ? fmt::format("{}", rows) : "N"));
-    expect_finite(name, values);
+    expect_sound(name, values);
 }
 
 /// One for each of n, or one for all.
 std::vector<double> column_of(const char* name, const std::optional<Numbers>& values, std::size_t n,
                               double otherwise) {
     if (!values) return std::vector<double>(n, otherwise);
-    expect_finite(name, *values);
+    expect_sound(name, *values);
     if (values->ndim() == 0) return std::vector<double>(n, *values->data());
     if (values->ndim() != 1 || values->shape(0) != signed_size(n))
         throw WrongCall(fmt::format("{} is {}, but it must be {} numbers, or one for all discs.",
@@ -356,6 +360,10 @@ ContainerPath polyline(const Numbers& vertices, const std::optional<Numbers>& ti
     expect_pairs("path", vertices, 0);
     const auto n = static_cast<std::size_t>(vertices.shape(0));
     if (n < 2) throw WrongCall("path has one vertex, but a way needs two at least.");
+    for (std::size_t k = 0; k < 2 * n; ++k)
+        if (std::abs(vertices.data()[k]) > largest_value)
+            throw WrongCall(fmt::format("path goes to {}, but no farther than {} it may.",
+                                        vertices.data()[k], largest_value));
     if (static_cast<double>(n) > most_sides)
         throw WrongCall(fmt::format("path has {} vertices, but {} are the most.", n, most_sides));
     const auto vertex = [&](std::size_t k) {

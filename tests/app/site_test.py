@@ -101,6 +101,15 @@ class Site(unittest.TestCase):
             self.assertIn(f"<h2 id=\"{command}\">swirl {command}</h2>", text)
         self.assertIn("--mu-disc NUMBER", text)
 
+    def test_notebooks_are_read_as_documents(self):
+        path = os.path.join(self.site, "examples", "first_steps.ipynb.html")
+        self.assertIn(path, self.pages)
+        with open(path, encoding="utf-8") as opened:
+            text = opened.read()
+        self.assertRegex(text, r"<h1[^>]*>First steps")
+        self.assertIn("swirl.run(discs=12", text)
+        self.assertNotIn("cell_type", text)
+
     def test_only_who_is_asked_to_speaks_to_others(self):
         for path in self.pages:
             with open(path, encoding="utf-8") as opened:

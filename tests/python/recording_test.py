@@ -76,6 +76,21 @@ def test_ones_own_measurement_of_a_recording_is_that_of_the_run(file):
     assert of_frames.error == pytest.approx(of_run.error, rel=1e-6)
 
 
+def test_what_a_simulation_has_sampled_is_measured_too(file):
+    sim = swirl.Simulation(discs=20, seed=3)
+    found = swirl.analyse(sim.sample(12), ["density", "slip"], skip=2)
+    theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], skip=2)
+    # The recording begins a further swirl, with the frame at its very end.
+    assert found.by_time.mean == pytest.approx(theirs.by_time.mean, rel=1e-3)
+    square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
+    own = swirl.Simulation(discs=20, path=square)
+    found = swirl.analyse(own.sample(30), "all", skip=5)
+    assert found.frames == 25 * 511 and found.by_time.blocks == 25
+    assert set(found.measured) < set(swirl.measurements()) and "density" in found.measured
+    with pytest.raises(ValueError, match="no frames"):
+        swirl.analyse(own.sample(0))
+
+
 def test_what_frames_cannot_tell_is_refused(file, tmp_path):
     t = swirl.Trajectory(file)
     with pytest.raises(ValueError, match="measure has 'collisions' in its list, which needs every"):

@@ -9,6 +9,7 @@ mass of a disc, speed of the container = 1 (docs/physics.md); docs/python.md tel
 """
 
 from . import _display as _display
+from . import plot as plot
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
@@ -25,5 +26,5 @@ __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
     "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
     "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
-    "crossing", "load", "map", "measurements", "parameters", "run", "samples_per_period", "sweep",
+    "crossing", "load", "map", "measurements", "parameters", "plot", "run", "samples_per_period", "sweep",
 ]

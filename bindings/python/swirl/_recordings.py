@@ -150,14 +150,30 @@ class Analysis:
     measured: Mapping[str, Measured]
 
 
-def analyse(recording: Recording, measure: Optional[Measure] = None, *, skip: float = 0.0) -> Analysis:
+class _Sampled(Recording):
+    """Frames that are there already."""
+
+    def __init__(self, frames: _engine.Frames) -> None:
+        self._frames = _engine.Recording.of_frames(frames)
+
+
+def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measure] = None, *,
+            skip: float = 0.0) -> Analysis:
     """The measurements of a run on recorded frames: `swirl measure`.
+
+    recording: a Trajectory, Tracks, or frames that a Simulation has sampled; with these, dishes with
+    discs and paths of your own are measured like others.
 
     measure: as for swirl.run(); "all" is all that frames can tell. skip: swirls at the start that do
     not count. The frames of one swirl are a block, from which the errors come.
     """
+    if isinstance(recording, _engine.Frames):
+        recording = _Sampled(recording)
     if not isinstance(recording, Recording):
-        raise TypeError(f"{recording!r} is no recording; swirl.Trajectory and swirl.Tracks are.")
+        raise TypeError(f"{recording!r} is no recording; swirl.Trajectory, swirl.Tracks and "
+                        "Simulation.sample() are.")
+    if isinstance(skip, (bool, str)) or not hasattr(skip, "__float__"):
+        raise TypeError(f"skip is {skip!r}, but it must be a number of swirls.")
     names, own = split_measure(measure)
     is_all = measure == "all"
     reports, by_time, rigid, used = recording._frames.analyse(names, is_all, float(skip))
