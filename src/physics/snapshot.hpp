@@ -57,13 +57,17 @@ struct Snapshot {
         if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
         return d;
     }
-    /// Everybody held now.
-    Snapshot up_to_date() const {
-        Snapshot now = *this;
+    /// Everybody held now. `now` is any snapshot; its memory is used again.
+    void up_to_date(Snapshot& now) const {
+        now = *this;
         for (std::size_t i = 0; i < size(); ++i) {
             const Vec2 a = are_spheres() ? Vec2{ax[i], ay[i]} : Vec2{0.0, 0.0};
             now.set(i, moved_to(disc(i), {a, never}, clock));
         }
+    }
+    Snapshot up_to_date() const {
+        Snapshot now;
+        up_to_date(now);
         return now;
     }
     /// What changes in the course of a simulation.

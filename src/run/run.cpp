@@ -184,7 +184,7 @@ bool Run::next_event() {
     event_ = simulation_.step();
     sample_rotation_by_event();
     while (next_sample(rotation_times_)) {
-        rotation().sample_by_time(snapshot());
+        rotation().sample_by_time(snapshot_);
         spin().add(mean_spin(snapshot_));
     }
     if (observes())
@@ -194,7 +194,7 @@ bool Run::next_event() {
 
 void Run::pass_event() {
     simulation_.refresh(snapshot_, event_);
-    rotation().follow(snapshot(), event_);
+    rotation().follow(snapshot_, event_);
     rotation_is_sampled_ = false;
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes()) control_.observation->sample(event_, snapshot());
@@ -271,7 +271,7 @@ std::string Run::reason_for_collapse() const {
 /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
 /// when nobody has to wait for it to be written (cluster_rotation.hpp).
 void Run::sample_rotation_by_event() {
-    if (!rotation_is_sampled_) rotation().sample(snapshot());
+    if (!rotation_is_sampled_) rotation().sample(snapshot_);
     rotation_is_sampled_ = true;
 }
 

@@ -110,7 +110,7 @@ class Run {
     /// Spheres brought up to date: an observer may take it that nobody is accelerated.
     const Snapshot& snapshot() {
         if (!snapshot_.are_spheres()) return snapshot_;
-        dated_ = snapshot_.up_to_date();
+        snapshot_.up_to_date(dated_);
         return dated_;
     }
 
