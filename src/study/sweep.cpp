@@ -464,6 +464,14 @@ void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
     }
 }
 
+/// A mistake in one value shows before anything is run; combinations show when their turn comes.
+void refuse_useless(const SweepPlan& plan) {
+    if (const double count = product(plan); count > double(most_points))
+        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
+                                    count, most_points));
+    for (const SweepAxis& axis : plan.axes) refuse_useless(plan, axis);
+}
+
 /// What a stage counts must be there in the next.
 void refuse_shrinking(const fs::path& file, const SweepPlan& plan) {
     std::vector<SweepStage> stages = plan.before;
@@ -577,11 +585,7 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
             texts.erase(found);
         }
     if (!texts.empty()) resolve(texts);  // says which is not known
-    if (const double count = product(plan); count > double(most_points))
-        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
-                                    count, most_points));
-    // A mistake in one value shows before anything is run; combinations show when their turn comes.
-    for (const SweepAxis& axis : plan.axes) refuse_useless(plan, axis);
+    refuse_useless(plan);
     return plan;
 }
 
@@ -613,10 +617,7 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
         if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
             larger.measure.push_back(name);
     if (larger.measure != plan.measure) ++larger.generation;
-    if (const double count = product(larger); count > double(most_points))
-        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
-                                    count, most_points));
-    for (const SweepAxis& axis : larger.axes) refuse_useless(larger, axis);
+    refuse_useless(larger);
     if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
     larger.places = places_in(larger);
     return larger;

@@ -186,81 +186,68 @@ class Faults(unittest.TestCase):
         self.undisturbed_sweep()
         self.fail_each(self.sweep_call, self.assert_right_sweep, 3)
 
-    def test_killed_before_a_change_of_a_file_the_run_is_resumed_to_the_same_bits(self):
-        self.undisturbed()
-        calls = self.count("change", self.run_call)
-        tried = self.some(range(1, calls + 1), 10**9 if EVERY else 20)
+    def kill_each(self, call, again, assert_clean, most):
+        """Killed before each of its changes of a file, and called again."""
+        calls = self.count("change", call)
+        tried = self.some(range(1, calls + 1), 10**9 if EVERY else most)
         for k in tried:
+            where = f"{call[0]} killed before change {k} of {calls}"
             self.anew()
-            self.swirl(*self.run_call, FAULT_UNDER=self.folder, **setting("change", k))
-            done = self.swirl(*self.run_call, "--resume")
-            self.assertEqual(done.returncode, 0, f"killed before change {k}: {done.stderr}")
-            self.assert_right(f"killed before change {k} of {calls}")
+            self.swirl(*call, FAULT_UNDER=self.folder, **setting("change", k))
+            done = self.swirl(*again)
+            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr}")
+            assert_clean(where)
+        tell(f"{call[0]}, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+
+    def test_killed_before_a_change_of_a_file_the_run_is_resumed_to_the_same_bits(self):
+        def assert_clean(where):
+            self.assert_right(where)
             left = [name for name in os.listdir(self.work) if name not in self.bytes]
-            self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [],
-                             f"killed before change {k} of {calls}")
-        tell(f"run, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+            self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [], where)
+
+        self.undisturbed()
+        self.kill_each(self.run_call, [*self.run_call, "--resume"], assert_clean, 20)
 
     def test_killed_before_a_change_of_a_file_the_sweep_goes_on_to_the_same_bits(self):
-        self.undisturbed_sweep()
-        calls = self.count("change", self.sweep_call)
-        tried = self.some(range(1, calls + 1), 10**9 if EVERY else 8)
-        for k in tried:
-            where = f"sweep killed before change {k} of {calls}"
-            self.anew()
-            self.swirl(*self.sweep_call, FAULT_UNDER=self.folder, **setting("change", k))
-            done = self.swirl(*self.sweep_call)
-            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr}")
+        def assert_clean(where):
             self.assert_right_sweep(where)
             self.assertEqual(glob.glob(os.path.join(self.work, "s/**/*.partial"), recursive=True)
                              + glob.glob(os.path.join(self.work, "s/checkpoints/*")), [], where)
-        tell(f"sweep, killed before a change: {calls} places, {len(tried)} tried, all resumed")
 
-    def test_after_a_power_cut_the_sweep_goes_on_to_the_same_bits_or_is_refused(self):
         self.undisturbed_sweep()
+        self.kill_each(self.sweep_call, self.sweep_call, assert_clean, 8)
+
+    def cut_power(self, call, again, assert_right, few, most_refused):
+        """The power goes at any moment, and it is called again. Resumes, or says why not."""
         self.anew()
         record = os.path.join(self.folder, "record")
-        done = self.swirl(*self.sweep_call, FAULT_UNDER=self.work, FAULT_RECORD=record,
-                          **setting("none", 0))
+        done = self.swirl(*call, FAULT_UNDER=self.work, FAULT_RECORD=record, **setting("none", 0))
         self.assertEqual(done.returncode, 0, done.stderr)
         entries = read_record(record)
-        cuts, refused = 200 if EVERY else 8, 0
+        cuts, refused = 200 if EVERY else few, 0
         for cut in range(cuts):
             at = self.choose.randrange(len(entries))
+            where = f"power cut {cut} of a {call[0]}, after {at} of {len(entries)} entries"
             self.anew()
             disk_after(entries[:at], self.choose).write(self.work)
-            done = self.swirl(*self.sweep_call)
-            where = f"power cut {cut} of a sweep, after {at} of {len(entries)} entries"
+            done = self.swirl(*again)
             if done.returncode != 0:
                 self.assert_said(done, where)
                 refused += 1
                 continue
-            self.assert_right_sweep(where)
-        tell(f"sweep, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
-        self.assertLess(refused, max(2, cuts / 10))
+            assert_right(where)
+        tell(f"{call[0]}, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
+        self.assertLess(refused, most_refused(cuts))
 
     def test_after_a_power_cut_the_run_is_resumed_to_the_same_bits_or_refused(self):
         self.undisturbed()
-        self.anew()
-        record = os.path.join(self.folder, "record")
-        done = self.swirl(*self.run_call, FAULT_UNDER=self.work, FAULT_RECORD=record,
-                          **setting("none", 0))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        entries = read_record(record)
-        cuts, refused = 200 if EVERY else 20, 0
-        for cut in range(cuts):
-            at = self.choose.randrange(len(entries))
-            self.anew()
-            disk_after(entries[:at], self.choose).write(self.work)
-            done = self.swirl(*self.run_call, "--resume")
-            where = f"power cut {cut}, after {at} of {len(entries)} entries"
-            if done.returncode != 0:
-                self.assert_said(done, where)
-                refused += 1
-                continue
-            self.assert_right(where)
-        tell(f"run, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
-        self.assertLess(refused, cuts / 10)
+        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_right, 20,
+                       lambda cuts: cuts / 10)
+
+    def test_after_a_power_cut_the_sweep_goes_on_to_the_same_bits_or_is_refused(self):
+        self.undisturbed_sweep()
+        self.cut_power(self.sweep_call, self.sweep_call, self.assert_right_sweep, 8,
+                       lambda cuts: max(2, cuts / 10))
 
 
 # --- what a disk holds after a power cut -----------------------------------------------------------

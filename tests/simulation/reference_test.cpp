@@ -2,54 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "simulation/plain_grid.hpp"
+#include "simulation/same_trajectory.hpp"
 #include "simulation/scenes.hpp"
 #include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
 
-::testing::AssertionResult same_bits(double a, double b) {
-    if (std::memcmp(&a, &b, sizeof a) == 0) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << a << " differs from " << b << " by " << a - b;
-}
-
-/// Runs both and compares every event's time, partners and impulse, and all discs at the end.
-template <class Plain = Reference>
-void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
-    Plain plain(scene);
-    Simulation engine(scene, {}, tuning);
-    for (int k = 0; k < events; ++k) {
-        const Event expected = plain.step(), found = engine.step();
-        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-        ASSERT_EQ(expected.swirls, found.swirls);
-        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
-        ASSERT_EQ(expected.i, found.i) << "event " << k;
-        ASSERT_EQ(expected.j, found.j) << "event " << k;
-        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
-        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
-    }
-    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-        const Disc a = plain.disc(i), b = engine.disc(i);
-        ASSERT_TRUE(same_bits(a.position.x, b.position.x));
-        ASSERT_TRUE(same_bits(a.position.y, b.position.y));
-        ASSERT_TRUE(same_bits(a.velocity.x, b.velocity.x));
-        ASSERT_TRUE(same_bits(a.velocity.y, b.velocity.y));
-        ASSERT_TRUE(same_bits(a.angle, b.angle));
-        ASSERT_TRUE(same_bits(a.spin, b.spin));
-        ASSERT_TRUE(same_bits(a.time, b.time));
-    }
-}
-
-class EveryWidth : public ::testing::TestWithParam<Width> {
+class EveryWidth : public OfEveryWidth {
   protected:
-    void SetUp() override {
-        if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
-    }
     Tuning tuning(int cells = 0) const { return {cells, GetParam()}; }
     Tuning tuning(NeighbourSearch neighbours) const { return {0, GetParam(), neighbours}; }
 };
@@ -287,18 +252,7 @@ TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfAHundredThousan
     expect_same_trajectory<PlainGrid>(large_dish(100000), 1000000, {});
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryWidth,
-                         ::testing::Values(Width::baseline, Width::avx2, Width::avx512),
-                         [](const auto& parameter) -> std::string {
-                             switch (parameter.param) {
-                                 case Width::avx512:
-                                     return "avx512";
-                                 case Width::avx2:
-                                     return "avx2";
-                                 default:
-                                     return "baseline";
-                             }
-                         });
+INSTANTIATE_TEST_SUITE_P(, EveryWidth, every_width(), width_name);
 
 TEST(Grid, EveryGridGivesTheSameBits) {
     const InitialState scene = paper_dish(48);

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
+#include "simulation/same_trajectory.hpp"
 #include "simulation/scenes.hpp"
-#include "swirl/simulation/reference.hpp"
 
 namespace swirl {
 namespace {
@@ -35,74 +34,23 @@ InitialState sphere_mixture() {
     return scene;
 }
 
-::testing::AssertionResult same_bits(double a, double b) {
-    if (std::memcmp(&a, &b, sizeof a) == 0) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << a << " differs from " << b << " by " << a - b;
-}
-void expect_same_state(const Disc& a, const Disc& b) {
-    ASSERT_TRUE(same_bits(a.position.x, b.position.x));
-    ASSERT_TRUE(same_bits(a.position.y, b.position.y));
-    ASSERT_TRUE(same_bits(a.velocity.x, b.velocity.x));
-    ASSERT_TRUE(same_bits(a.velocity.y, b.velocity.y));
-    ASSERT_TRUE(same_bits(a.angle, b.angle));
-    ASSERT_TRUE(same_bits(a.spin, b.spin));
-    ASSERT_TRUE(same_bits(a.rolling_spin.x, b.rolling_spin.x));
-    ASSERT_TRUE(same_bits(a.rolling_spin.y, b.rolling_spin.y));
-    ASSERT_TRUE(same_bits(a.last_collision, b.last_collision));
-    ASSERT_TRUE(same_bits(a.time, b.time));
-}
-void expect_the_reference(const InitialState& scene, int events, Width width) {
-    Reference plain(scene);
-    Simulation engine(scene, {}, {0, width});
-    for (int k = 0; k < events; ++k) {
-        const Event expected = plain.step(), found = engine.step();
-        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-        ASSERT_EQ(expected.swirls, found.swirls);
-        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
-        ASSERT_EQ(expected.i, found.i) << "event " << k;
-        ASSERT_EQ(expected.j, found.j) << "event " << k;
-        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
-        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
-        ASSERT_TRUE(same_bits(expected.impulse.vertical, found.impulse.vertical));
-        ASSERT_LT(found.overlap, 1e-12) << "event " << k;
-    }
-    for (std::size_t i = 0; i < scene.discs.size(); ++i)
-        expect_same_state(plain.disc(i), engine.disc(i));
-}
-
-class SpheresInEveryWidth : public ::testing::TestWithParam<Width> {
-  protected:
-    void SetUp() override {
-        if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
-    }
-};
+class SpheresInEveryWidth : public OfEveryWidth {};
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBit) {
     for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})
-        expect_the_reference(sphere_dish(n), 4000, GetParam());
+        expect_same_trajectory(sphere_dish(n), 4000, {0, GetParam()});
 }
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
-    expect_the_reference(sphere_mixture(), 10000, GetParam());
+    expect_same_trajectory(sphere_mixture(), 10000, {0, GetParam()});
 }
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitOnAllFloors) {
     for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
-        expect_the_reference(sphere_dish(28, deceleration), 4000, GetParam());
+        expect_same_trajectory(sphere_dish(28, deceleration), 4000, {0, GetParam()});
 }
-INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth,
-                         ::testing::Values(Width::baseline, Width::avx2, Width::avx512),
-                         [](const auto& parameter) -> std::string {
-                             switch (parameter.param) {
-                                 case Width::avx512:
-                                     return "avx512";
-                                 case Width::avx2:
-                                     return "avx2";
-                                 default:
-                                     return "baseline";
-                             }
-                         });
+INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth, every_width(), width_name);
 TEST(Spheres, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
-        expect_the_reference(sphere_dish(n), 100000, Width::best);
-    expect_the_reference(sphere_mixture(), 100000, Width::best);
+        expect_same_trajectory(sphere_dish(n), 100000, {0, Width::best});
+    expect_same_trajectory(sphere_mixture(), 100000, {0, Width::best});
 }
 
 // Without a floor and without friction at the contacts, spheres are discs.

@@ -45,7 +45,6 @@ interface Exports {
     events(): number;
     state_hash(): bigint;
     rotation(): number;
-    measured(): number;
 }
 
 /** What a frame begins with, and what follows for every disc. */
@@ -128,8 +127,5 @@ export class Engine {
     }
     rotation(): Rotation {
         return JSON.parse(this.answer(this.out.rotation())) as Rotation;
-    }
-    measured(): Record<string, unknown> {
-        return JSON.parse(this.answer(this.out.measured())) as Record<string, unknown>;
     }
 }

@@ -17,8 +17,6 @@ export interface Frame {
     event?: Float64Array;
     /** Now and then. */
     rotation?: Rotation;
-    /** The dish cannot keep up with the clock. */
-    late: boolean;
 }
 
 export type FromWorker =

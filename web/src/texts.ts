@@ -14,7 +14,6 @@ export const texts = {
     trails: "Trails",
     presets: "Presets",
     copied: "Copied",
-    late: "This machine cannot keep up; the dish is shown slower than asked for.",
     noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +
         "Chrome 91, Firefox 113, Safari 16.4 and later have it.",
     unknownName: (name: string): string => `The address has '${name}', but there is no such parameter.`,
@@ -29,7 +28,6 @@ export const texts = {
     counterrotates: (discs: number): string => `${discs} discs turn against the swirl.`,
     undecided: (discs: number): string => `${discs} discs: the sense of rotation is not decided yet.`,
     dish: (discs: number, view: string): string => `${discs} discs in a swirled dish, ${view}`,
-    eventKinds: ["two discs collide", "a disc meets the wall", "the dish turns a corner of its path"],
     lesson: "A lesson in six steps",
     next: "Next",
     back: "Back",

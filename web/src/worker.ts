@@ -13,6 +13,7 @@ const collapse = 4000; // milliseconds
 let module: WebAssembly.Module | undefined;
 let engine: Engine | undefined;
 let now = 0; // the moment that is shown
+let period = 1;
 let lastAverages = 0;
 let stuckSince: number | undefined;
 
@@ -24,10 +25,10 @@ function refuse(error: unknown): void {
         `The engine stopped: ${String(error)}. Reload the page.`});
 }
 
-function show(late: boolean, single = false): void {
+function show(single = false): void {
     if (!engine) return;
     const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
-                          hash: engine.stateHash, late};
+                          hash: engine.stateHash};
     if (single) frame.event = engine.event();
     if (single || performance.now() - lastAverages > betweenAverages) {
         frame.rotation = engine.rotation();
@@ -43,15 +44,16 @@ function begin(given: Record<string, string>, events: number): void {
     now = 0;
     lastAverages = 0;
     stuckSince = undefined;
-    say({kind: "begun", configuration: engine.configuration()});
+    const configuration = engine.configuration();
+    period = Number(configuration["period"]);
+    say({kind: "begun", configuration});
     if (events > 0) engine.runEvents(events);
     now = engine.time;
-    show(false, events > 0);
+    show(events > 0);
 }
 
 function tick(swirls: number): void {
     if (!engine) return;
-    const period = Number(engine.configuration()["period"]);
     const target = now + swirls * period;
     const deadline = performance.now() + patience;
     let arrived = engine.advanceTo(target, eventsAtOnce);
@@ -64,7 +66,7 @@ function tick(swirls: number): void {
             "faster, and the model has no state after that (a collapse). Another seed may not " +
             "meet it; with a restitution below 1 a longer contact_duration keeps them apart.");
     now = Math.max(now, reached);
-    show(!arrived);
+    show();
 }
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
@@ -86,7 +88,7 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 if (!engine) break;
                 engine.runEvents(1);
                 now = engine.time;
-                show(false, true);
+                show(true);
                 break;
         }
     } catch (error) {

@@ -14,6 +14,7 @@
 #include "swirl/simulation/internal_check.hpp"
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/resolve.hpp"
+#include "swirl/simulation/search/all_pairs.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
 
@@ -21,7 +22,7 @@ namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace few_spheres {
 
-using Eight = Lanes<8>;
+using all_pairs::Eight, all_pairs::set;
 
 SWIRL_INLINE Parabola<Eight> load_eight(const SpheresSideBySide& all, int group) {
     const int k = 8 * group;
@@ -33,11 +34,6 @@ SWIRL_INLINE Parabola<Eight> load_eight(const SpheresSideBySide& all, int group)
 SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
     return {in_lanes<8>(p.position), in_lanes<8>(p.velocity), in_lanes<8>(p.acceleration),
             Eight(p.time)};
-}
-
-SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
-    double* const group = column + (i & ~7u);
-    with_lane(Eight::load(group), i & 7u, x).store(group);
 }
 
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
@@ -110,21 +106,10 @@ SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
 SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
                                          std::uint64_t meetings, std::uint64_t walls,
                                          std::uint64_t rolls) {
-    PendingEvent first{time, state.size, state.size};
-    const auto number = [](std::uint64_t bits) {
-        return static_cast<std::uint32_t>(__builtin_ctzll(bits));
-    };
-    if (walls != 0) first.disc = first.partner = number(walls);
-    if (rolls != 0) {
-        const PendingEvent roll{time, number(rolls), the_floor};
-        if (is_first_in_order(roll, first)) first = roll;
-    }
-    for (; meetings != 0; meetings &= meetings - 1) {
-        const std::uint32_t i = number(meetings);
-        const PendingEvent meeting{time, i, state.cold(i).partner};
-        if (is_first_in_order(meeting, first)) first = meeting;
-    }
-    return first;
+    const PendingEvent first = all_pairs::first_in_order(state, time, meetings, walls);
+    if (rolls == 0) return first;
+    const PendingEvent roll{time, static_cast<std::uint32_t>(__builtin_ctzll(rolls)), the_floor};
+    return is_first_in_order(roll, first) ? roll : first;
 }
 
 /// Looks at everybody's pending events and writes down which comes first.
