@@ -104,6 +104,8 @@ Run::Run(const RunConfig& config, RunControl control)
       periods_at_mark_(periods()),
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0) {
+    if (control_.orientations && snapshot_.are_spheres())
+        snapshot_.turned.assign(snapshot_.size(), {});
     const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
@@ -123,6 +125,7 @@ void Run::fields(Visitor&& visit) {
     visit(result_.warmup, result_.warmup_events, result_.max_overlap);
     visit(result_.energy_at_start, result_.invariant_at_start);
     visit(spin_in_warmup_, spin_after_, next_question_);
+    if (control_.orientations) visit(snapshot_.turned);
     if (control_.observation) visit(observation_times_, *control_.observation);
 }
 

@@ -75,6 +75,9 @@ struct RunControl {
     /// what it has gathered is part of the state that is kept.
     Observation* observation = nullptr;
 
+    /// Follow how each sphere is turned (Snapshot::turned).
+    bool orientations = false;
+
     /// What state() said of a run with the same configuration and names of an observation that has
     /// seen nothing yet: the run goes on from there, bit for bit.
     std::optional<std::string> resume;

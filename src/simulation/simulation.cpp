@@ -399,8 +399,9 @@ void Simulation::Storage::place_spheres(const InitialState& scene) {
     }
     SpheresSideBySide& all = *state.spheres_side_by_side;
     for (std::uint32_t k = 0; k < SpheresSideBySide::most; ++k) {
-        all.x[k] = all.y[k] = std::numeric_limits<double>::quiet_NaN();
+        all.x[k] = all.y[k] = all.X[k] = all.Y[k] = std::numeric_limits<double>::quiet_NaN();
         all.radius[k] = k < state.size ? state.discs[k].radius : 0.0;
+        all.reach[k] = 0.0;
         all.meeting[k] = all.wall[k] = all.rolls[k] = never;
     }
 }
@@ -490,6 +491,7 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     s.container_velocity = leg.velocity_at(state.clock);
     const auto hand_over = [&](std::uint32_t i) {
         const HotDisc& d = state.discs[i];
+        if (!s.turned.empty()) s.turned[i] = s.quaternion(i, event.clock);
         s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
         if (state.spheres == nullptr) return;
         const SphereState& sphere = state.spheres[i];

@@ -2,6 +2,18 @@
 // lists, no cells, everybody's contact with everybody; but spheres fly parabolas, and each has a
 // third pending event, the one in which it begins to roll.
 //
+// On a floor everything is predicted anew with every leg, so nobody need be looked at who cannot be
+// met within it. Seen from the floor, whose velocity u is constant, a sphere is at
+// x + (t − t₀) v − t u = X + (t − t₀)(v − u) + ½ (t − t₀)² a with X = x − t₀ u, and until the end
+// of the leg, so long as nothing happens to it, no farther from X than
+//
+//     |v − u| (t_end − t₀) + ½ |a| (t_end − t₀)².
+//
+// Two whose X are farther apart than the sum of these ways and of their radii do not meet. In a
+// thirtieth of a swirl a sphere goes a fraction of its radius, so five or six are left. The ways
+// are taken longer than they are by far more than rounding, so that it does not matter how they
+// were computed.
+//
 // Of eight contacts at once it is told which do not happen, or happen between equally accelerated
 // spheres; the few that are left, mostly one or two, are quartics and solved one by one
 // (contact_time.hpp).
@@ -24,13 +36,28 @@ namespace few_spheres {
 
 using all_pairs::Eight, all_pairs::set;
 
-SWIRL_INLINE Parabola<Eight> load_eight(const SpheresSideBySide& all, int group) {
-    const int k = 8 * group;
-    return {{Eight::load(all.x + k), Eight::load(all.y + k)},
-            {Eight::load(all.vx + k), Eight::load(all.vy + k)},
-            {Eight::load(all.ax + k), Eight::load(all.ay + k)},
-            Eight::load(all.time + k)};
-}
+/// Eight of those who may be met, one behind the other.
+struct alignas(64) EightOthers {
+    double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], radius[8], rolls[8];
+
+    SWIRL_INLINE Parabola<Eight> flight() const {
+        return {{Eight::load(x), Eight::load(y)},
+                {Eight::load(vx), Eight::load(vy)},
+                {Eight::load(ax), Eight::load(ay)},
+                Eight::load(time)};
+    }
+    SWIRL_INLINE void put(int lane, const SpheresSideBySide& all, std::uint32_t k) {
+        x[lane] = all.x[k];
+        y[lane] = all.y[k];
+        vx[lane] = all.vx[k];
+        vy[lane] = all.vy[k];
+        ax[lane] = all.ax[k];
+        ay[lane] = all.ay[k];
+        time[lane] = all.time[k];
+        radius[lane] = all.radius[k];
+        rolls[lane] = all.rolls[k];
+    }
+};
 SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
     return {in_lanes<8>(p.position), in_lanes<8>(p.velocity), in_lanes<8>(p.acceleration),
             Eight(p.time)};
@@ -47,6 +74,20 @@ SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     set(all.ay, i, flight.acceleration.y);
     set(all.time, i, flight.time);
     set(all.rolls, i, state.spheres[i].motion.begins_to_roll);
+    // Without a floor a leg's end predicts nobody anew: then all must be looked at.
+    if (!Spheres::feel_every_leg(state)) {
+        set(all.X, i, 0.0);
+        set(all.Y, i, 0.0);
+        return;
+    }
+    const Leg& leg = state.legs[state.leg];
+    const Vec2 over_floor = flight.velocity - leg.velocity, a = flight.acceleration;
+    const double left = leg.end - flight.time;
+    const double way = square_root(dot(over_floor, over_floor)) * left +
+                       0.5 * square_root(dot(a, a)) * left * left;
+    set(all.X, i, flight.position.x - flight.time * leg.velocity.x);
+    set(all.Y, i, flight.position.y - flight.time * leg.velocity.y);
+    set(all.reach, i, way * 1.000001 + 0x1p-30 * state.container_radius);
 }
 
 SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i) {
@@ -62,36 +103,54 @@ SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i)
     return e.now + contact_on_parabolas(e.s, e.v, e.g, e.sum_of_radii, e.horizon);
 }
 
+/// Bit k is set if sphere k may be met.
+template <int G>
+SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t i) {
+    const SpheresSideBySide& all = *state.spheres_side_by_side;
+    const Eight X(all.X[i]), Y(all.Y[i]), near(all.reach[i] + all.radius[i]);
+    Eight beyond[G];
+    for (int g = 0; g < G; ++g) {
+        const int k = 8 * g;
+        const Eight dx = Eight::load(all.X + k) - X, dy = Eight::load(all.Y + k) - Y;
+        const Eight most = near + (Eight::load(all.reach + k) + Eight::load(all.radius + k));
+        beyond[g] = larger(dx * dx + dy * dy - most * most, Eight(0.0));
+    }
+    const std::uint64_t everybody = ~std::uint64_t{0} >> (64 - state.size);
+    return lanes_equal(beyond, 0.0) & everybody & ~(std::uint64_t{1} << i);
+}
+
 /// Whom sphere i meets first. Says when.
 template <int G>
 SWIRL_INLINE double predict_meeting(EngineState& state, std::uint32_t i) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
     const Parabola<Eight> mine = eight_times(Spheres::flight(state, i));
     const Eight rolls(begins_to_roll_at(state, i)), radius(state.discs[i].radius);
-    Eight contact[G];
-    std::uint64_t open = 0;
-    for (int g = 0; g < G; ++g) {
-        const Encounter<Eight> e(mine, load_eight(all, g), rolls, Eight::load(all.rolls + 8 * g),
-                                 radius + Eight::load(all.radius + 8 * g));
+    PendingEvent first{never, i, 0};
+    for (std::uint64_t left = within_reach<G>(state, i); left != 0;) {
+        EightOthers others;
+        std::uint32_t who[8];
+        int count = 0;
+        for (; left != 0 && count < 8; left &= left - 1, ++count) {
+            who[count] = static_cast<std::uint32_t>(__builtin_ctzll(left));
+            others.put(count, all, who[count]);
+        }
+        for (int lane = count; lane < 8; ++lane) others.put(lane, all, who[0]);
+        const Encounter<Eight> e(mine, others.flight(), rolls, Eight::load(others.rolls),
+                                 radius + Eight::load(others.radius));
         const Eight wait = e.wait_or_quartic();
-        contact[g] = e.now + wait;
-        open |= static_cast<std::uint64_t>(lanes_equal(wait, ask_the_quartic)) << (8 * g);
+        alignas(64) double times[8];
+        (e.now + wait).store(times);
+        for (unsigned open = lanes_equal(wait, ask_the_quartic); open != 0; open &= open - 1) {
+            const int lane = __builtin_ctz(open);
+            if (lane < count) times[lane] = meeting_by_quartic(state, i, who[lane]);
+        }
+        // The others come in the order of their numbers, and the first of those at once counts.
+        for (int lane = 0; lane < count; ++lane)
+            if (times[lane] < first.time) first = {times[lane], i, who[lane]};
     }
-    alignas(64) double times[8 * G];
-    for (int g = 0; g < G; ++g) contact[g].store(times + 8 * g);
-    for (; open != 0; open &= open - 1) {
-        const auto k = static_cast<std::uint32_t>(__builtin_ctzll(open));
-        times[k] = meeting_by_quartic(state, i, k);
-    }
-    for (int g = 0; g < G; ++g) contact[g] = Eight::load(times + 8 * g);
-    Eight least = contact[0];
-    for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
-    const double time = smallest(least);
-    // Where nobody is met all lanes are equal, and the first will do.
-    const std::uint64_t equal = lanes_equal(contact, time);
-    note_partner(state, {time, i, static_cast<std::uint32_t>(__builtin_ctzll(equal))});
-    set(all.meeting, i, time);
-    return time;
+    note_partner(state, first);
+    set(all.meeting, i, first.time);
+    return first.time;
 }
 
 SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
