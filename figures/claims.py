@@ -5,7 +5,8 @@ verdict is written by hand: all come from the rules of verdicts.py, with three s
 the one threshold; every other number is a constant with a name, below.
 
 Claims that the paper does not make are none of these; nor is a fact of its experiment judged, whose
-friction is not known, by a simulation.
+friction is not known, by the paper's discs. Spheres that roll on a floor are that experiment but for
+their friction: of those, what is claimed must come out for one of the frictions that were tried.
 
 Source of all claims: L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon, S. M. Rubinstein, Physical
 Review E 100, 012903 (2019), main text and Supplementary Information (SI).

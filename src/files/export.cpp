@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <span>
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/trajectory.hpp"
@@ -48,6 +49,13 @@ void write_frames(const SnapshotSeries& series, const ExportOptions& options, Wr
         write(k, series.frame(k));
         if (options.done) options.done(n + 1);
     }
+}
+
+/// Of which everything is known: a recording of ours.
+bool has_spheres(const SnapshotSeries& series) {
+    if (series.frames == 0) return false;
+    const Snapshot first = series.frame(0);
+    return first.are_spheres() && !first.turned.empty();
 }
 
 void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
@@ -124,18 +132,14 @@ void add_known(Text& text, double value) {
 }
 
 void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    const bool spheres = has_spheres(series);
     file.append(
         "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
         "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)");
-    bool begun = false;
+    if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
+    file.append("\n");
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
-        if (!begun) {
-            if (s.are_spheres()) add(text, ",spin x (v/r),spin y (v/r)");
-            if (!s.turned.empty()) add(text, ",turned w,turned x,turned y,turned z");
-            add(text, "\n");
-        }
-        begun = true;
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{},{},{},{},{}", k, s.time(), double(s.swirls) + s.clock / s.period,
@@ -143,10 +147,9 @@ void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOpti
             for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
                                        s.mass[i], s.inertia[i]})
                 add_known(text, value);
-            if (s.are_spheres()) add(text, ",{},{}", s.spin_x[i], s.spin_y[i]);
-            if (!s.turned.empty()) {
+            if (spheres) {
                 const Quaternion q = s.quaternion(i);
-                add(text, ",{},{},{},{}", q.w, q.x, q.y, q.z);
+                add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
             }
             add(text, "\n");
         }
@@ -309,10 +312,12 @@ enum GsdType : std::uint8_t {
 
 class GsdWriter {
   public:
-    explicit GsdWriter(WholeFile& file) : file_(file) {
+    GsdWriter(WholeFile& file, bool of_spheres) : file_(file) {
         file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
         std::string list;
-        for (const char* name : names) list += name + std::string(1, '\0');
+        // A name that is there must have values.
+        for (const char* name : std::span(names).first(names.size() - (of_spheres ? 0 : 1)))
+            list += name + std::string(1, '\0');
         header_.namelist_location = file_.size();
         header_.namelist_allocated_entries = (list.size() + 63) / 64;
         list.resize(64 * header_.namelist_allocated_entries);
@@ -363,7 +368,7 @@ class GsdWriter {
 };
 
 void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
-    GsdWriter gsd(file);
+    GsdWriter gsd(file, has_spheres(series));
     const float width = float(2.0 * series.reach);
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         const std::size_t n = s.size();

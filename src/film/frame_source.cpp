@@ -54,7 +54,8 @@ std::string symbol_of(const char* name) {
 }
 
 std::string caption_of(const RunConfig& config) {
-    return fmt::format("{} disc{}", config.discs, config.discs == 1 ? "" : "s");
+    return fmt::format("{} {}{}", config.discs, config.body == Shape::sphere ? "sphere" : "disc",
+                       config.discs == 1 ? "" : "s");
 }
 
 /// Nothing where it is of another version, or there is nothing.
@@ -121,6 +122,7 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
         label("tangential_restitution", plain(config.tangential_restitution));
     label("inertia",
           plain(config.inertia / (config.mass * config.radius * config.radius)) + " $m$$r^{2}$");
+    if (config.floor) label("floor_friction", plain(config.floor_friction));
     label("container_radius", plain(config.container_radius / config.radius) + " $r$");
     label("amplitude", plain(config.amplitude / config.radius) + " $r$");
     if (config.mixture)

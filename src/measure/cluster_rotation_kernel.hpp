@@ -288,7 +288,9 @@ SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& abou
     const Rows rows(about.discs);
     const Eight clock = Eight::all(clock_now);
     const Centre centre_of_mass(about, clock);
-    const auto arm = [&](std::ptrdiff_t i) { return centre_of_mass.arm(discs(c, push, clock, i)); };
+    const auto arm = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+        return centre_of_mass.arm(discs(c, push, clock, i));
+    };
     Turning t(arm(0));
     std::ptrdiff_t i = lanes;
     for (; i + lanes < rows.whole; i += 2 * lanes) t.add(arm(i), arm(i + lanes));

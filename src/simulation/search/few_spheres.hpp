@@ -63,17 +63,19 @@ SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
             Eight(p.time)};
 }
 
+/// Columns that are loaded by eights are stored by eights too (set): a wide load right behind a
+/// narrow store waits for it. The others are not.
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     const Parabola<double> flight = Spheres::flight(state, i);
     SpheresSideBySide& all = *state.spheres_side_by_side;
-    set(all.x, i, flight.position.x);
-    set(all.y, i, flight.position.y);
-    set(all.vx, i, flight.velocity.x);
-    set(all.vy, i, flight.velocity.y);
-    set(all.ax, i, flight.acceleration.x);
-    set(all.ay, i, flight.acceleration.y);
-    set(all.time, i, flight.time);
-    set(all.rolls, i, state.spheres[i].motion.begins_to_roll);
+    all.x[i] = flight.position.x;
+    all.y[i] = flight.position.y;
+    all.vx[i] = flight.velocity.x;
+    all.vy[i] = flight.velocity.y;
+    all.ax[i] = flight.acceleration.x;
+    all.ay[i] = flight.acceleration.y;
+    all.time[i] = flight.time;
+    all.rolls[i] = state.spheres[i].motion.begins_to_roll;
     // Without a floor a leg's end predicts nobody anew: then all must be looked at.
     if (!Spheres::feel_every_leg(state)) {
         set(all.X, i, 0.0);
@@ -149,7 +151,7 @@ SWIRL_INLINE double predict_meeting(EngineState& state, std::uint32_t i) {
             if (times[lane] < first.time) first = {times[lane], i, who[lane]};
     }
     note_partner(state, first);
-    set(all.meeting, i, first.time);
+    all.meeting[i] = first.time;
     return first.time;
 }
 
@@ -157,8 +159,16 @@ SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
     const double time =
         time_of_wall_contact(Spheres::flight(state, i), begins_to_roll_at(state, i),
                              state.legs[state.leg], state.container_radius - state.discs[i].radius);
-    set(state.spheres_side_by_side->wall, i, time);
+    state.spheres_side_by_side->wall[i] = time;
     return time;
+}
+
+/// Of the meeting, the wall and the beginning to roll, what comes first.
+SWIRL_INLINE double note_first(EngineState& state, std::uint32_t i) {
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    const double first = smaller(smaller(all.meeting[i], all.wall[i]), all.rolls[i]);
+    set(all.first, i, first);
+    return first;
 }
 
 /// Of the events at one instant, that of the spheres whose bits are set, the first.
@@ -175,21 +185,22 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 template <int G>
 SWIRL_INLINE void find_next(EngineState& state) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
-    Eight meeting[G], wall[G], rolls[G];
-    for (int g = 0; g < G; ++g) {
-        meeting[g] = Eight::load(all.meeting + 8 * g);
-        wall[g] = Eight::load(all.wall + 8 * g);
-        rolls[g] = Eight::load(all.rolls + 8 * g);
-    }
-    Eight least = smaller(smaller(meeting[0], wall[0]), rolls[0]);
-    for (int g = 1; g < G; ++g)
-        least = smaller(least, smaller(smaller(meeting[g], wall[g]), rolls[g]));
+    Eight first[G];
+    for (int g = 0; g < G; ++g) first[g] = Eight::load(all.first + 8 * g);
+    Eight least = first[0];
+    for (int g = 1; g < G; ++g) least = smaller(least, first[g]);
     const double time = smallest(least);
+    all.next = {time, state.size, state.size};
     // Who comes after the leg's end need not be known.
-    all.next = time < state.legs[state.leg].end
-                   ? first_in_order(state, time, lanes_equal(meeting, time),
-                                    lanes_equal(wall, time), lanes_equal(rolls, time))
-                   : PendingEvent{time, state.size, state.size};
+    if (!(time < state.legs[state.leg].end)) return;
+    std::uint64_t meetings = 0, walls = 0, rolls = 0;
+    for (std::uint64_t equal = lanes_equal(first, time); equal != 0; equal &= equal - 1) {
+        const int i = __builtin_ctzll(equal);
+        meetings |= std::uint64_t{all.meeting[i] == time} << i;
+        walls |= std::uint64_t{all.wall[i] == time} << i;
+        rolls |= std::uint64_t{all.rolls[i] == time} << i;
+    }
+    all.next = first_in_order(state, time, meetings, walls, rolls);
 }
 
 template <int G>
@@ -198,14 +209,14 @@ template <int G>
     for (std::uint32_t i = 0; i < state.size; ++i) {
         predict_meeting<G>(state, i);
         predict_wall(state, i);
+        note_first(state, i);
     }
     find_next<G>(state);
 }
 
 SWIRL_INLINE void take_out(SpheresSideBySide& all, std::uint32_t i) {
-    set(all.meeting, i, never);
-    set(all.wall, i, never);
-    set(all.rolls, i, never);
+    all.meeting[i] = all.wall[i] = all.rolls[i] = never;
+    set(all.first, i, never);
 }
 
 }  // namespace few_spheres
@@ -223,6 +234,7 @@ struct FewSpheres {
     SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
         few_spheres::predict_meeting<G>(state, event.disc);
+        few_spheres::note_first(state, event.disc);
         few_spheres::find_next<G>(state);
     }
     /// What comes next is mostly known before the spheres that now collide have been predicted: the
@@ -241,16 +253,19 @@ struct FewSpheres {
         double first = never;
         for (int d = 0; d < D; ++d) few_spheres::copy(state, who[d]);
         for (int d = 0; d < D; ++d) {
-            first = smaller(first, few_spheres::begins_to_roll_at(state, who[d]));
-            first = smaller(first, few_spheres::predict_wall(state, who[d]));
-            first = smaller(first, few_spheres::predict_meeting<G>(state, who[d]));
+            few_spheres::predict_wall(state, who[d]);
+            few_spheres::predict_meeting<G>(state, who[d]);
+            first = smaller(first, few_spheres::note_first(state, who[d]));
         }
         if (first <= state.spheres_side_by_side->next.time) few_spheres::find_next<G>(state);
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) {
         if (state.leg == 0 || Spheres::feel_every_leg(state))
             return few_spheres::predict_all<G>(state);
-        for (std::uint32_t i = 0; i < state.size; ++i) few_spheres::predict_wall(state, i);
+        for (std::uint32_t i = 0; i < state.size; ++i) {
+            few_spheres::predict_wall(state, i);
+            few_spheres::note_first(state, i);
+        }
         few_spheres::find_next<G>(state);
     }
     /// In the build that checks: nobody overlaps, and nobody is outside.
