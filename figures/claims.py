@@ -5,7 +5,8 @@ verdict is written by hand: all come from the rules of verdicts.py, with three s
 the one threshold; every other number is a constant with a name, below.
 
 Claims that the paper does not make are none of these; nor is a fact of its experiment judged, whose
-friction is not known, by a simulation.
+friction is not known, by the paper's discs. Spheres that roll on a floor are that experiment but for
+their friction: of those, what is claimed must come out for one of the frictions that were tried.
 
 Source of all claims: L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon, S. M. Rubinstein, Physical
 Review E 100, 012903 (2019), main text and Supplementary Information (SI).
@@ -44,6 +45,9 @@ LITTLE_MOTION = 0.1        # of ΩR, in the M-frame: "very little internal movem
 SAME_RANGE = 0.15          # of the paper's highest force
 TIMES_AROUND = 10.0        # factor either way: "around" a time
 LEAST_VISITS = 200         # of a slice of θ that is looked at
+ROUGHLY = 2.0              # spheres either way: "at roughly N = 36"
+PLASTIC = 0.2              # friction of the spheres of plastic, where one is chosen
+DENSE_SPHERES = (44, 48)   # where all agree that they counterrotate
 
 
 class Claim:
@@ -616,6 +620,111 @@ def near_36(folder):
         f"{c.text}.")
 
 
+# --- spheres that roll: the experiment itself -------------------------------------------------
+
+def spheres_at(folder, figure, curve, discs):
+    rows = [row for row in folder.table(figure)
+            if str(row["curve"]) == curve and row["discs"] == discs]
+    return value(rows[0], "by_time")
+
+
+def spheres_transition(folder):
+    rows = folder.curve("spheres", most=math.inf, mu=PLASTIC)
+    dense = [spheres_at(folder, "spheres", f"{PLASTIC:g}", n) for n in DENSE_SPHERES]
+    return parts(above(value(rows[0], "by_time"), 0), every([below(v, 0) for v in dense])), (
+        f"With their real moment of inertia, μ = {PLASTIC:g}: ϖ/Ω = "
+        f"{number(value(rows[0], 'by_time'))} at N = {rows[0]['discs']:.0f}, " + ", ".join(
+            f"{number(v)} at N = {n}" for v, n in zip(dense, DENSE_SPHERES)) + ".")
+
+
+def last_changes(folder):
+    """Of each friction the last change to counterrotation: from there on all counterrotate."""
+    rows = tables.select(folder.table("spheres_sense"), sense="counterrotation")
+    points = folder.table("spheres")
+    found = {}
+    for row in rows:
+        near = {p["point"] for p in points
+                if p["mu"] == row["mu"] and row["before"] <= p["discs"] <= row["after"]}
+        found[row["mu"]] = Value(row["crossing"], row["crossing_error"], near)
+    return found
+
+
+def listed(changes):
+    return "; ".join(f"μ = {mu:g}: {number(at)}" for mu, at in sorted(changes.items()))
+
+
+def spheres_change_near(discs):
+    def judge(folder):
+        changes = last_changes(folder)
+        inside = [within(at, discs - ROUGHLY, discs + ROUGHLY) for at in changes.values()]
+        return either(inside), (
+            f"The last change to counterrotation is at N = … for {listed(changes)} (roughly: within "
+            f"{ROUGHLY:.0f} of {discs} for any of these frictions; that of the spheres is not "
+            "known).")
+    return judge
+
+
+def spheres_friction_order(folder):
+    changes = sorted(last_changes(folder).items())
+    steps = [below(b, a) for (_, a), (_, b) in zip(changes, changes[1:])]
+    return every(steps), f"The last change to counterrotation: {listed(dict(changes))}."
+
+
+def spheres_minimum(folder):
+    rows = folder.curve("spheres", most=math.inf, mu=PLASTIC)
+    lowest, last = min(rows, key=lambda row: row["by_time"]), rows[-1]
+    rise = value(last, "by_time") - value(lowest, "by_time")
+    return above(rise, 0), (
+        f"Lowest at N = {lowest['discs']:.0f}, ϖ/Ω = {number(value(lowest, 'by_time'))}; at N = "
+        f"{last['discs']:.0f}, the last that was run, it is {number(value(last, 'by_time'))} "
+        f"(μ = {PLASTIC:g}).")
+
+
+def spheres_frustration(folder):
+    name, full = "spheres_ingredients", f"{PLASTIC:g}"
+    pairs = [[spheres_at(folder, name, curve, n) for n in DENSE_SPHERES]
+             for curve in (full, "no-vertical", "no-vertical-disc", "no-vertical-wall")]
+    told = "; ".join(
+        f"{words}: " + ", ".join(f"{number(v)} at N = {n}" for v, n in zip(found, DENSE_SPHERES))
+        for words, found in zip(("all ingredients", "without vertical friction",
+                                 "without it between spheres alone", "without it at the wall alone"),
+                                pairs))
+    return parts(every([below(v, 0) for v in pairs[0]]),
+                 every([above(without, v) for v, without in zip(pairs[0], pairs[1])]),
+                 every([above(v, 0) for v in pairs[1]])), (
+        f"ϖ/Ω with {told}.")
+
+
+def spheres_elastic(folder):
+    found = [spheres_at(folder, "spheres_ingredients", "no-damping", n) for n in DENSE_SPHERES]
+    return every([below(v, 0) for v in found]), (
+        "With e = 1, but the floor as it is: ϖ/Ω = " + ", ".join(
+            f"{number(v)} at N = {n}" for v, n in zip(found, DENSE_SPHERES)) + ".")
+
+
+def spheres_against_n(name, judge_rows, words):
+    def judge(folder):
+        found, told = [], []
+        for mu in sorted({row["mu"] for row in folder.table("spheres_pinned")}):
+            rows = [row for row in folder.curve("spheres_pinned", most=math.inf, mu=mu)
+                    if row[name] == row[name]]
+            found.append(judge_rows(values(rows, name)))
+            told.append(f"μ = {mu:g}: {ends(rows, name)}")
+        return every(found), f"{words} {'; '.join(told)}."
+    return judge
+
+
+def spheres_kept_from_rolling(folder):
+    found, told = [], []
+    for mu in sorted({row["mu"] for row in folder.table("spheres_pinned")}):
+        row = folder.curve("spheres_pinned", most=math.inf, mu=mu)[-1]
+        wall, every_one = value(row, "wall_rolling_share"), value(row, "rolling_share")
+        found.append(below(wall, every_one))
+        told.append(f"μ = {mu:g}, N = {row['discs']:.0f}: {number(wall)} at the wall, "
+                    f"{number(every_one)} of all")
+    return every(found), f"Share of the spheres that roll: {'; '.join(told)}."
+
+
 CLAIMS = [
     Claim("main text, Fig. 5b", "With friction at the wall and between the discs the cluster "
           "rotates with the swirl at low N and counterrotates at high N.", "5b", transition),
@@ -686,8 +795,26 @@ CLAIMS = [
     Claim("main text, Fig. 4", "Roughened plastic spheres cross at N = 28, smooth ones at 36.",
           "", untestable("It depends on the surfaces of the real spheres, whose friction "
                          "coefficients the paper does not give.")),
-    Claim("main text", "Discs at the wall are kept from rolling on the ground.", "",
-          untestable("The discs of the simulation have no floor and no third dimension.")),
+    Claim("main text", "Discs at the wall are kept from rolling on the ground.", "spheres_pinned",
+          spheres_kept_from_rolling),
+    Claim("experiment, Fig. 1b", "Few spheres rotate with the swirl, many counterrotate.", "spheres",
+          spheres_transition),
+    Claim("experiment, Fig. 1b", "Spheres of smooth plastic change their sense at roughly N = 36.",
+          "spheres_sense", spheres_change_near(36)),
+    Claim("experiment, Fig. 4", "Roughened spheres change it at N = 28.", "spheres_sense",
+          spheres_change_near(28)),
+    Claim("experiment, Fig. 4c", "The rougher the spheres, the lower the N at which the sense "
+          "changes.", "spheres_sense", spheres_friction_order),
+    Claim("experiment, Fig. 1b", "Beyond the crossing ϖ of spheres reaches a minimum and then rises "
+          "slightly for the largest N.", "spheres", spheres_minimum),
+    Claim("title", "Geometric frustration of rolling makes spheres counterrotate: those that rub "
+          "each other only horizontally do not.", "spheres_ingredients", spheres_frustration),
+    Claim("main text", "Damping is not needed for spheres to counterrotate.", "spheres_ingredients",
+          spheres_elastic),
+    Claim("experiment, Fig. 4a", "The slip parameter of pinned spheres rises with N.",
+          "spheres_pinned", spheres_against_n("pinned_region", rises, "s of the pinned:")),
+    Claim("experiment, Fig. 4b", "The spin of pinned spheres at the wall falls with N.",
+          "spheres_pinned", spheres_against_n("pinned_wall_spin", falls, "|ω_z|/Ω:")),
 ]
 
 

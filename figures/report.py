@@ -56,6 +56,16 @@ CONTRADICTIONS = [
 
 # What each figure beyond the paper asks.
 QUESTIONS = {
+    "spheres": "The experiment has spheres that roll on the floor of a dish; the simulation of the "
+               "paper has discs with a moment of inertia that no disc has. Do spheres with their "
+               "own counterrotate, and where?",
+    "spheres_ingredients": "Friction of the floor, friction of contacts along the vertical, "
+                           "damping, a solid sphere's inertia: each is switched off alone, at "
+                           "μ = 0.2. Which of them makes counterrotation?",
+    "spheres_pinned": "What the paper measured of the spheres at the wall, and what it could not: "
+                      "the rolling. The correlation is 1 where the floor has its way and "
+                      "neighbours rub with the sum of their speeds, −1 where they roll on each "
+                      "other.",
     "averages": "The paper averages over events, an observer over time. Does it matter?",
     "transient": "Without disc friction only the wall turns the discs' spins. How long does that "
                  "take, and does the paper's average see the end of it?",
@@ -219,13 +229,18 @@ def crossings_of_one_setting(folder):
 
 
 def split(figures):
-    """Those of the paper, and those that are new."""
-    beyond = [f for f in figures if f["description"].startswith("beyond the paper")]
-    return [f for f in figures if f not in beyond], beyond
+    """Those of the paper, of its experiment's spheres, and those that are new: with a heading
+    each, if there are any."""
+    groups = [("The paper’s figures", []), ("Spheres that roll", []), ("What is new", [])]
+    for figure in figures:
+        about = figure["description"]
+        groups[2 if about.startswith("beyond the paper") else
+               1 if about.startswith("spheres that roll") else 0][1].append(figure)
+    return [(heading, members) for heading, members in groups if members]
 
 
 def title_of(figure):
-    text = figure["description"].removeprefix("beyond the paper: ")
+    text = figure["description"].removeprefix("beyond the paper: ").removeprefix("spheres that roll: ")
     name = figure["name"]
     return f"Figure {name}: {text}" if name[0].isdigit() else text[0].upper() + text[1:]
 
@@ -260,9 +275,7 @@ def markdown(about, judged, same=""):
         command = f"`{claim.command}`" if claim.command else ""
         lines.append(f"| {k} | {cell(claim.says)} ({claim.where}) | {cell(found)} | "
                      f"{MARK[verdict]} {verdict} | {command} |")
-    of_the_paper, new = split(about["figures"])
-    for heading, figures in (("The paper's figures", of_the_paper),
-                             ("What is new", new)):
+    for heading, figures in split(about["figures"]):
         lines += ["", f"## {heading}"]
         for figure in figures:
             lines += ["", f"### {title_of(figure)}", ""]
@@ -326,7 +339,6 @@ def page(folder, about, judged):
              td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
              f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
             for k, (claim, verdict, found) in enumerate(judged, 1)]
-    of_the_paper, new = split(about["figures"])
     parts = ["<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
              '<meta name=viewport content="width=device-width, initial-scale=1">',
              "<title>The paper, claim by claim</title>", f"<style>{CSS}</style></head><body>\n",
@@ -341,7 +353,7 @@ def page(folder, about, judged):
         parts += [f"<p>{heading}:</p><ul>{items}</ul>\n"]
     parts += ["<h2>Claim by claim</h2>\n",
              table(["", "the paper says", "found", "verdict", "command"], rows, "claims")]
-    for heading, figures in (("The paper’s figures", of_the_paper), ("What is new", new)):
+    for heading, figures in split(about["figures"]):
         parts += [f"<h2>{heading}</h2>\n"]
         parts += [figure_html(folder, figure) for figure in figures]
     parts += ["<h2>Where the paper contradicts itself, and what was assumed</h2>\n",

@@ -226,6 +226,8 @@ bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
     b.restitution = a.restitution;
     b.tangential_restitution = a.tangential_restitution;
     b.contact_duration = a.contact_duration;
+    b.vertical_disc = a.vertical_disc;
+    b.vertical_wall = a.vertical_wall;
     b.floor_friction = a.floor_friction;
     b.gravity = a.gravity;
     b.amplitude = a.amplitude;

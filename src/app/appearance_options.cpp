@@ -43,7 +43,8 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
         ->group(group);
     subcommand
         .add_option("--color", texts->color,
-                    "what the discs' colours tell: pinned, spin, speed, none, id [none]")
+                    "what the discs' colours tell: pinned, spin, speed, slip (of spheres on the "
+                    "floor), none, id [none]")
         ->type_name("NAME")
         ->group(group);
     subcommand.add_flag("--trails", texts->trails, "draw where the discs come from")->group(group);
@@ -81,7 +82,7 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     const auto coloring = coloring_named(texts.color);
     if (!coloring)
         throw WrongCall(fmt::format(
-            "--color is '{}', but it must be pinned, spin, speed, none or id.", texts.color));
+            "--color is '{}', but it must be pinned, spin, speed, slip, none or id.", texts.color));
     look.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)

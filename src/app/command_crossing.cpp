@@ -51,7 +51,7 @@ CrossingSearch search_one(const CrossingCall& call, const CrossingSettings& sett
 
 std::string text_of(const CrossingCall& call, const CrossingSettings& settings,
                     const CrossingSearch& search) {
-    std::string text = crossing_report(settings, search) + "\n";
+    std::string text = crossing_report(settings, search) + "\n" + other_crossings_report(search);
     if (!call.quiet)
         text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
                                                  with_commas(search.events),
@@ -149,6 +149,11 @@ void add_crossing_command(Subcommand& subcommand) {
         ->type_name("NUMBER");
     subcommand.add_option("--from", call->settings.from, "fewest discs [5]")->type_name("N");
     subcommand.add_option("--to", call->settings.to, "most discs [48]")->type_name("N");
+    subcommand
+        .add_option("--step", call->settings.step,
+                    "between the numbers of the first look; small, where the sense may change "
+                    "several times [about eight numbers]")
+        ->type_name("N");
     subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");

@@ -59,6 +59,7 @@ RunResult run_again(const RunConfig& config, bool quiet, const Look& look) {
     ProgressLine line("again", quiet);
     RunControl control;
     control.stop = &stop_signal();
+    control.orientations = true;
     control.progress = [&](const RunProgress& p) {
         line.show(p.fraction, fmt::format("{} events", p.events));
     };
@@ -111,6 +112,12 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
                same_bits(frame.angle[i], now.orientation(i)) &&
                same_bits(frame.spin[i], now.spin[i]) && same_bits(frame.radius[i], now.radius[i]) &&
                same_bits(frame.mass[i], now.mass[i]) && same_bits(frame.inertia[i], now.inertia[i]);
+    if (frame.are_spheres() != now.are_spheres()) return false;
+    for (std::size_t i = 0; same && now.are_spheres() && i < now.size(); ++i) {
+        const Quaternion &a = frame.turned[i], &b = now.turned[i];
+        same = same_bits({frame.spin_x[i], frame.spin_y[i]}, {now.spin_x[i], now.spin_y[i]}) &&
+               same_bits({a.w, a.x}, {b.w, b.x}) && same_bits({a.y, a.z}, {b.y, b.z});
+    }
     return same;
 }
 
@@ -210,6 +217,7 @@ bool same_events(const Event& a, const Event& b) {
            a.j == b.j && same_bits(a.normal, b.normal) &&
            same_bits(a.impulse.normal, b.impulse.normal) &&
            same_bits(a.impulse.tangential, b.impulse.tangential) &&
+           same_bits(a.impulse.vertical, b.impulse.vertical) &&
            a.impulse.sticks == b.impulse.sticks;
 }
 
@@ -217,7 +225,7 @@ bool same_discs(const Disc& a, const Disc& b) {
     return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
            same_bits(a.angle, b.angle) && same_bits(a.spin, b.spin) && same_bits(a.time, b.time) &&
            same_bits(a.radius, b.radius) && same_bits(a.mass, b.mass) &&
-           same_bits(a.inertia, b.inertia);
+           same_bits(a.inertia, b.inertia) && same_bits(a.rolling_spin, b.rolling_spin);
 }
 
 /// What the log says of the run before its first event.
@@ -242,7 +250,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     Simulation simulation(scene, {}, stopped_by(&stop_signal()));
     if (stop_signal().load()) throw Interrupted("Stopped before the first event.");
     verify_beginning(log, scene, simulation, comparison);
-    Replay replay(log.initial(), log.swirl_end());
+    Replay replay(log.initial(), log.swirl_end(), log.floor());
     constexpr std::uint64_t at_once = 1 << 16;
     std::vector<Event> block;
     run_again(config, quiet, [&](Run& run) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "swirl/draw/ball.hpp"
 #include "swirl/draw/label.hpp"
 
 namespace swirl {
@@ -39,6 +40,11 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, const Fra
         case Coloring::speed: {
             const Vec2 v = at.velocity(content.now.position(i), content.now.velocity(i));
             return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
+        }
+        case Coloring::slip: {
+            if (!content.now.are_spheres()) return theme.disc;
+            const Vec2 c = slip_on_floor(content.now.disc(i), content.now.container_velocity);
+            return sequential_color(std::sqrt(dot(c, c)) / style.full_speed);
         }
         case Coloring::id:
             return distinct_colors[name_of(content, i) % distinct_colors.size()];
@@ -129,6 +135,7 @@ std::optional<Coloring> coloring_named(std::string_view name) {
     if (name == "pinned") return Coloring::pinned;
     if (name == "spin") return Coloring::spin;
     if (name == "speed") return Coloring::speed;
+    if (name == "slip") return Coloring::slip;
     if (name == "none") return Coloring::none;
     if (name == "id") return Coloring::id;
     return std::nullopt;
@@ -279,12 +286,20 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     const Snapshot& now = content.now;
     const FrameAt at(now, view.frame);
+    const bool balls = style.orientation && !now.turned.empty() && !content.backdrop;
+    const Quaternion frame = turn_by(0.0, 0.0, at.orientation(0.0));
     for (std::size_t i = 0; i < now.size(); ++i) {
+        const double radius = view.pixels_per_unit * now.radius[i];
+        if (balls && radius >= smallest_marked_radius) {
+            draw_ball(canvas, view.on_page(at.position(now.position(i))), radius,
+                      disc_color(style, content, at, i), frame * now.quaternion(i));
+            continue;
+        }
         const double orientation =
             style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
         (content.backdrop ? outline_disc : draw_disc)(
-            canvas, view.on_page(at.position(now.position(i))),
-            view.pixels_per_unit * now.radius[i], disc_color(style, content, at, i), orientation);
+            canvas, view.on_page(at.position(now.position(i))), radius,
+            disc_color(style, content, at, i), orientation);
     }
 }
 

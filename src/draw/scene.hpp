@@ -1,8 +1,9 @@
 // The dish and its discs at one instant, drawn in a view.
 //
-// Discs carry an orientation mark, the wall carries marks, so that what spins and what does not can
-// be seen. On top lie the swirl centre S, the dish's centre C, the point M on the wall farthest
-// from S, and the path of C. Over a camera's picture dish and discs are only outlined.
+// Spheres whose orientation is known are drawn as balls (ball.hpp). Discs carry an orientation
+// mark, the wall carries marks, so that what spins and what does not can be seen. On top lie the
+// swirl centre S, the dish's centre C, the point M on the wall farthest from S, and the path of C.
+// Over a camera's picture dish and discs are only outlined.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ enum class Coloring : std::uint8_t {
     pinned,  // moves with the wall, or loose (measure/pinned_loose.hpp)
     spin,    // lab-frame spin ω_i, diverging about zero
     speed,   // in the frame that is shown
+    slip,    // of spheres on the floor
     none,    // all alike
     id,      // seven hues in turn, to follow one disc with the eye
 };
@@ -34,7 +36,7 @@ struct SceneStyle {
     Theme theme = dark_theme();
     Coloring coloring = Coloring::none;
     double full_spin = 1.0;   // |ω_i| at the end of the colour scale
-    double full_speed = 1.0;  // speed at the end of the colour scale
+    double full_speed = 1.0;  // speed, or slip, at the end of the colour scale
     bool orientation = true;  // marks on the discs
     bool points = true;       // S, C, M
     bool path = true;         // of C

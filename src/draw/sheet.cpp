@@ -72,7 +72,8 @@ void Sheet::lay_out_panels(const Canvas& canvas, const Rectangle& area, double s
 
 double Sheet::legend_height() const {
     return spec_.style.coloring == Coloring::pinned || spec_.style.forces ||
-                   spec_.style.coloring == Coloring::spin || spec_.style.coloring == Coloring::speed
+                   spec_.style.coloring == Coloring::spin ||
+                   spec_.style.coloring == Coloring::speed || spec_.style.coloring == Coloring::slip
                ? 2.0 * type_
                : 0.0;
 }
@@ -232,6 +233,9 @@ double Sheet::legend_width(const Canvas& canvas, const LabelStyle& label) const 
         case Coloring::speed:
             add(12.0, "speed");
             break;
+        case Coloring::slip:
+            add(12.0, "slip on the floor");
+            break;
         default:
             break;
     }
@@ -295,6 +299,9 @@ void Sheet::draw_legend(const Canvas& canvas) const {
             break;
         case Coloring::speed:
             bar(false, "0", fixed(style.full_speed, 1), "speed");
+            break;
+        case Coloring::slip:
+            bar(false, "0", fixed(style.full_speed, 1), "slip on the floor");
             break;
         default:
             break;

@@ -30,13 +30,20 @@ void append(Column& column, const std::vector<Event>& events, Field&& field) {
 
 }  // namespace
 
+MovingFloor moving_floor(const Floor& floor, const ContainerPath& path) {
+    MovingFloor moving{floor, {}};
+    for (const Leg& leg : path.legs) moving.velocity.push_back(leg.velocity);
+    return moving;
+}
+
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, Hdf5File file)
     : path_(path),
       file_(std::make_unique<Hdf5File>(std::move(file))),
       last_flush_(std::chrono::steady_clock::now()) {}
 
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot& initial,
-                               double swirl_end, const Provenance& provenance, int compression)
+                               double swirl_end, const Provenance& provenance, int compression,
+                               const MovingFloor& floor)
     : EventLogWriter(path, Hdf5File(partial_name(path), StagedFile::Mode::create)) {
     Hdf5File& file = *file_;
     const std::uint64_t n = initial.size();
@@ -63,6 +70,15 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
     for (const char* name : {"kind", "sticks"})
         file.create_column<std::uint8_t>(std::string("/events/") + name, {}, {chunk}, packing,
                                          level);
+    if (initial.are_spheres()) {
+        file.write("/initial/rolling_spin", pairs(initial.spin_x, initial.spin_y), {n, 2});
+        file.create_column<double>("/events/vertical_impulse", {}, {chunk}, of_numbers, level);
+        std::vector<double> velocity;
+        for (const Vec2& v : floor.velocity) velocity.insert(velocity.end(), {v.x, v.y});
+        file.create_group("/floor");
+        file.write("/floor/velocity", velocity, {floor.velocity.size(), 2});
+        file.set_attribute("/floor", "deceleration", floor.floor.deceleration);
+    }
     file.create_group(parameters);
     for (const auto& [name, text] : provenance) file.write(parameters + "/" + name, text);
     file.set_attribute(parameters, "period", initial.period);
@@ -79,8 +95,10 @@ EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::ui
     writer.file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     writer.open_columns();
     Columns& c = writer.columns_;
-    for (Column* column : {&c.swirls, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y,
-                           &c.normal_impulse, &c.tangential_impulse, &c.sticks}) {
+    for (Column* column :
+         {&c.swirls, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y, &c.normal_impulse,
+          &c.tangential_impulse, &c.sticks, &c.vertical_impulse}) {
+        if (column == &c.vertical_impulse && !writer.file_->has("/floor")) continue;
         if (column->rows() < events)
             throw FileError(fmt::format(
                 "'{}' holds {} events, but the checkpoint was made when it held {}; it does not "
@@ -105,7 +123,8 @@ void EventLogWriter::open_columns() {
                 column("normal_y"),
                 column("normal_impulse"),
                 column("tangential_impulse"),
-                column("sticks")};
+                column("sticks"),
+                file_->has("/floor") ? column("vertical_impulse") : Column()};
 }
 
 void EventLogWriter::empty_buffer() {
@@ -121,6 +140,9 @@ void EventLogWriter::empty_buffer() {
     append<double>(c.tangential_impulse, buffer_,
                    [](const Event& e) { return e.impulse.tangential; });
     append<std::uint8_t>(c.sticks, buffer_, [](const Event& e) { return e.impulse.sticks; });
+    if (file_->has("/floor"))
+        append<double>(c.vertical_impulse, buffer_,
+                       [](const Event& e) { return e.impulse.vertical; });
     buffer_.clear();
     if (std::chrono::steady_clock::now() - last_flush_ < flush_interval) return;
     file_->flush();
@@ -170,9 +192,24 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                 fmt::format("'{}' contradicts itself: an event has one value in each "
                             "column, and it has a table in one.",
                             path.string()));
+    const bool spheres = file_->has("/floor");
+    if (spheres) {
+        vertical_impulse_ = column("vertical_impulse");
+        floor_.emplace();
+        floor_->floor.deceleration = file_->number_attribute("/floor", "deceleration");
+        const auto velocity = file_->column("/floor/velocity").read<double>();
+        for (std::size_t k = 0; k + 1 < velocity.size(); k += 2)
+            floor_->velocity.push_back({velocity[k], velocity[k + 1]});
+        if (floor_->velocity.empty() || !vertical_impulse_.row_shape().empty())
+            throw FileError(fmt::format(
+                "'{}' contradicts itself: it is of spheres, but does not say how their floor moves "
+                "or how they rub.",
+                path.string()));
+    }
     events_ = std::min({swirls_.rows(), clock_.rows(), kind_.rows(), i_.rows(), j_.rows(),
                         normal_x_.rows(), normal_y_.rows(), normal_impulse_.rows(),
                         tangential_impulse_.rows(), sticks_.rows()});
+    if (spheres) events_ = std::min(events_, vertical_impulse_.rows());
     const auto numbers = [&](const char* name) {
         return file_->column(std::string("/initial/") + name).read<double>();
     };
@@ -181,8 +218,9 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     const auto radius = numbers("radius"), mass = numbers("mass");
     const auto inertia = numbers("moment_of_inertia");
     const std::size_t n = angle.size();
-    if (position.size() != 2 * n || velocity.size() != 2 * n || spin.size() != n ||
-        radius.size() != n || mass.size() != n || inertia.size() != n)
+    const auto rolling = spheres ? numbers("rolling_spin") : std::vector<double>(2 * n, 0.0);
+    if (position.size() != 2 * n || rolling.size() != 2 * n || velocity.size() != 2 * n ||
+        spin.size() != n || radius.size() != n || mass.size() != n || inertia.size() != n)
         throw FileError(
             fmt::format("'{}' contradicts itself: its columns differ in length.", path.string()));
     for (std::size_t i = 0; i < n; ++i)
@@ -193,7 +231,8 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                             0.0,
                             radius[i],
                             mass[i],
-                            inertia[i]});
+                            inertia[i],
+                            {rolling[2 * i], rolling[2 * i + 1]}});
     period_ = file_->number_attribute(parameters, "period");
     swirl_end_ = file_->number_attribute(parameters, "swirl_end");
     container_radius_ = file_->number_attribute(parameters, "container_radius");
@@ -215,10 +254,12 @@ std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count
     const auto normal_impulse = normal_impulse_.read<double>(first, count);
     const auto tangential_impulse = tangential_impulse_.read<double>(first, count);
     const auto sticks = sticks_.read<std::uint8_t>(first, count);
+    const auto vertical =
+        floor_ ? vertical_impulse_.read<double>(first, count) : std::vector<double>(count, 0.0);
     std::vector<Event> events;
     events.reserve(count);
     for (std::size_t k = 0; k < count; ++k) {
-        if (kind[k] > 2 || i[k] >= initial_.size() || j[k] >= initial_.size())
+        if (kind[k] > (floor_ ? 3 : 2) || i[k] >= initial_.size() || j[k] >= initial_.size())
             throw FileError(fmt::format("Event {} of the log is damaged.", first + k));
         events.push_back({swirls[k],
                           clock[k],
@@ -226,32 +267,63 @@ std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count
                           i[k],
                           j[k],
                           {normal_x[k], normal_y[k]},
-                          {normal_impulse[k], tangential_impulse[k], sticks[k] != 0},
+                          {normal_impulse[k], tangential_impulse[k], sticks[k] != 0, vertical[k]},
                           0.0});
     }
     return events;
 }
 
+Replay::Replay(std::vector<Disc> initial, double swirl_end, std::optional<MovingFloor> floor)
+    : discs_(std::move(initial)),
+      swirl_end_(swirl_end),
+      floor_(std::move(floor)),
+      motions_(discs_.size()) {
+    for (std::size_t i = 0; i < discs_.size(); ++i) let_fly(i);
+}
+
+/// How a sphere moves from the state it has got.
+void Replay::let_fly(std::size_t i) {
+    if (floor_) motions_[i] = floor_motion(discs_[i], floor_->floor, floor_->velocity.at(leg_));
+}
+
+void Replay::bring_to(std::size_t i, double t) {
+    discs_[i] = floor_ ? moved_to(discs_[i], motions_[i], t) : discs_[i].at(t);
+}
+
+void Replay::pass_vertex(const Event& event) {
+    const bool is_last = event.clock == swirl_end_;
+    if (floor_) leg_ = is_last ? 0 : leg_ + 1;
+    if (!is_last && !(floor_ && floor_->floor.deceleration != 0.0)) return;
+    for (std::size_t i = 0; i < discs_.size(); ++i) {
+        bring_to(i, event.clock);
+        if (is_last) discs_[i].time = 0.0;
+        let_fly(i);
+    }
+    swirls_ += is_last ? 1 : 0;
+}
+
 void Replay::apply(const Event& event) {
-    if (event.kind == EventKind::path_vertex) {
-        if (event.clock != swirl_end_) return;
-        for (Disc& d : discs_) {
-            d = d.at(event.clock);
-            d.time = 0.0;
-        }
-        ++swirls_;
-        return;
+    if (event.kind == EventKind::path_vertex) return pass_vertex(event);
+    if (event.kind == EventKind::begins_to_roll) {
+        if (!floor_) return;
+        discs_.at(event.i) =
+            set_rolling(discs_[event.i], motions_[event.i], floor_->velocity.at(leg_));
+        return let_fly(event.i);
     }
     const Vec2 tangent{event.normal.y, -event.normal.x};
     const Vec2 kick = event.impulse.normal * event.normal + event.impulse.tangential * tangent;
-    const auto push = [&](Disc& d, double direction) {
-        d = d.at(event.clock);
+    const auto push = [&](std::size_t i, double direction) {
+        Disc& d = discs_.at(i);
+        bring_to(i, event.clock);
         const Vec2 change = (1.0 / d.mass) * kick;
         d.velocity = direction < 0.0 ? d.velocity - change : d.velocity + change;
         d.spin = d.spin + d.radius * event.impulse.tangential * (1.0 / d.inertia);
+        d.rolling_spin =
+            d.rolling_spin - (d.radius * event.impulse.vertical * (1.0 / d.inertia)) * tangent;
+        let_fly(i);
     };
-    push(discs_.at(event.i), -1.0);
-    if (event.kind == EventKind::disc_disc) push(discs_.at(event.j), 1.0);
+    push(event.i, -1.0);
+    if (event.kind == EventKind::disc_disc) push(event.j, 1.0);
 }
 
 }  // namespace swirl

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <span>
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/trajectory.hpp"
@@ -50,6 +51,13 @@ void write_frames(const SnapshotSeries& series, const ExportOptions& options, Wr
     }
 }
 
+/// Of which everything is known: a recording of ours.
+bool has_spheres(const SnapshotSeries& series) {
+    if (series.frames == 0) return false;
+    const Snapshot first = series.frame(0);
+    return first.are_spheres() && !first.turned.empty();
+}
+
 void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         int kinds;
@@ -58,11 +66,20 @@ void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOpt
         add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
             s.size());
         add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
-        add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass omegaz\n");
+        add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass {}\n",
+            !s.are_spheres()   ? "omegaz"
+            : s.turned.empty() ? "omegaz omegax omegay"
+                               : "omegaz omegax omegay quatw quati quatj quatk");
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 p = s.position(i);
-            add(text, "{} {} {} {} 0 {} {} 0 {} {} {}\n", i + 1, species[i] + 1, p.x, p.y, s.vx[i],
+            add(text, "{} {} {} {} 0 {} {} 0 {} {} {}", i + 1, species[i] + 1, p.x, p.y, s.vx[i],
                 s.vy[i], s.radius[i], s.mass[i], known(s.spin[i]));
+            if (s.are_spheres()) add(text, " {} {}", s.spin_x[i], s.spin_y[i]);
+            if (!s.turned.empty()) {
+                const Quaternion q = s.quaternion(i);
+                add(text, " {} {} {} {}", q.w, q.x, q.y, q.z);
+            }
+            add(text, "\n");
         }
         file.append(view(text));
     });
@@ -74,13 +91,20 @@ void write_xyz(const SnapshotSeries& series, WholeFile& file, const ExportOption
         const std::vector<int> species = species_of(s, kinds);
         Text text;
         add(text,
-            "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:id:I:1 Time={} "
+            "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{} Time={} "
             "pbc=\"F F F\"\n",
-            s.size(), s.time());
+            s.size(), s.are_spheres() ? 3 : 1, s.turned.empty() ? "" : ":orientation:R:4",
+            s.time());
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 p = s.position(i);
-            add(text, "D{} {} {} 0 {} {} 0 {} {} {}\n", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i],
-                known(s.spin[i]), s.radius[i], i + 1);
+            add(text, "D{} {} {} 0 {} {} 0 ", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i]);
+            if (s.are_spheres()) add(text, "{} {} ", s.spin_x[i], s.spin_y[i]);
+            add(text, "{} {} {}", known(s.spin[i]), s.radius[i], i + 1);
+            if (!s.turned.empty()) {
+                const Quaternion q = s.quaternion(i);
+                add(text, " {} {} {} {}", q.x, q.y, q.z, q.w);  // as OVITO has them
+            }
+            add(text, "\n");
         }
         file.append(view(text));
     });
@@ -108,9 +132,12 @@ void add_known(Text& text, double value) {
 }
 
 void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    const bool spheres = has_spheres(series);
     file.append(
         "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
-        "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)\n");
+        "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)");
+    if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
+    file.append("\n");
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
         for (std::size_t i = 0; i < s.size(); ++i) {
@@ -120,6 +147,10 @@ void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOpti
             for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
                                        s.mass[i], s.inertia[i]})
                 add_known(text, value);
+            if (spheres) {
+                const Quaternion q = s.quaternion(i);
+                add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
+            }
             add(text, "\n");
         }
         file.append(view(text));
@@ -185,6 +216,18 @@ std::string vtp_of(const Snapshot& s) {
     add_array(text, "Float64", "velocity", 3, velocity);
     add_array(text, "Float64", "angle", 1, angle);
     add_array(text, "Float64", "spin", 1, s.spin);
+    if (s.are_spheres()) {
+        add_array(text, "Float64", "spin_x", 1, s.spin_x);
+        add_array(text, "Float64", "spin_y", 1, s.spin_y);
+    }
+    if (!s.turned.empty()) {
+        std::vector<double> turned;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Quaternion q = s.quaternion(i);
+            turned.insert(turned.end(), {q.w, q.x, q.y, q.z});
+        }
+        add_array(text, "Float64", "turned", 4, turned);
+    }
     add_array(text, "Float64", "radius", 1, s.radius);
     add_array(text, "Float64", "mass", 1, s.mass);
     add_array(text, "Int64", "id", 1, id);
@@ -269,10 +312,12 @@ enum GsdType : std::uint8_t {
 
 class GsdWriter {
   public:
-    explicit GsdWriter(WholeFile& file) : file_(file) {
+    GsdWriter(WholeFile& file, bool of_spheres) : file_(file) {
         file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
         std::string list;
-        for (const char* name : names) list += name + std::string(1, '\0');
+        // A name that is there must have values.
+        for (const char* name : std::span(names).first(names.size() - (of_spheres ? 0 : 1)))
+            list += name + std::string(1, '\0');
         header_.namelist_location = file_.size();
         header_.namelist_allocated_entries = (list.size() + 63) / 64;
         list.resize(64 * header_.namelist_allocated_entries);
@@ -314,7 +359,8 @@ class GsdWriter {
                                       "particles/orientation",
                                       "particles/velocity",
                                       "log/particles/angular_velocity",
-                                      "log/time"};
+                                      "log/time",
+                                      "log/particles/rolling_spin"};
     WholeFile& file_;
     GsdHeader header_;
     std::vector<GsdEntry> entries_;
@@ -322,7 +368,7 @@ class GsdWriter {
 };
 
 void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
-    GsdWriter gsd(file);
+    GsdWriter gsd(file, has_spheres(series));
     const float width = float(2.0 * series.reach);
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         const std::size_t n = s.size();
@@ -345,7 +391,9 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
             std::vector<float> mass(s.mass.begin(), s.mass.end()), diameter, inertia;
             for (std::size_t i = 0; i < n; ++i) {
                 diameter.push_back(float(2.0 * s.radius[i]));
-                inertia.insert(inertia.end(), {0.0f, 0.0f, float(known(s.inertia[i]))});
+                const float about_z = float(known(s.inertia[i]));
+                const float about_xy = s.are_spheres() ? about_z : 0.0f;
+                inertia.insert(inertia.end(), {about_xy, about_xy, about_z});
             }
             gsd.add("particles/mass", gsd_f32, mass, 1);
             gsd.add("particles/diameter", gsd_f32, diameter, 1);
@@ -355,15 +403,23 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
         for (std::size_t i = 0; i < n; ++i) {
             const Vec2 p = s.position(i);
             const double half = 0.5 * known(s.orientation(i));
+            const Quaternion q = s.turned.empty()
+                                     ? Quaternion{std::cos(half), 0.0, 0.0, std::sin(half)}
+                                     : s.quaternion(i);
             position.insert(position.end(), {float(p.x), float(p.y), 0.0f});
-            orientation.insert(orientation.end(),
-                               {float(std::cos(half)), 0.0f, 0.0f, float(std::sin(half))});
+            orientation.insert(orientation.end(), {float(q.w), float(q.x), float(q.y), float(q.z)});
             velocity.insert(velocity.end(), {float(s.vx[i]), float(s.vy[i]), 0.0f});
         }
         gsd.add("particles/position", gsd_f32, position, 3);
         gsd.add("particles/orientation", gsd_f32, orientation, 4);
         gsd.add("particles/velocity", gsd_f32, velocity, 3);
         gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
+        if (s.are_spheres()) {
+            std::vector<double> rolling;
+            for (std::size_t i = 0; i < n; ++i)
+                rolling.insert(rolling.end(), {s.spin_x[i], s.spin_y[i]});
+            gsd.add("log/particles/rolling_spin", gsd_f64, rolling, 2);
+        }
         gsd.add("log/time", gsd_f64, std::vector<double>{s.time()}, 1);
         gsd.end_frame();
     });

@@ -31,6 +31,11 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     velocity_ = file_->column(particles + "/velocity/value");
     angle_ = file_->column(particles + "/angle/value");
     angular_velocity_ = file_->column(particles + "/angular_velocity/value");
+    are_spheres_ = file_->has(particles + "/orientation/value");
+    if (are_spheres_) {
+        rolling_spin_ = file_->column(particles + "/rolling_spin/value");
+        orientation_ = file_->column(particles + "/orientation/value");
+    }
     const auto numbers = [&](const char* name) {
         return file_->column(observables + "/" + name + "/value").read<double>();
     };
@@ -45,6 +50,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     frames_ = std::min({position_.rows(), velocity_.rows(), angle_.rows(), angular_velocity_.rows(),
                         swirls_.size(), events_.size(), clock_.size(), container_x_.size(),
                         container_y_.size(), container_vx_.size(), container_vy_.size()});
+    if (are_spheres_) frames_ = std::min({frames_, rolling_spin_.rows(), orientation_.rows()});
     const auto of_discs = [&](const char* name) {
         return file_->column(particles + "/" + name).read<double>();
     };
@@ -56,6 +62,16 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
         mass.size() != radius.size() || inertia.size() != radius.size())
         throw FileError(
             fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
+    const Dimensions row_of_spins{radius.size(), 2}, row_of_turns{radius.size(), 4};
+    if (are_spheres_ &&
+        (rolling_spin_.row_shape() != row_of_spins || orientation_.row_shape() != row_of_turns))
+        throw FileError(
+            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
+    if (are_spheres_) {
+        fixed_.resize_for_spheres(radius.size());
+        fixed_.turned.resize(radius.size());
+        fixed_.on_floor = file_->integers_attribute(parameters, "floor").at(0) == 1;
+    }
     fixed_.resize(radius.size());
     fixed_.radius = radius;
     fixed_.mass = mass;
@@ -71,9 +87,15 @@ void TrajectoryReader::load_block_of(std::uint64_t k) {
     block_begin_ = k / block_ * block_;
     block_end_ = std::min(block_begin_ + block_, frames_);
     const std::uint64_t n = block_end_ - block_begin_;
-    loaded_ = {position_.read<double>(block_begin_, n), velocity_.read<double>(block_begin_, n),
+    loaded_ = {position_.read<double>(block_begin_, n),
+               velocity_.read<double>(block_begin_, n),
                angle_.read<double>(block_begin_, n),
-               angular_velocity_.read<double>(block_begin_, n)};
+               angular_velocity_.read<double>(block_begin_, n),
+               {},
+               {}};
+    if (!are_spheres_) return;
+    loaded_.rolling_spin = rolling_spin_.read<double>(block_begin_, n);
+    loaded_.orientation = orientation_.read<double>(block_begin_, n);
 }
 
 Snapshot TrajectoryReader::frame(std::uint64_t k) {
@@ -96,6 +118,11 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
                   fixed_.radius[i],
                   fixed_.mass[i],
                   fixed_.inertia[i]});
+        if (!are_spheres_) continue;
+        s.set_floor_motion(i, {loaded_.rolling_spin[2 * at], loaded_.rolling_spin[2 * at + 1]},
+                           {0.0, 0.0});
+        const double* const q = loaded_.orientation.data() + 4 * at;
+        s.turned[i] = {q[0], q[1], q[2], q[3]};
     }
     return s;
 }

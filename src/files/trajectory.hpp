@@ -8,12 +8,17 @@
 //   /particles/trajectory/velocity         the same; step and time are links to position's
 //   /particles/trajectory/angle            value f64[T][N], rad, not reduced
 //   /particles/trajectory/angular_velocity value f64[T][N]
+//   Of spheres besides:
+//   /particles/trajectory/rolling_spin     value f64[T][N][2], (ω_x, ω_y); angular_velocity is ω_z
+//   /particles/trajectory/orientation      value f64[T][N][4], the unit quaternion w, x, y, z that
+//                                        takes the sphere's axes to the lab's; 1, 0, 0, 0 at first
 //   /particles/trajectory/mass, radius, moment_of_inertia f64[N]; species, id i64[N]
 //   /observables/NAME                    step, time, value f64[T] (or i64), the same T:
 //       swirls (i64), clock              time = swirls·T + clock, but exact for ever
 //       events (i64)                     events executed before the frame
 //       container_x, container_y, container_vx, container_vy
 //   /parameters                          attributes: period, container_radius, complete (0 or 1);
+//                                        of spheres floor (0 or 1);
 //                                        texts: one dataset for each entry of the provenance
 //
 // Units: length = disc radius, mass = disc mass, speed of the container = 1. All columns float64,
@@ -100,14 +105,15 @@ class TrajectoryReader {
     void load_block_of(std::uint64_t k);
 
     std::unique_ptr<Hdf5File> file_;
-    Column position_, velocity_, angle_, angular_velocity_;
+    Column position_, velocity_, angle_, angular_velocity_, rolling_spin_, orientation_;
+    bool are_spheres_ = false;
     std::vector<std::int64_t> swirls_, events_;
     std::vector<double> clock_, container_x_, container_y_, container_vx_, container_vy_;
     Snapshot fixed_;
     std::uint64_t frames_ = 0, block_ = 0, block_begin_ = 0, block_end_ = 0;
     bool complete_ = false;
     struct {
-        std::vector<double> position, velocity, angle, angular_velocity;
+        std::vector<double> position, velocity, angle, angular_velocity, rolling_spin, orientation;
     } loaded_;
 };
 

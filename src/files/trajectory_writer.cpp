@@ -43,14 +43,34 @@ std::uint64_t moments_per_chunk(std::uint64_t discs) {
     return most_frames_per_chunk / frames * frames;
 }
 
-/// The columns with one value for each disc and frame, and where they are in the file.
-enum Quantity { x, y, vx, vy, angle, spin, quantities };
+/// The columns with one value for each disc and frame, and where they are in the file. Those from
+/// spin_x on are of spheres.
+enum Quantity {
+    x,
+    y,
+    vx,
+    vy,
+    angle,
+    spin,
+    spin_x,
+    spin_y,
+    turned_w,
+    turned_x,
+    turned_y,
+    turned_z,
+    quantities
+};
 struct Place {
     const char* name;
     std::optional<std::uint64_t> component;
 };
-constexpr Place places[quantities] = {{"position", 0}, {"position", 1}, {"velocity", 0},
-                                      {"velocity", 1}, {"angle", {}},   {"angular_velocity", {}}};
+constexpr Place places[quantities] = {
+    {"position", 0},    {"position", 1},          {"velocity", 0},     {"velocity", 1},
+    {"angle", {}},      {"angular_velocity", {}}, {"rolling_spin", 0}, {"rolling_spin", 1},
+    {"orientation", 0}, {"orientation", 1},       {"orientation", 2},  {"orientation", 3}};
+constexpr bool is_of_spheres(int quantity) { return quantity >= spin_x; }
+/// In the dataset of the quantity before it.
+constexpr bool shares_dataset(int quantity) { return places[quantity].component.value_or(0) > 0; }
 
 /// The columns with one value for each frame.
 enum Moment {
@@ -79,8 +99,8 @@ std::string moment_place(int moment) {
 /// Frames on their way to the file, column by column. One thread fills it while the other may
 /// already look at what it has been filled with.
 struct FrameBlock {
-    FrameBlock(std::uint64_t frames, std::uint64_t discs) {
-        for (auto& column : of_discs) column.resize(frames * discs);
+    FrameBlock(std::uint64_t frames, std::uint64_t discs, int quantities_kept) {
+        for (int q = 0; q < quantities_kept; ++q) of_discs[q].resize(frames * discs);
         for (Words& column : of_frames) column.resize(frames);
     }
     std::array<std::vector<double>, quantities> of_discs;
@@ -132,7 +152,8 @@ void create_series(Hdf5File& file, const std::string& name, const Dimensions& ro
     if (row.size() > 1) chunk.push_back(1);
     file.create_column<double>(group + "/value", row, chunk, c.packing, c.level);
     std::vector<std::string> scales{group + "/time", particles + "/particle"};
-    if (row.size() > 1) scales.push_back(particles + "/xyz");
+    if (row.size() > 1)
+        scales.push_back(particles + (row[1] == 3 ? "/xyz" : row[1] == 2 ? "/xy" : "/wxyz"));
     file.attach_scales(group + "/value", scales);
 }
 
@@ -170,6 +191,12 @@ void create_fixed(Hdf5File& file, const Snapshot& first) {
     file.make_scale(particles + "/particle", "particle");
     file.write(particles + "/xyz", std::vector<std::int64_t>{0, 1, 2}, {3});
     file.make_scale(particles + "/xyz", "xyz");
+    if (first.are_spheres()) {
+        file.write(particles + "/xy", std::vector<std::int64_t>{0, 1}, {2});
+        file.make_scale(particles + "/xy", "xy");
+        file.write(particles + "/wxyz", std::vector<std::int64_t>{0, 1, 2, 3}, {4});
+        file.make_scale(particles + "/wxyz", "wxyz");
+    }
     file.write(particles + "/id", id, {n});
     file.write(particles + "/species", species, {n});
     file.write(particles + "/mass", first.mass, {n});
@@ -200,6 +227,9 @@ void create_layout(Hdf5File& file, const Snapshot& first, const Compression& com
     create_series(file, "velocity", {n, 3}, compression);
     create_series(file, "angle", {n}, compression);
     create_series(file, "angular_velocity", {n}, compression);
+    if (!first.are_spheres()) return;
+    create_series(file, "rolling_spin", {n, 2}, compression);
+    create_series(file, "orientation", {n, 4}, compression);
 }
 
 void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& provenance) {
@@ -212,6 +242,8 @@ void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& 
         file.set_attribute("/h5md/creator", "version", std::string("unknown"));
     file.set_attribute(parameters, "period", first.period);
     file.set_attribute(parameters, "container_radius", first.container_radius);
+    if (first.are_spheres())
+        file.set_attribute(parameters, "floor", std::vector<std::int64_t>{first.on_floor});
 }
 
 // --- the file's side -----------------------------------------------------------------------------
@@ -222,9 +254,9 @@ class FrameFile {
   public:
     FrameFile(const std::filesystem::path& path, Hdf5File file)
         : path_(path), file_(std::move(file)) {
-        for (int q = 0; q < quantities; ++q)
-            // x and y are the same dataset.
-            of_discs_[q] = q == y || q == vy ? of_discs_[q - 1]
+        kept_ = file_.has(particles + "/orientation/value") ? quantities : spin_x;
+        for (int q = 0; q < kept_; ++q)
+            of_discs_[q] = shares_dataset(q) ? of_discs_[q - 1]
                                              : std::make_shared<Column>(file_.column(
                                                    particles + "/" + places[q].name + "/value"));
         for (int m = 0; m < moments; ++m) of_frames_[m] = file_.column(moment_place(m));
@@ -243,6 +275,8 @@ class FrameFile {
     }
 
     std::uint64_t discs() const { return discs_; }
+    bool are_spheres() const { return kept_ == quantities; }
+    int quantities_kept() const { return kept_; }
     std::uint64_t frames_per_block() const { return frames_per_chunk_; }
 
     /// Forgets all frames but the first `frames`; gives back those of the chunk that is begun.
@@ -255,15 +289,15 @@ class FrameFile {
                     path_.string(), column.rows(), frames));
             if (column.rows() > frames) column.resize(frames);
         };
-        for (int q = 0; q < quantities; ++q)
-            if (q != y && q != vy) cut_column(*of_discs_[q]);
+        for (int q = 0; q < kept_; ++q)
+            if (!shares_dataset(q)) cut_column(*of_discs_[q]);
         for (Column& column : of_frames_) cut_column(column);
 
         block.first = frames / frames_per_chunk_ * frames_per_chunk_;
         const std::uint64_t rest = frames - block.first;
         block.filled = rest;
         if (rest > 0)
-            for (int q = 0; q < quantities; ++q) {
+            for (int q = 0; q < kept_; ++q) {
                 const auto rows = of_discs_[q]->read<double>(block.first, rest);
                 const std::size_t stride = rows.size() / (rest * discs_);
                 for (std::size_t k = 0; k < rest * discs_; ++k)
@@ -284,7 +318,7 @@ class FrameFile {
         if (block.first + frames <= put_) return;
         changed_ = true;
         put_ = block.first + frames;
-        for (int q = 0; q < quantities; ++q) {
+        for (int q = 0; q < kept_; ++q) {
             if (of_discs_[q]->rows() < put_) of_discs_[q]->resize(put_);
             put_column(*of_discs_[q], block.of_discs[q].data(), block.first, frames, discs_,
                        places[q].component);
@@ -366,6 +400,7 @@ class FrameFile {
     std::filesystem::path path_;
     Hdf5File file_;  // before the columns, which refer to it
     std::array<std::shared_ptr<Column>, quantities> of_discs_;
+    int kept_ = spin_x;  // of the quantities: those of discs, or all
     std::array<Column, moments> of_frames_;
     std::uint64_t discs_ = 0, frames_per_chunk_ = 1, moments_per_chunk_ = 1;
     std::uint64_t put_ = 0;                            // frames that are in the file
@@ -384,7 +419,8 @@ class TrajectoryWriter::Work {
   public:
     Work(FrameFile file, std::optional<std::uint64_t> frames_there) : file_(std::move(file)) {
         for (int k = 0; k < blocks_on_their_way + 1; ++k)
-            idle_.push_back(std::make_unique<FrameBlock>(file_.frames_per_block(), file_.discs()));
+            idle_.push_back(std::make_unique<FrameBlock>(file_.frames_per_block(), file_.discs(),
+                                                         file_.quantities_kept()));
         take_idle_block();
         if (frames_there) {
             frames_ = *frames_there;
@@ -407,6 +443,18 @@ class TrajectoryWriter::Work {
         std::copy_n(s.vx.data(), n, at(vx));
         std::copy_n(s.vy.data(), n, at(vy));
         std::copy_n(s.spin.data(), n, at(spin));
+        if (file_.are_spheres()) {
+            // Of a snapshot whose spheres are held now: nobody is accelerated.
+            std::copy_n(s.spin_x.data(), n, at(spin_x));
+            std::copy_n(s.spin_y.data(), n, at(spin_y));
+            for (std::size_t i = 0; i < n; ++i) {
+                const Quaternion q = s.turned.empty() ? Quaternion{} : s.turned[i];
+                at(turned_w)[i] = q.w;
+                at(turned_x)[i] = q.x;
+                at(turned_y)[i] = q.y;
+                at(turned_z)[i] = q.z;
+            }
+        }
         b.of_frames[step][k] = frames_;
         b.of_frames[time][k] = bits_of(s.time());
         b.of_frames[swirls][k] = static_cast<std::uint64_t>(s.swirls);

@@ -54,7 +54,8 @@ std::string symbol_of(const char* name) {
 }
 
 std::string caption_of(const RunConfig& config) {
-    return fmt::format("{} disc{}", config.discs, config.discs == 1 ? "" : "s");
+    return fmt::format("{} {}{}", config.discs, config.body == Shape::sphere ? "sphere" : "disc",
+                       config.discs == 1 ? "" : "s");
 }
 
 /// Nothing where it is of another version, or there is nothing.
@@ -64,6 +65,47 @@ std::optional<RunConfig> config_in(const std::string& parameters) try {
 } catch (const WrongCall&) {
     return std::nullopt;
 }
+
+/// Spheres, followed from event to event, so that it is known how each is turned.
+class FollowedSpheres {
+  public:
+    FollowedSpheres(const RunConfig& config, const std::atomic<bool>* stop)
+        : path_(make_path(config)),
+          simulation_(make_initial_state(config, stop), Progress{}, stopped_by(stop)),
+          seen_(simulation_.snapshot()),
+          stop_(stop) {
+        seen_.turned.assign(seen_.size(), {});
+        if (!stopped()) next_ = simulation_.step();
+    }
+
+    Snapshot at(double swirls) {
+        const double whole = std::floor(swirls);
+        const auto period = static_cast<std::int64_t>(whole);
+        const double clock = (swirls - whole) * path_.period;
+        for (int k = 0; next_.swirls < period || (next_.swirls == period && next_.clock <= clock);
+             ++k) {
+            if (k % 4096 == 0 && stopped())
+                throw Interrupted("Stopped before the moment that was to be shown.");
+            simulation_.refresh(seen_, next_);
+            next_ = simulation_.step();
+        }
+        Snapshot then = seen_;
+        then.clock = clock;
+        const Leg& leg = path_.leg_at(clock);
+        then.container_centre = leg.position_at(clock);
+        then.container_velocity = leg.velocity_at(clock);
+        return then.up_to_date();
+    }
+
+  private:
+    bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
+
+    ContainerPath path_;
+    Simulation simulation_;
+    Snapshot seen_;  // before next_
+    Event next_{};
+    const std::atomic<bool>* stop_;
+};
 
 }  // namespace
 
@@ -80,6 +122,7 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
         label("tangential_restitution", plain(config.tangential_restitution));
     label("inertia",
           plain(config.inertia / (config.mass * config.radius * config.radius)) + " $m$$r^{2}$");
+    if (config.floor) label("floor_friction", plain(config.floor_friction));
     label("container_radius", plain(config.container_radius / config.radius) + " $r$");
     label("amplitude", plain(config.amplitude / config.radius) + " $r$");
     if (config.mixture)
@@ -97,6 +140,11 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
             if (stop && stop->load(std::memory_order_relaxed))
                 throw Interrupted("Stopped before the moment that was to be shown.");
         };
+        if (config.body == Shape::sphere) {
+            const auto spheres = std::make_shared<FollowedSpheres>(config, stop);
+            refuse_stopped();
+            return [spheres](double swirls) { return spheres->at(swirls); };
+        }
         auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
                                                        stopped_by(stop));
         refuse_stopped();
@@ -112,8 +160,7 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
                 static_cast<double>(simulation->swirls()) + simulation->clock() / period;
             for (double k = 1.0; now + k * step < swirls; ++k) advance_to(now + k * step);
             advance_to(swirls);
-            const Snapshot seen = simulation->snapshot();
-            return seen.are_spheres() ? seen.up_to_date() : seen;
+            return simulation->snapshot();
         };
     };
     footage.path = outline(path);
@@ -122,6 +169,7 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     footage.period = config.period;
     footage.caption = caption_of(config);
     footage.parameters = parameter_labels(config);
+    footage.knows_slip = config.floor;
     return footage;
 }
 
@@ -149,6 +197,13 @@ double swirls_of(const Snapshot& s) {
     return static_cast<double>(s.swirls) + (s.period > 0.0 ? s.clock / s.period : 0.0);
 }
 
+/// A share u of the way on the shorter arc from p to q, as good as evenly where it is short.
+Quaternion between(const Quaternion& p, const Quaternion& q, double u) {
+    const double same = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0.0 ? -1.0 : 1.0;
+    const auto mixed = [&](double a, double b) { return a + u * (same * b - a); };
+    return unit({mixed(p.w, q.w), mixed(p.x, q.x), mixed(p.y, q.y), mixed(p.z, q.z)});
+}
+
 /// Between `a` and `b`, a share u of the way: straight lines.
 Snapshot between(const Snapshot& a, const Snapshot& b, double u, double swirls) {
     Snapshot s = a;
@@ -163,6 +218,8 @@ Snapshot between(const Snapshot& a, const Snapshot& b, double u, double swirls) 
         s.y[i] = p.y + u * (q.y - p.y);
         const double from = a.orientation(i);
         s.angle[i] = same ? from + u * (b.orientation(i) - from) : from;
+        if (same && !a.turned.empty() && !b.turned.empty())
+            s.turned[i] = between(a.quaternion(i), b.quaternion(i), u);
         s.held_at[i] = s.clock;
     }
     return s;
@@ -223,6 +280,7 @@ Footage recorded(const SnapshotSeries& series, const std::string& caption) {
             static_cast<double>(series.frames - 1) / (*footage.to - *footage.from);
     footage.knows_spin = known(first.spin);
     footage.knows_orientation = known(first.angle);
+    footage.knows_slip = first.are_spheres() && first.on_floor;
     return footage;
 }
 

@@ -35,6 +35,7 @@ struct Footage {
     std::optional<double> from = {}, to = {};
     /// What the recording tells of the discs.
     bool knows_spin = true, knows_orientation = true;
+    bool knows_slip = false;  // spheres on a floor
     /// Where discs come and go: their names at that moment, ascending. Empty: they are the same
     /// all the time.
     std::function<std::vector<std::int64_t>(double swirls)> ids = {};

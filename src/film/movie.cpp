@@ -53,7 +53,7 @@ double rotation_of(const Snapshot& s) {
 
 /// What a first pass over the swirls finds: curves for the plot, ends of the colour scales.
 struct Survey {
-    std::vector<double> spins, speeds;
+    std::vector<double> spins, speeds, slips;
     bool single_disc = true;  // in all that was looked at
 
     Curve look(const Footage& footage, Frame frame, double start, double end) {
@@ -82,6 +82,9 @@ struct Survey {
                 const Vec2 v = at.velocity(s.position(i), s.velocity(i));
                 spins.push_back(std::abs(s.spin[i]));
                 speeds.push_back(std::sqrt(dot(v, v)));
+                if (!s.are_spheres()) continue;
+                const Vec2 c = slip_on_floor(s.disc(i), s.container_velocity);
+                slips.push_back(std::sqrt(dot(c, c)));
             }
         }
         return curve;
@@ -222,6 +225,11 @@ std::optional<std::string> problem(const std::vector<Footage>& footage,
         if (appearance.coloring == Coloring::spin && !dish.knows_spin)
             return fmt::format("{} tells no spins, so the discs cannot be coloured by them.",
                                dish.caption);
+        if (appearance.coloring == Coloring::slip && !dish.knows_slip)
+            return fmt::format(
+                "{} has no spheres on a floor, so nothing can be coloured by the slip on it; "
+                "another --color would be right.",
+                dish.caption);
         if (appearance.coloring == Coloring::pinned && dish.ids)
             return fmt::format(
                 "The discs of {} are not the same in every frame, so which of them are pinned "
@@ -334,8 +342,9 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
                 }))
                 spec.parameters.push_back(label);
     }
-    const bool scaled =
-        appearance.coloring == Coloring::spin || appearance.coloring == Coloring::speed;
+    const bool scaled = appearance.coloring == Coloring::spin ||
+                        appearance.coloring == Coloring::speed ||
+                        appearance.coloring == Coloring::slip;
     Survey survey;
     if (appearance.plot || appearance.turned || scaled) {
         for (std::size_t k = 0; k < footage.size(); ++k) {
@@ -345,7 +354,9 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
             curves.push_back(std::move(curve));
         }
         spec.style.full_spin = scale_end(std::move(survey.spins));
-        spec.style.full_speed = appearance.full_speed.value_or(scale_end(std::move(survey.speeds)));
+        const bool slip = appearance.coloring == Coloring::slip;
+        spec.style.full_speed = appearance.full_speed.value_or(
+            scale_end(std::move(slip ? survey.slips : survey.speeds)));
     }
     if (appearance.plot) {
         PlotStyle plot{.from = start,

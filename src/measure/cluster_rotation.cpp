@@ -47,6 +47,10 @@ RotationSample rates_one_by_one(const Snapshot& s, const RotationCentre& c, doub
 
 RotationCentre centre_of(const Snapshot& s, const RotationKernel& kernel) {
     if (s.size() < lanes) return centre_one_by_one(s);
+    if (s.are_spheres())
+        return kernel.centre_of_spheres(
+            s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(), s.mass.data(),
+            static_cast<std::ptrdiff_t>(s.size()), s.clock, {s.ax.data(), s.ay.data()});
     return kernel.centre(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(),
                          s.mass.data(), static_cast<std::ptrdiff_t>(s.size()), s.clock);
 }
@@ -64,8 +68,12 @@ SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c
                                       const RotationKernel& kernel) {
     const double closest = 0x1p-40 * s.container_radius, closest_square = closest * closest;
     if (s.size() >= lanes) {
-        const RotationRates rates = kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
-                                                 s.held_at.data(), c, s.clock, closest_square);
+        const RotationRates rates =
+            s.are_spheres() ? kernel.rates_of_spheres(s.x.data(), s.y.data(), s.vx.data(),
+                                                      s.vy.data(), s.held_at.data(), c, s.clock,
+                                                      closest_square, {s.ax.data(), s.ay.data()})
+                            : kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
+                                           s.held_at.data(), c, s.clock, closest_square);
         // If not: somebody on the centre of mass, or something that is no number itself.
         const bool is_number = rates[0] - rates[0] == 0.0;
         if (is_number) return {rates[0], rates[1]};

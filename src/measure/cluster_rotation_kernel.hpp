@@ -35,6 +35,11 @@ struct RotationCentre {
 /// (individual, rigid), in a register.
 typedef double RotationRates __attribute__((vector_size(16)));
 
+/// The accelerations of spheres on a floor.
+struct RotationPush {
+    const double *ax, *ay;
+};
+
 /// One width of the kernel, for eight discs or more. The columns of the snapshot one by one, as
 /// they stay in registers then.
 struct RotationKernel {
@@ -46,6 +51,15 @@ struct RotationKernel {
     RotationRates (*rates)(const double* x, const double* y, const double* vx, const double* vy,
                            const double* held_at, const RotationCentre& centre, double clock,
                            double closest_square);
+    /// The same of spheres, which may be accelerated.
+    RotationCentre (*centre_of_spheres)(const double* x, const double* y, const double* vx,
+                                        const double* vy, const double* held_at, const double* mass,
+                                        std::ptrdiff_t size, double clock,
+                                        const RotationPush& push);
+    RotationRates (*rates_of_spheres)(const double* x, const double* y, const double* vx,
+                                      const double* vy, const double* held_at,
+                                      const RotationCentre& centre, double clock,
+                                      double closest_square, const RotationPush& push);
 };
 namespace rotation_baseline {
 extern const RotationKernel kernel;
@@ -152,11 +166,31 @@ struct Discs {
     Eight x, y, vx, vy;
 };
 
-SWIRL_INLINE Discs discs(const Columns& c, const Eight& clock, std::ptrdiff_t first) {
+/// Of discs: nothing.
+struct NoPush {
+    SWIRL_INLINE void on(Discs&, const Eight&, std::ptrdiff_t) const {}
+};
+/// As Snapshot::position() and velocity() have it.
+struct Push : RotationPush {
+    SWIRL_INLINE void on(Discs& d, const Eight& elapsed, std::ptrdiff_t first) const {
+        const Eight x = Eight::load(ax + first), y = Eight::load(ay + first);
+        const Eight half_square = Eight::all(0.5) * elapsed * elapsed;
+        d.x = d.x + half_square * x;
+        d.y = d.y + half_square * y;
+        d.vx = d.vx + elapsed * x;
+        d.vy = d.vy + elapsed * y;
+    }
+};
+
+template <class Pushed>
+SWIRL_INLINE Discs discs(const Columns& c, const Pushed& push, const Eight& clock,
+                         std::ptrdiff_t first) {
     const Eight elapsed = clock - Eight::load(c.held_at + first);
     const Eight vx = Eight::load(c.vx + first), vy = Eight::load(c.vy + first);
-    return {Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
+    Discs d{Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
             vy};
+    push.on(d, elapsed, first);
+    return d;
 }
 
 struct Moments {
@@ -233,30 +267,30 @@ struct Rows {
     SWIRL_INLINE Eight counts() const { return Eight::load(last_lanes + left); }
 };
 
-RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
-                      const double* held_at, const double* mass, std::ptrdiff_t size,
-                      double clock_now) {
-    const Columns c{x, y, vx, vy, held_at};
+template <class Pushed>
+SWIRL_INLINE RotationCentre centre_of(const Columns& c, const double* mass, std::ptrdiff_t size,
+                                      double clock_now, const Pushed& push) {
     const Rows rows(size);
     const Eight clock = Eight::all(clock_now), zero = Eight::all(0.0);
     Moments m{zero, zero, zero, zero, zero};
     for (std::ptrdiff_t i = 0; i < rows.whole; i += lanes)
-        m.add(discs(c, clock, i), Eight::load(mass + i));
+        m.add(discs(c, push, clock, i), Eight::load(mass + i));
     if (rows.left > 0)
-        m.add(discs(c, clock, rows.last), Eight::load(mass + rows.last) * rows.counts());
+        m.add(discs(c, push, clock, rows.last), Eight::load(mass + rows.last) * rows.counts());
     const Double2 all = sums(m.mass, m.mass);
     const Double2 r = sums(m.x, m.y) / all, v = sums(m.vx, m.vy) / all;
     return {size, clock_now, all[0], {r[0], r[1]}, {v[0], v[1]}};
 }
 
-RotationRates rates(const double* x, const double* y, const double* vx, const double* vy,
-                    const double* held_at, const RotationCentre& about, double clock_now,
-                    double closest_square) {
-    const Columns c{x, y, vx, vy, held_at};
+template <class Pushed>
+SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& about, double clock_now,
+                                    double closest_square, const Pushed& push) {
     const Rows rows(about.discs);
     const Eight clock = Eight::all(clock_now);
     const Centre centre_of_mass(about, clock);
-    const auto arm = [&](std::ptrdiff_t i) { return centre_of_mass.arm(discs(c, clock, i)); };
+    const auto arm = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+        return centre_of_mass.arm(discs(c, push, clock, i));
+    };
     Turning t(arm(0));
     std::ptrdiff_t i = lanes;
     for (; i + lanes < rows.whole; i += 2 * lanes) t.add(arm(i), arm(i + lanes));
@@ -268,9 +302,31 @@ RotationRates rates(const double* x, const double* y, const double* vx, const do
     return above / below;
 }
 
+RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
+                      const double* held_at, const double* mass, std::ptrdiff_t size,
+                      double clock) {
+    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, NoPush{});
+}
+RotationCentre centre_of_spheres(const double* x, const double* y, const double* vx,
+                                 const double* vy, const double* held_at, const double* mass,
+                                 std::ptrdiff_t size, double clock, const RotationPush& push) {
+    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, Push{push});
+}
+
+RotationRates rates(const double* x, const double* y, const double* vx, const double* vy,
+                    const double* held_at, const RotationCentre& about, double clock,
+                    double closest_square) {
+    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, NoPush{});
+}
+RotationRates rates_of_spheres(const double* x, const double* y, const double* vx, const double* vy,
+                               const double* held_at, const RotationCentre& about, double clock,
+                               double closest_square, const RotationPush& push) {
+    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, Push{push});
+}
+
 }  // namespace
 
-const RotationKernel kernel{centre, rates};
+const RotationKernel kernel{centre, rates, centre_of_spheres, rates_of_spheres};
 
 }  // namespace SWIRL_ROTATION_TARGET
 #endif

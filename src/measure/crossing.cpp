@@ -102,7 +102,39 @@ void locate(Crossing& crossing, const Line& line) {
     crossing.upper = line.centre + (-B + root) / A;
 }
 
+/// Errors that make a sign certain, where there are many to ask.
+constexpr double certain = 3.0;
+
+/// +1, −1, or 0 for one that is not certain.
+int sign_of(const RotationPoint& p) {
+    return p.mean > certain * p.error ? 1 : p.mean < -certain * p.error ? -1 : 0;
+}
+
+SignChange sign_change(std::span<const RotationPoint> between) {
+    const Line line = fit(between);
+    SignChange change{between.front().discs, between.back().discs, between.front().mean > 0.0};
+    const double x = -line.height / line.slope;
+    change.discs = line.centre + x;
+    change.error =
+        std::sqrt(line.height_variance + line.slope_variance * x * x) / std::abs(line.slope);
+    return change;
+}
+
 }  // namespace
+
+std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> given) {
+    const std::vector<RotationPoint> points = usable(given);
+    std::vector<SignChange> changes;
+    std::size_t last = points.size();  // whose sign is certain
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const int sign = sign_of(points[k]);
+        if (sign == 0) continue;
+        if (last < k && sign_of(points[last]) != sign)
+            changes.push_back(sign_change(std::span(points).subspan(last, k - last + 1)));
+        last = k;
+    }
+    return changes;
+}
 
 Crossing find_crossing(std::span<const RotationPoint> given, int window) {
     Crossing crossing;

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "swirl/measure/statistics.hpp"
 
@@ -51,5 +52,20 @@ struct Crossing {
 
 /// Points in any order.
 Crossing find_crossing(std::span<const RotationPoint> points, int window = 3);
+
+/// One of several changes of sign, of a curve that need not be monotonic.
+struct SignChange {
+    double before, after;                         // the neighbours N whose signs are certain
+    bool to_counterrotation;                      // else back to rotation
+    double discs = not_known, error = not_known;  // where the line between them is zero
+};
+
+/// Every change of sign that is certain, in order of N. Certain is a sign by more than three
+/// errors (of many points one or two are off by two); between two neighbours of certain and
+/// opposite signs, those of uncertain sign left out of the count, the curve changes sign at least
+/// once. Where: the zero of the straight line through these points and those between them, by
+/// weighted least squares, its error being that of the line, and at least that of how the points
+/// scatter about it.
+std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> points);
 
 }  // namespace swirl

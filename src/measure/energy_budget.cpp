@@ -20,7 +20,7 @@ void add(EnergyChange& sum, const EnergyChange& change) {
 }  // namespace
 
 EnergyChange energy_change(const Event& event, const Snapshot& after) {
-    if (event.kind == EventKind::path_vertex) return {};
+    if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return {};
     const bool wall = event.kind == EventKind::disc_wall;
     const Vec2 n = event.normal, r{n.y, -n.x};
     const Impulse& J = event.impulse;
@@ -38,9 +38,21 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
     const double slip_after = dot(g, r) + i.radius * i.spin + j.radius * j.spin;
 
     EnergyChange change;
-    if (wall) change.work = -dot(J.normal * n + J.tangential * r, after.container_velocity);
+    if (wall) {
+        change.push = -1.0 * (J.normal * n + J.tangential * r);
+        change.work = dot(change.push, after.container_velocity);
+    }
     change.inelastic_loss = -J.normal * (normal_after - 0.5 * J.normal * inverse_masses);
     change.friction_loss = -J.tangential * (slip_after - 0.5 * J.tangential * inverse_tangential);
+    if (after.are_spheres()) {
+        const auto rolls = [&](std::size_t k) {
+            return after.radius[k] * cross(Vec2{after.spin_x[k], after.spin_y[k]}, n);
+        };
+        const double vertical_after = -(rolls(event.i) + (wall ? 0.0 : rolls(event.j)));
+        const double inverse_vertical = inverse_tangential - inverse_masses;
+        change.friction_loss +=
+            -J.vertical * (vertical_after - 0.5 * J.vertical * inverse_vertical);
+    }
     return change;
 }
 
@@ -50,12 +62,28 @@ double kinetic_energy(const Snapshot& s) {
     return sum;
 }
 
+/// After the event; K by the states as they are held, which on a floor must be those of now.
+void EnergyBudget::follow_floor(const EnergyChange& collision, const Snapshot& after) {
+    Bodies now{true, kinetic_energy(after), {0.0, 0.0}, after.container_velocity};
+    for (std::size_t i = 0; i < after.size(); ++i)
+        now.momentum = now.momentum + after.mass[i] * after.velocity(i);
+    if (last_.known) {
+        const double done = collision.work - collision.friction_loss - collision.inelastic_loss;
+        const double work =
+            dot(last_.floor_velocity, now.momentum - last_.momentum - collision.push);
+        floor_.work += work;
+        floor_.friction_loss += work - (now.energy - last_.energy - done);
+    }
+    last_ = now;
+}
+
 void EnergyBudget::sample(const Event& event, const Snapshot& after) {
-    if (event.kind != EventKind::path_vertex) {
-        const EnergyChange change = energy_change(event, after);
+    const EnergyChange change = energy_change(event, after);
+    if (event.kind == EventKind::disc_wall || event.kind == EventKind::disc_disc) {
         add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);
         add(total_, change);
     }
+    if (after.on_floor) return follow_floor(change, after);
     if (!compared_) compare(kinetic_energy(after));
 }
 
@@ -76,7 +104,11 @@ void EnergyBudget::close_block(double duration) {
     disc_friction_.add(disc_.friction_loss, duration);
     wall_friction_.add(wall_.friction_loss, duration);
     inelastic_.add(disc_.inelastic_loss + wall_.inelastic_loss, duration);
-    disc_ = wall_ = {};
+    if (last_.known) {
+        floor_work_.add(floor_.work, duration);
+        floor_friction_.add(floor_.friction_loss, duration);
+    }
+    disc_ = wall_ = floor_ = {};
     compared_ = false;
 }
 
@@ -88,6 +120,8 @@ void EnergyBudget::merge(const EnergyBudget& other) {
     disc_friction_.merge(other.disc_friction_);
     wall_friction_.merge(other.wall_friction_);
     inelastic_.merge(other.inelastic_);
+    floor_work_.merge(other.floor_work_);
+    floor_friction_.merge(other.floor_friction_);
 }
 
 }  // namespace swirl

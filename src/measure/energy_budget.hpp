@@ -16,6 +16,17 @@
 // change of K that the snapshots show up to rounding: the budget closes, and a law that leaked
 // would show.
 //
+// Spheres (collision_law.hpp): L_t has the vertical part −J_z (s_z + s'_z)/2 too; a contact on a
+// floor may give back what pressing has stored, so L_n may be below 0 there. Between collisions the
+// floor acts, with the velocity u, which is constant on a leg. With P the momentum of all, and ΔP
+// and ΔK what the snapshots show from event to event less what the collisions did,
+//
+//   W_f = u·ΔP                work of the moving floor
+//   L_f = W_f − ΔK            what sliding on it takes, Σ μ_f m g ∫|c| dt ≥ 0
+//
+// Here the floor is what is left over, so the budget closes by construction and says nothing of
+// that; that L_f is never negative does.
+//
 // Results: power, energy per unit time, averaged over blocks of periods. Units: disc mass × speed²
 // / time. In a steady state work = losses. Elastic frictionless collisions lose nothing
 // (round-off). Limits: no time: NaN; needs spins.
@@ -33,6 +44,7 @@ struct EnergyChange {
     double work = 0.0;            // of the wall
     double friction_loss = 0.0;   // tangential
     double inelastic_loss = 0.0;  // normal
+    Vec2 push{0.0, 0.0};          // on all bodies together: minus the impulse on the wall
 };
 
 EnergyChange energy_change(const Event& event, const Snapshot& after);
@@ -53,6 +65,9 @@ class EnergyBudget {
     Estimate disc_friction_power() const { return disc_friction_.estimate(); }
     Estimate wall_friction_power() const { return wall_friction_.estimate(); }
     Estimate inelastic_power() const { return inelastic_.estimate(); }
+    /// Of the floor, and lost in sliding on it; of spheres on a floor.
+    Estimate floor_power() const { return floor_work_.estimate(); }
+    Estimate floor_friction_power() const { return floor_friction_.estimate(); }
 
     /// Everything since the beginning, open block included.
     double total_work() const { return total_.work; }
@@ -75,6 +90,10 @@ class EnergyBudget {
                         wall_friction_power()});
         visit(ReportRow{"inelastic_power", "m v³/r", "lost in inelastic collisions",
                         inelastic_power()});
+        visit(ReportRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
+                        floor_power()});
+        visit(ReportRow{"floor_friction_power", "m v³/r", "lost in sliding on the floor",
+                        floor_friction_power()});
         visit(ReportRow{.name = "unaccounted_share",
                         .unit = "1",
                         .description = "of the energy that went through",
@@ -89,8 +108,13 @@ class EnergyBudget {
             visit(change->friction_loss);
             visit(change->inelastic_loss);
         }
-        for (BlockSeries* s : {&work_, &disc_friction_, &wall_friction_, &inelastic_})
+        for (BlockSeries* s : {&work_, &disc_friction_, &wall_friction_, &inelastic_, &floor_work_,
+                               &floor_friction_})
             s->fields(visit);
+        for (double* sum : {&floor_.work, &floor_.friction_loss, &last_.energy}) visit(*sum);
+        visit(last_.momentum);
+        visit(last_.floor_velocity);
+        visit(last_.known);
         visit(begun_);
         visit(compared_);
         visit(at_start_);
@@ -98,13 +122,21 @@ class EnergyBudget {
     }
 
   private:
+    /// All bodies together, after the last event.
+    struct Bodies {
+        bool known = false;
+        double energy = 0.0;
+        Vec2 momentum{0.0, 0.0}, floor_velocity{0.0, 0.0};
+    };
     void compare(double energy);
+    void follow_floor(const EnergyChange& collision, const Snapshot& after);
 
-    EnergyChange disc_, wall_;  // the open block
+    EnergyChange disc_, wall_, floor_;  // the open block
+    Bodies last_;
     EnergyChange total_;
     bool begun_ = false, compared_ = false;  // ever, and in this block
     double at_start_ = 0.0, worst_ = 0.0;    // K less what is accounted for, and its largest change
-    BlockSeries work_, disc_friction_, wall_friction_, inelastic_;
+    BlockSeries work_, disc_friction_, wall_friction_, inelastic_, floor_work_, floor_friction_;
 };
 
 }  // namespace swirl

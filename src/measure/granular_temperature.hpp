@@ -4,7 +4,8 @@
 //                to the container in the M-frame: twice the energy per degree of freedom (a disc
 //                has two), the kT of a gas
 //   granular     the average of T over all discs
-//   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom)
+//   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom; of spheres, that
+//                about the vertical)
 //
 // In equilibrium the last two are equal; friction at the wall drives the spins and makes them
 // differ. Units: disc mass × (container's speed)². Source: Goldhirsch 2003,

@@ -18,6 +18,7 @@
 #include "swirl/measure/local_packing.hpp"
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
+#include "swirl/measure/rolling.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/wall_stays.hpp"
@@ -78,7 +79,9 @@ inline constexpr std::tuple measurement_list{
     measurement<DiffusionLags>("diffusion", "diffusion.hpp",
         "squared displacement and turn of a disc against the time between"),
     measurement<EnergyBudget>("energy", "energy_budget.hpp",
-        "energy budget: work of the wall, losses in friction and collisions"),
+        "energy budget: work of wall and floor, losses in friction and collisions"),
+    measurement<Rolling>("rolling", "rolling.hpp",
+        "of spheres: rolling and sliding on the floor, vertical rubbing, frustration"),
 };
 // clang-format on
 

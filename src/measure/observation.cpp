@@ -20,6 +20,10 @@ concept TakesView = !TakesCells<M> && !TakesPinned<M> && requires(M & m, const M
     m.sample(view);
 };
 template <class M>
+concept TakesLab = requires(M& m, const Snapshot& lab) {
+    m.sample_in_lab(lab);
+};
+template <class M>
 concept TakesPositions = requires(M& m, const Snapshot& lab) {
     m.sample_within_period(lab);
     m.sample_across_periods(lab);
@@ -142,6 +146,7 @@ void Observation::sample(const Snapshot& lab) {
         } else if constexpr (TakesView<M>) {
             m.sample(now);
         }
+        if constexpr (TakesLab<M>) m.sample_in_lab(lab);
         if constexpr (TakesPositions<M>) {
             if (positions) m.sample_within_period(lab);
             if (block_begins_) m.sample_across_periods(lab);

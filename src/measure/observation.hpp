@@ -19,6 +19,7 @@
 //                                      is not known sooner (pinned_loose.hpp)
 //     sample(view, cells, pinned)      every 100th sample and its Voronoi cells; seven samples late
 //                                      too where somebody follows the pinned
+//     sample_in_lab(snapshot)          every sample, in the lab; beside sample(event)
 //     sample_within_period(snapshot)   every 7th sample, in the lab
 //     sample_across_periods(snapshot)  the first sample of every block, in the lab
 //     sample(event[, after])           every event

@@ -34,6 +34,13 @@ const std::vector<PaperFigure>& paper_figures() {
         {"polygon", "beyond the paper: the polygon's sides, and the true circle",
          plan_figure_polygon},
         {"energy", "beyond the paper: energy without any friction", plan_figure_energy},
+        {"spheres", "spheres that roll: rotation against N, six frictions", plan_figure_spheres},
+        {"spheres_sense", "spheres that roll: where the sense of rotation changes",
+         plan_figure_spheres_sense},
+        {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
+         plan_figure_spheres_ingredients},
+        {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
+         plan_figure_spheres_pinned},
         {"map", "beyond the paper: both frictions at N = 48", plan_figure_map},
     };
     return all;

@@ -102,7 +102,10 @@ const PaperFigure& paper_figure(const std::string& name) {
 double expected_events_per_swirl(const RunConfig& config) {
     const double filled = static_cast<double>(config.discs) * config.radius * config.radius /
                           (config.container_radius * config.container_radius);
-    return config.sides + static_cast<double>(config.discs) * (5.0 + 275.0 * std::pow(filled, 3.3));
+    // A sphere begins to roll after most collisions, and after every corner.
+    const double as_many = config.floor ? 3.0 : 1.0;
+    return config.sides +
+           as_many * static_cast<double>(config.discs) * (5.0 + 275.0 * std::pow(filled, 3.3));
 }
 
 PaperTask run_task(const std::string& key, const RunConfig& config,

@@ -52,6 +52,10 @@
 // is −(λ − λ²/2)(m_t s_t² + m_z s_z²), and 0 ≤ λ ≤ 1 + β ≤ 2: nothing on the way from 0 to 2 J*
 // brings energy, and J* itself takes the most.
 //
+// To see what the vertical component does, J* = −(m_t s_t, κ m_z s_z) can have less of it: κ = 1 is
+// the law, with κ = 0 spheres rub as discs do. The vertical part then brings
+// −(λκ − λ²κ²/2) m_z s_z², and 0 ≤ λκ ≤ 2 again.
+//
 // Limits of the spheres: they do not hop; the floor's own friction does not notice J_z.
 #pragma once
 
@@ -122,14 +126,16 @@ struct Approach {
 namespace law {
 
 /// −(1 + β) J*: as the slip goes.
-SWIRL_INLINE constexpr Tangential times(double one_plus_beta, const Tangential& mass,
-                                        const Tangential& slip) {
-    return {one_plus_beta * mass.t * slip.t};
+SWIRL_INLINE constexpr Tangential sticking(const Surface& surface, const Tangential& mass,
+                                           const Tangential& slip) {
+    return {(1.0 + surface.tangential_restitution) * mass.t * slip.t};
 }
-SWIRL_INLINE constexpr TangentialAndVertical times(double one_plus_beta,
-                                                   const TangentialAndVertical& mass,
-                                                   const TangentialAndVertical& slip) {
-    return {one_plus_beta * mass.t * slip.t, one_plus_beta * mass.z * slip.z};
+SWIRL_INLINE constexpr TangentialAndVertical sticking(const Surface& surface,
+                                                      const TangentialAndVertical& mass,
+                                                      const TangentialAndVertical& slip) {
+    const double one_plus_beta = 1.0 + surface.tangential_restitution;
+    return {one_plus_beta * mass.t * slip.t,
+            surface.vertical_friction * (one_plus_beta * mass.z * slip.z)};
 }
 SWIRL_INLINE constexpr double size(const Tangential& a) { return magnitude(a.t); }
 SWIRL_INLINE double size(const TangentialAndVertical& a) {
@@ -185,8 +191,7 @@ SWIRL_INLINE constexpr Impulse impulse(const Approach<Components>& approach,
     const double normal =
         (1.0 + surface.restitution) * approach.normal_mass * larger(approach.speed, 0.0);
     const double coulomb = surface.mu * normal;
-    const Components sticking =
-        law::times(1.0 + surface.tangential_restitution, approach.tangential_mass, approach.slip);
+    const Components sticking = law::sticking(surface, approach.tangential_mass, approach.slip);
     const double stick = law::size(sticking);
     const double strength = smaller(coulomb, stick);
     return law::impulse(normal, law::against(sticking, strength), stick <= coulomb);

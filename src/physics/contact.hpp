@@ -11,6 +11,7 @@ struct Surface {
     double restitution = 1.0;
     double tangential_restitution = 0.0;
     double contact_duration = 0.0;
+    double vertical_friction = 1.0;  // κ ∈ [0, 1], of spheres: 0 rubs horizontally alone
 };
 
 /// Impulses on body j, along n and along r; body i receives the opposite.

@@ -16,6 +16,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/floor.hpp"
+#include "swirl/physics/orientation.hpp"
 
 namespace swirl {
 
@@ -31,6 +32,9 @@ struct Snapshot {
     std::vector<double> radius, mass, inertia;
     // Of spheres, empty for discs: the other two spins, and what the floor does.
     std::vector<double> spin_x, spin_y, ax, ay;
+    // How each is turned, at the time at which its state is held. Whoever wants to follow that
+    // begins with one for each sphere; else it is empty, and costs nothing.
+    std::vector<Quaternion> turned;
     bool on_floor = false;  // it pushes, so that the centre of mass does not move uniformly
 
     bool are_spheres() const { return !ax.empty(); }
@@ -49,6 +53,13 @@ struct Snapshot {
         const double elapsed = clock - held_at[i];
         return {vx[i] + elapsed * ax[i], vy[i] + elapsed * ay[i]};
     }
+    /// If the spheres are followed: how this one is turned now, or at another time on the clock,
+    /// with nothing between.
+    Quaternion quaternion(std::size_t i) const { return quaternion(i, clock); }
+    Quaternion quaternion(std::size_t i, double t) const {
+        return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i],
+                          rolling_spin_rate({ax[i], ay[i]}, mass[i], radius[i], inertia[i]));
+    }
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
 
     Disc disc(std::size_t i) const {
@@ -57,13 +68,18 @@ struct Snapshot {
         if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
         return d;
     }
-    /// Everybody held now.
-    Snapshot up_to_date() const {
-        Snapshot now = *this;
+    /// Everybody held now. `now` is any snapshot; its memory is used again.
+    void up_to_date(Snapshot& now) const {
+        now = *this;
         for (std::size_t i = 0; i < size(); ++i) {
             const Vec2 a = are_spheres() ? Vec2{ax[i], ay[i]} : Vec2{0.0, 0.0};
+            if (!turned.empty()) now.turned[i] = quaternion(i);
             now.set(i, moved_to(disc(i), {a, never}, clock));
         }
+    }
+    Snapshot up_to_date() const {
+        Snapshot now;
+        up_to_date(now);
         return now;
     }
     /// What changes in the course of a simulation.

@@ -79,6 +79,12 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
 /// What spheres cannot do yet.
 std::optional<std::string> not_for_spheres(const RunConfig& c) {
     if (c.body == Shape::disc) {
+        if (c.vertical_disc != 1.0 || c.vertical_wall != 1.0)
+            return fmt::format(
+                "--vertical-{} is {}, but discs do not slip vertically; --body sphere would be "
+                "right.",
+                c.vertical_disc != 1.0 ? "disc" : "wall",
+                c.vertical_disc != 1.0 ? c.vertical_disc : c.vertical_wall);
         if (!c.floor) return {};
         return "--floor is sliding, but discs have no floor; --body sphere would be right, or "
                "--floor none.";
@@ -138,13 +144,14 @@ Tuning stopped_by(const std::atomic<bool>* stop) {
 }
 
 InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
-    return {{},
-            path,
-            c.container_radius,
-            {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration},
-            {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration},
-            c.body,
-            {c.floor ? c.floor_friction * c.gravity : 0.0}};
+    return {
+        {},
+        path,
+        c.container_radius,
+        {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_disc},
+        {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_wall},
+        c.body,
+        {c.floor ? c.floor_friction * c.gravity : 0.0}};
 }
 
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {

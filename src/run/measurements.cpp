@@ -154,13 +154,6 @@ std::string measurement_markdown() {
 }
 
 Observation observation_of(const RunConfig& config, std::vector<std::string> names) {
-    if (config.body == Shape::sphere)
-        for (const std::string& name : names)
-            if (name == "energy" || name == "temperature")
-                throw WrongCall(fmt::format(
-                    "--measure names {}, which knows one spin of the three that spheres have; "
-                    "without it, the others are right.",
-                    name));
     return Observation(config.container_radius, config.period, std::move(names));
 }
 

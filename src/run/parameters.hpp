@@ -55,6 +55,7 @@ struct RunConfig {
     Shape body = Shape::disc;
     bool floor = false;  // that spheres slide and roll on
     double floor_friction = experiment_floor_friction, gravity = experiment_gravity;
+    double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
     double container_radius = paper_container_radius;
     double amplitude = paper_amplitude;  // 0: the dish stands still
     PathShape path = PathShape::polygon;
@@ -98,8 +99,9 @@ using ParameterSpeller = std::string(const RunConfig& config);
 /// Most parameters are a member of RunConfig and nothing else; the others have these of their own.
 ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_speed,
     read_path, read_sides, read_periods, read_warmup;
-ParameterWriter write_body, write_floor, write_floor_friction, write_gravity, write_mixture,
-    write_speed, write_omega, write_path, write_sides, write_events, write_warmup;
+ParameterWriter write_body, write_floor, write_floor_friction, write_gravity, write_vertical_disc,
+    write_vertical_wall, write_mixture, write_speed, write_omega, write_path, write_sides,
+    write_events, write_warmup;
 ParameterSpeller spell_inertia, spell_mixture;
 
 /// When a row is read: after those of earlier times, in terms of which it is.
@@ -297,6 +299,30 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .highest = largest_value,
      .write = write_gravity,
      .by_default = "6.382",
+     .said_only_if_set = true},
+    {.name = "vertical_disc",
+     .symbol = "κ_d",
+     .form = "0..1",
+     .description =
+         "of the vertical slip between spheres, the share that friction acts against; 0: "
+         "they rub as discs do",
+     .group = parameter_group::discs,
+     .member = &RunConfig::vertical_disc,
+     .lowest = 0,
+     .highest = 1,
+     .write = write_vertical_disc,
+     .by_default = "1",
+     .said_only_if_set = true},
+    {.name = "vertical_wall",
+     .symbol = "κ_w",
+     .form = "0..1",
+     .description = "the same of spheres and the wall",
+     .group = parameter_group::discs,
+     .member = &RunConfig::vertical_wall,
+     .lowest = 0,
+     .highest = 1,
+     .write = write_vertical_wall,
+     .by_default = "1",
      .said_only_if_set = true},
     {.name = "container_radius",
      .symbol = "R",

@@ -105,6 +105,7 @@ class Recorder {
 
     RunResult operator()(RunControl control) {
         control.resume = std::move(resumed_);
+        control.orientations = !files_.trajectory.empty() && config_.body == Shape::sphere;
         Run run(config_, std::move(control));
         if (shorter_)
             if (const auto trouble = run.trouble_with_length(*shorter_))
@@ -142,7 +143,7 @@ class Recorder {
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
         if (!files_.event_log.empty())
             event_log_.emplace(files_.event_log, first, scene.path.legs.back().end, provenance,
-                               files_.compression);
+                               files_.compression, moving_floor(scene.floor, scene.path));
     }
 
     void resume() {
@@ -240,12 +241,6 @@ class Recorder {
 
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance) {
-    if (config.body == Shape::sphere && !(files.trajectory.empty() && files.event_log.empty()))
-        throw WrongCall(fmt::format(
-            "{} is '{}', but recordings do not know the three spins of spheres yet; without it the "
-            "run is right.",
-            files.trajectory.empty() ? "--log-events" : "--trajectory",
-            (files.trajectory.empty() ? files.event_log : files.trajectory).string()));
     return Recorder(config, files, provenance, control.observation, control.stop)(control);
 }
 

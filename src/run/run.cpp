@@ -104,6 +104,8 @@ Run::Run(const RunConfig& config, RunControl control)
       periods_at_mark_(periods()),
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0) {
+    if (control_.orientations && snapshot_.are_spheres())
+        snapshot_.turned.assign(snapshot_.size(), {});
     const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
@@ -123,6 +125,7 @@ void Run::fields(Visitor&& visit) {
     visit(result_.warmup, result_.warmup_events, result_.max_overlap);
     visit(result_.energy_at_start, result_.invariant_at_start);
     visit(spin_in_warmup_, spin_after_, next_question_);
+    if (control_.orientations) visit(snapshot_.turned);
     if (control_.observation) visit(observation_times_, *control_.observation);
 }
 
@@ -184,7 +187,7 @@ bool Run::next_event() {
     event_ = simulation_.step();
     sample_rotation_by_event();
     while (next_sample(rotation_times_)) {
-        rotation().sample_by_time(snapshot());
+        rotation().sample_by_time(snapshot_);
         spin().add(mean_spin(snapshot_));
     }
     if (observes())
@@ -194,7 +197,7 @@ bool Run::next_event() {
 
 void Run::pass_event() {
     simulation_.refresh(snapshot_, event_);
-    rotation().follow(snapshot(), event_);
+    rotation().follow(snapshot_, event_);
     rotation_is_sampled_ = false;
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes()) control_.observation->sample(event_, snapshot());
@@ -271,7 +274,7 @@ std::string Run::reason_for_collapse() const {
 /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
 /// when nobody has to wait for it to be written (cluster_rotation.hpp).
 void Run::sample_rotation_by_event() {
-    if (!rotation_is_sampled_) rotation().sample(snapshot());
+    if (!rotation_is_sampled_) rotation().sample(snapshot_);
     rotation_is_sampled_ = true;
 }
 

@@ -75,6 +75,9 @@ struct RunControl {
     /// what it has gathered is part of the state that is kept.
     Observation* observation = nullptr;
 
+    /// Follow how each sphere is turned (Snapshot::turned).
+    bool orientations = false;
+
     /// What state() said of a run with the same configuration and names of an observation that has
     /// seen nothing yet: the run goes on from there, bit for bit.
     std::optional<std::string> resume;
@@ -110,7 +113,7 @@ class Run {
     /// Spheres brought up to date: an observer may take it that nobody is accelerated.
     const Snapshot& snapshot() {
         if (!snapshot_.are_spheres()) return snapshot_;
-        dated_ = snapshot_.up_to_date();
+        snapshot_.up_to_date(dated_);
         return dated_;
     }
 

@@ -399,9 +399,10 @@ void Simulation::Storage::place_spheres(const InitialState& scene) {
     }
     SpheresSideBySide& all = *state.spheres_side_by_side;
     for (std::uint32_t k = 0; k < SpheresSideBySide::most; ++k) {
-        all.x[k] = all.y[k] = std::numeric_limits<double>::quiet_NaN();
+        all.x[k] = all.y[k] = all.X[k] = all.Y[k] = std::numeric_limits<double>::quiet_NaN();
         all.radius[k] = k < state.size ? state.discs[k].radius : 0.0;
-        all.meeting[k] = all.wall[k] = all.rolls[k] = never;
+        all.reach[k] = 0.0;
+        all.meeting[k] = all.wall[k] = all.rolls[k] = all.first[k] = never;
     }
 }
 
@@ -493,12 +494,15 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     s.clock = state.clock;
     s.container_centre = leg.position_at(state.clock);
     s.container_velocity = leg.velocity_at(state.clock);
-    const auto hand_over = [&](std::uint32_t i) {
-        const HotDisc& d = state.discs[i];
-        s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
-        if (state.spheres == nullptr) return;
+    const auto hand_over_sphere = [&](std::uint32_t i) __attribute__((noinline)) {
+        if (!s.turned.empty()) s.turned[i] = s.quaternion(i, event.clock);
         const SphereState& sphere = state.spheres[i];
         s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
+    };
+    const auto hand_over = [&](std::uint32_t i) __attribute__((always_inline)) {
+        const HotDisc& d = state.discs[i];
+        if (state.spheres != nullptr) hand_over_sphere(i);
+        s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
     };
     if (event.kind != EventKind::path_vertex) {
         hand_over(event.i);

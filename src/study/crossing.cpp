@@ -35,11 +35,13 @@ class Search {
             look_at(window(), settings_.config.events << round, 1, "more events");
             narrow();  // the crossing may turn out to lie elsewhere
         }
+        narrow_all();
         CrossingSearch search;
         search.points = points();
         for (const auto& [n, runs] : runs_at_)
             search.runs_made.push_back(std::int64_t(runs.size()));
         search.crossing = find_crossing(search.points);
+        search.changes = find_sign_changes(search.points);
         search.events = events_;
         search.runs = runs_;
         for (const std::int64_t n : changes_sign() ? window() : all_numbers()) count(n, search);
@@ -58,6 +60,12 @@ class Search {
 
     std::set<std::int64_t> coarse_numbers() const {
         std::set<std::int64_t> numbers;
+        if (settings_.step > 0) {
+            for (std::int64_t n = settings_.from; n < settings_.to; n += settings_.step)
+                numbers.insert(n);
+            numbers.insert(settings_.to);
+            return numbers;
+        }
         for (int k = 0; k < coarse_points; ++k)
             numbers.insert(settings_.from +
                            (settings_.to - settings_.from) * k / (coarse_points - 1));
@@ -141,6 +149,20 @@ class Search {
             }
             if (missing.empty()) return;
             look_at(missing, settings_.config.events, settings_.seeds, "narrowing");
+        }
+    }
+
+    /// Each change of sign that is certain: until it lies between neighbours, or the sign of those
+    /// between is not certain.
+    void narrow_all() {
+        for (;;) {
+            std::set<std::int64_t> missing;
+            for (const SignChange& change : find_sign_changes(points())) {
+                const auto middle = std::int64_t(change.before + change.after) / 2;
+                if (!runs_at_.contains(middle)) missing.insert(middle);
+            }
+            if (missing.empty()) return;
+            look_at(missing, settings_.config.events, settings_.seeds, "other crossings");
         }
     }
 
@@ -263,11 +285,20 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
                           {"mean", s.points[k].mean},
                           {"error", s.points[k].error},
                           {"runs", s.runs_made[k]}});
+    nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+    for (const SignChange& change : s.changes)
+        changes.push_back(
+            {{"N", change.discs},
+             {"N_error", change.error},
+             {"from", change.before},
+             {"to", change.after},
+             {"sense", change.to_counterrotation ? "to counterrotation" : "to rotation"}});
     return {{"verdict", word(s.crossing.verdict)},
             {"N_c", s.crossing.discs},
             {"N_c_error", s.crossing.error},
             {"N_c_lower", s.crossing.lower},
             {"N_c_upper", s.crossing.upper},
+            {"sign_changes", changes},
             {"within_tolerance", s.within_tolerance},
             {"tolerance", settings.tolerance},
             {"points", points},
@@ -290,6 +321,10 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
             "The search goes from --from {} to --to {} discs, but it must begin at 2 or more and "
             "end above its beginning.",
             settings.from, settings.to));
+    if (settings.step < 0)
+        throw WrongCall(
+            fmt::format("--step is {}, but it must be 1 or more, or 0 for about eight numbers.",
+                        settings.step));
     RunConfig largest = settings.config;
     largest.discs = settings.to;
     if (const auto wrong = problem(largest)) throw WrongCall(*wrong);
@@ -313,6 +348,20 @@ void add_crossing(std::vector<Table::Cell>& row, const Crossing& c) {
 std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
                           const std::string& command) {
     return search_json(settings, search, command).dump(2) + "\n";
+}
+
+std::string other_crossings_report(const CrossingSearch& search) {
+    if (search.changes.size() < 2) return {};
+    std::string text = fmt::format(
+        "ϖ(N) is not monotonic: its sign changes {} times between the numbers that were looked at "
+        "(by more than three errors on either side):\n",
+        search.changes.size());
+    for (const SignChange& change : search.changes)
+        text += fmt::format("  N = {:<14} to {}, between {:.0f} and {:.0f}\n",
+                            with_error(change.discs, change.error),
+                            change.to_counterrotation ? "counterrotation" : "rotation",
+                            change.before, change.after);
+    return text;
 }
 
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {

@@ -10,6 +10,10 @@
 // 3. As long as N_c is less certain than asked for, one more run at each of those numbers, with a
 //    new seed and twice as many events as the last one.
 //
+// A curve may change its sign several times (spheres on a floor do). N_c is then the one that the
+// method of measure/crossing.hpp takes; the others that the points show with certainty are
+// narrowed down to neighbours as well, each is told, and how closely the range was looked at.
+//
 // Runs at one number of discs are put together with the periods they cover as weights, their error
 // is the one within and between them (measure/several_runs.hpp). Which runs
 // are made depends on their results and the seed alone, never on how many cores there are.
@@ -34,10 +38,12 @@ struct CrossingSettings {
     int rounds = 6;                   // of step 3, at most
     int seeds = 3;                    // of a first look at a number of discs
     std::int64_t least_swirls = 100;  // after the warm-up, of every run
+    std::int64_t step = 0;  // between the numbers of the coarse look; 0: about eight numbers
 };
 
 struct CrossingSearch {
     Crossing crossing;
+    std::vector<SignChange> changes;      // all that are certain, in the order of N
     std::vector<RotationPoint> points;    // by time, in the order of N
     std::vector<std::int64_t> runs_made;  // at each of them
     std::uint64_t events = 0, runs = 0;
@@ -63,6 +69,8 @@ CrossingSearch search_crossing(const CrossingSettings& settings,
 
 /// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
+/// Of a curve that changes its sign more than once, a sentence for each change; else nothing.
+std::string other_crossings_report(const CrossingSearch& search);
 /// Of a table of crossings: verdict, N_c, N_c_error, N_c_lower, N_c_upper (95 %).
 std::vector<std::string> crossing_columns();
 void add_crossing(std::vector<Table::Cell>& row, const Crossing& crossing);

@@ -124,6 +124,37 @@ class OnMadeUpTables(unittest.TestCase):
         self.crossings("5b", high=(36, 3), medium=(38, 3), low=(40, 3))
         self.assertEqual(claims.friction_order(self.folder)[0], UNDECIDED)
 
+    def spheres(self, name, **curves):
+        self.table(name, [{"curve": curve.replace("_", "-").replace("mu", "0."),
+                           "mu": 0.2, "discs": n, "by_time": v, "by_time_error": 0.001,
+                           "point": f"{curve}_N{n}"}
+                          for curve, values in curves.items() for n, v in values])
+
+    def changes(self, *rows):
+        self.table("spheres_sense", [
+            {"curve": mu, "mu": mu, "crossing": at, "crossing_error": error, "before": at - 1,
+             "after": at + 1, "sense": sense} for mu, at, error, sense in rows])
+
+    def test_spheres_that_rub_horizontally_alone_do_not_counterrotate(self):
+        down, up = [(44, -0.04), (48, -0.05)], [(44, 0.15), (48, 0.04)]
+        self.spheres("spheres_ingredients", mu2=down, no_vertical=up, no_vertical_disc=up,
+                     no_vertical_wall=down)
+        verdict, found = claims.spheres_frustration(self.folder)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("at the wall alone: −0.0400", found)
+        self.spheres("spheres_ingredients", mu2=down, no_vertical=down, no_vertical_disc=up,
+                     no_vertical_wall=down)
+        self.assertNotEqual(claims.spheres_frustration(self.folder)[0], HOLDS)
+
+    def test_of_several_changes_of_sense_the_last_to_counterrotation_counts(self):
+        self.spheres("spheres", mu2=[(16, 0.1), (36, -0.1)])
+        self.changes((0.2, 20, 0.2, "counterrotation"), (0.2, 26, 0.2, "rotation"),
+                     (0.2, 36, 0.2, "counterrotation"), (0.5, 28, 0.2, "counterrotation"))
+        self.assertEqual(claims.spheres_change_near(36)(self.folder)[0], HOLDS)
+        self.assertEqual(claims.spheres_change_near(28)(self.folder)[0], HOLDS)
+        self.assertEqual(claims.spheres_change_near(20)(self.folder)[0], FAILS)
+        self.assertEqual(claims.spheres_friction_order(self.folder)[0], HOLDS)
+
     def test_a_curve_that_does_not_cross_comes_after_one_that_does(self):
         self.crossings("5b", high=(36, .3), medium=(40, .3), low=(None, "always rotates"))
         self.assertEqual(claims.friction_order(self.folder)[0], HOLDS)

@@ -46,8 +46,14 @@ class Crossing(InFolder):
         self.assertEqual([row["verdict"] for row in table], ["always rotates"] * 4)
         self.assertEqual([row["N_c"] for row in table], [""] * 4)
 
+    def test_a_close_look_tells_every_change_of_sense(self):
+        # So few discs do not change theirs; every second number is looked at.
+        found = json.loads(self.good("--from", 5, "--to", 8, "--step", 2, "--json", "-"))
+        self.assertEqual(found["sign_changes"], [])
+        self.assertLessEqual({5, 7, 8}, {point["discs"] for point in found["points"]})
+
     def test_what_cannot_be(self):
-        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"),
+        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
             done = swirl("crossing", *wrong, *SHORT)
             self.assertEqual(done.returncode, 2, done.stderr)

@@ -19,10 +19,10 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
          "speed": "2", "path": "circle", "periods": "50", "warmup": "2", "seed": "7",
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
-         "gravity": "2"}
+         "gravity": "2", "vertical_disc": "0.5", "vertical_wall": "0.5"}
 # Only in results of spheres, and what needs them.
-OF_SPHERES = {"body", "floor", "floor_friction", "gravity"}
-WITH = {"floor": ["--body", "sphere"]}
+OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "vertical_disc", "vertical_wall"}
+WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
 
 
 def rows():

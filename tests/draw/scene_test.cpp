@@ -91,6 +91,32 @@ TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
     }
 }
 
+/// A sphere in the middle of the dish's page, turned like that.
+Pixel top_of_ball(const Quaternion& turned) {
+    Snapshot s = dish(0.0);
+    s.resize_for_spheres(1);
+    s.set(0, {{2.0, 1.0}, {0.0, 0.0}, 0.0, 0.0, s.clock, 1.0, 1.0, 0.4});
+    s.turned = {turned};
+    SceneStyle style = plain_style();
+    style.orientation = true;
+    Canvas canvas(Size{600, 600});
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+    return pixel(canvas, view.on_page({2.0, 1.0}));
+}
+
+// A pole has a dark dot: seen from above when it is up, and again half a turn later; a quarter turn
+// rolls it away.
+TEST(Scene, ASpheresPatternRollsWithIt) {
+    const Pixel up = top_of_ball({});
+    const Pixel quarter = top_of_ball(turn_by(0.5 * pi + 0.3, 0.3, 0.0));
+    const Pixel half = top_of_ball(turn_by(pi, 0.0, 0.0));
+    EXPECT_GT(quarter.red + quarter.green + quarter.blue, 60 + up.red + up.green + up.blue);
+    EXPECT_EQ(half.red, up.red);
+    EXPECT_EQ(half.green, up.green);
+}
+
 TEST(Scene, ADiscOfUnknownOrientationHasNoMark) {
     Snapshot s = dish(0.0);
     add_disc(s, {0.0, 0.0}, std::nan(""));

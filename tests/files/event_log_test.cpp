@@ -22,6 +22,8 @@ void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simu
         ASSERT_EQ(a.angle, b.angle) << i;
         ASSERT_EQ(a.spin, b.spin) << i;
         ASSERT_EQ(a.time, b.time) << i;
+        ASSERT_EQ(a.rolling_spin.x, b.rolling_spin.x) << i;
+        ASSERT_EQ(a.rolling_spin.y, b.rolling_spin.y) << i;
     }
 }
 
@@ -65,6 +67,31 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
         }
     EXPECT_EQ(replay.swirls(), simulation.swirls());
     expect_same_discs(replay.discs(), simulation);
+}
+
+TEST(EventLog, ReplaysSpheresOnAFloorAndWithoutOneBitForBit) {
+    for (const double deceleration : {1.92, 0.0}) {
+        const Scratch scratch;
+        InitialState scene = mixed_dish();
+        scene.shape = Shape::sphere;
+        scene.floor.deceleration = deceleration;
+        scene.disc_surface.restitution = scene.wall_surface.restitution = 0.9;
+        scene.disc_surface.contact_duration = scene.wall_surface.contact_duration = 1e-3;
+        Simulation simulation(scene);
+        {
+            EventLogWriter log(scratch / "events.h5", simulation.snapshot(),
+                               scene.path.legs.back().end, {}, default_compression,
+                               moving_floor(scene.floor, scene.path));
+            for (int k = 0; k < 20'000; ++k) log.write(simulation.step());
+            log.finish();
+        }
+        ASSERT_GT(simulation.swirls(), 3);
+        EventLogReader log(scratch / "events.h5");
+        Replay replay(log.initial(), log.swirl_end(), log.floor());
+        for (const Event& event : log.read(0, 20'000)) replay.apply(event);
+        EXPECT_EQ(simulation.events().begins_to_roll > 0, deceleration > 0.0);
+        expect_same_discs(replay.discs(), simulation);
+    }
 }
 
 TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {

@@ -71,6 +71,31 @@ TEST(ClusterRotation, AgreesWithItsDefinitionForEveryNumberAndAnyMasses) {
     }
 }
 
+/// Spheres on a floor, accelerated, each held at a time of its own.
+Snapshot pushed_spheres(std::size_t n, std::uint64_t seed) {
+    Snapshot s = held_earlier(random_discs(n, seed));
+    s.resize_for_spheres(n);
+    s.on_floor = true;
+    Noise noise(seed);
+    for (std::size_t i = 0; i < n; ++i)
+        s.set_floor_motion(i, {noise(), noise()}, {noise(), noise()});
+    return s;
+}
+
+TEST(ClusterRotation, SpheresAreSeenWhereTheirParabolasTakeThem) {
+    for (std::size_t n = 2; n <= 60; ++n) {
+        const Snapshot s = pushed_spheres(n, n);
+        const RotationSample expected = by_definition(s), sample = cluster_rotation(s);
+        // As above.
+        EXPECT_NEAR(sample.individual, expected.individual, 1e-11) << n;
+        EXPECT_NEAR(sample.rigid, expected.rigid, 1e-13) << n;
+        for (const Width width : {Width::baseline, Width::avx2, Width::avx512}) {
+            if (!has_width(width)) continue;
+            EXPECT_EQ(cluster_rotation(s, width).individual, sample.individual) << n;
+        }
+    }
+}
+
 TEST(ClusterRotation, EveryWidthGivesTheSameBits) {
     for (std::size_t n = 2; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));

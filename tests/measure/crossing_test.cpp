@@ -92,5 +92,34 @@ TEST(Crossing, NonsenseIsLeftOut) {
     EXPECT_NEAR(find_crossing(two).discs, 35.0, 1e-12);
 }
 
+// Of a curve that comes back.
+TEST(SignChanges, AllOfThemAreFoundInOrder) {
+    const std::vector<RotationPoint> points{
+        {16, 0.06, 0.002},   {24, -0.02, 0.002}, {28, 0.03, 0.002},  {30, 0.05, 0.002},
+        {34, 0.001, 0.002},  {36, -0.04, 0.002}, {40, -0.02, 0.002}, {48, -0.05, 0.002}};
+    const auto changes = find_sign_changes(points);
+    ASSERT_EQ(changes.size(), 3u);
+    EXPECT_TRUE(changes[0].to_counterrotation);
+    EXPECT_FALSE(changes[1].to_counterrotation);
+    EXPECT_TRUE(changes[2].to_counterrotation);
+    // Between two points, the zero of the chord, 16 + 8 · 6/8, and its error: that of the weights,
+    // √((¼ σ)² + (¾ σ)²) / slope, the slope being 0.08/8.
+    EXPECT_NEAR(changes[0].discs, 22.0, 1e-9);
+    EXPECT_NEAR(changes[0].error, 0.002 * std::hypot(0.25, 0.75) / 0.01, 1e-9);
+    EXPECT_NEAR(changes[1].discs, 25.6, 1e-9);
+    // The uncertain one between 30 and 36 takes part in the line.
+    EXPECT_EQ(changes[2].before, 30.0);
+    EXPECT_EQ(changes[2].after, 36.0);
+    EXPECT_GT(changes[2].discs, 32.5);
+    EXPECT_LT(changes[2].discs, 34.5);
+}
+
+TEST(SignChanges, WhatIsNotCertainIsNone) {
+    EXPECT_TRUE(find_sign_changes(std::vector<RotationPoint>{
+                                      {20, 0.1, 0.01}, {30, -0.02, 0.01}, {40, 0.1, 0.01}})
+                    .empty());
+    EXPECT_TRUE(find_sign_changes(std::vector<RotationPoint>{}).empty());
+}
+
 }  // namespace
 }  // namespace swirl

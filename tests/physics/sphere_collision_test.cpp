@@ -110,6 +110,30 @@ RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
     RC_ASSERT(c.energy() <= before * (1.0 + rounding));
 }
 
+RC_GTEST_PROP(SphereCollision, WithLessVerticalFrictionEnergyDoesNotGrowEither, ()) {
+    Collision c = draw_collision();
+    c.surface.vertical_friction = draw(0.0, 1.0);
+    const double before = c.energy();
+    const Vec3 slip = c.slip();
+    const Impulse J = collide(c.i, c.j, c.separation, c.surface);
+    RC_ASSERT(c.energy() <= before * (1.0 + rounding));
+    RC_ASSERT(J.vertical * slip.z <= 0.0);
+}
+
+// Their rolling is then as free as that of discs, which have none.
+RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionNothingChangesTheRolling, ()) {
+    Collision c = draw_collision();
+    c.surface.vertical_friction = 0.0;
+    const Vec2 i = c.i.rolling_spin, j = c.j.rolling_spin;
+    Body disc_i = c.i, disc_j = c.j;
+    const Impulse of_discs = collide(disc_i, disc_j, c.separation, c.surface);
+    const Impulse J = collide(c.i, c.j, c.separation, c.surface);
+    RC_ASSERT(J.vertical == 0.0);
+    RC_ASSERT(J.tangential == of_discs.tangential);
+    RC_ASSERT(c.i.rolling_spin.x == i.x && c.i.rolling_spin.y == i.y);
+    RC_ASSERT(c.j.rolling_spin.x == j.x && c.j.rolling_spin.y == j.y);
+}
+
 RC_GTEST_PROP(SphereCollision, WithoutFrictionAndElasticEnergyIsConserved, ()) {
     Collision c = draw_collision();
     c.surface = {0.0};

@@ -139,9 +139,10 @@ TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
 }
 
 TEST(Measurements, EverythingThatLooksAtSnapshotsCanBeAskedFor) {
-    EXPECT_THAT(everything(), ElementsAre("density", "flow", "profile", "pinned", "stays", "centre",
-                                          "slip", "frustration", "radial", "temperature", "order",
-                                          "packing", "collisions", "wall", "diffusion", "energy"));
+    EXPECT_THAT(everything(),
+                ElementsAre("density", "flow", "profile", "pinned", "stays", "centre", "slip",
+                            "frustration", "radial", "temperature", "order", "packing",
+                            "collisions", "wall", "diffusion", "energy", "rolling"));
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {

@@ -97,7 +97,8 @@ TEST(RunParameters, EveryOneIsInTheJsonAndComesBackFromIt) {
             << p.name;
         if (!p.can_be_given()) continue;
         ParameterTexts texts{{p.name, another(p)}};
-        if (p.name == std::string("floor")) texts["body"] = "sphere";  // discs have none
+        for (const char* of_spheres : {"floor", "vertical_disc", "vertical_wall"})
+            if (p.name == std::string(of_spheres)) texts["body"] = "sphere";  // discs have none
         const RunConfig config = resolve(texts);
         const nlohmann::ordered_json json = config_json(config);
         EXPECT_NE(json.dump(), paper) << p.name;

@@ -3,7 +3,11 @@
 
 #include <cmath>
 
+#include "files/scratch.hpp"
+#include "swirl/files/trajectory.hpp"
+#include "swirl/measure/energy_budget.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 
@@ -53,16 +57,108 @@ TEST(RunOfSpheres, RotationIsThatOfTheExactStatesAtTheExactTimes) {
     EXPECT_NEAR(run(config).rotation.by_time.mean, sum / (4 * 64) / config.omega(), 1e-9);
 }
 
-TEST(RunOfSpheres, WhatDoesNotKnowThemIsRefused) {
-    const RunConfig config = experiment("5");
-    for (const char* name : {"energy", "temperature"})
-        EXPECT_THROW(observation_of(config, {name}), WrongCall) << name;
+// What the budget takes for the loss on the floor, from energies and momenta, is the friction of
+// the floor times the way slid: on a parabola |c| falls linearly.
+TEST(RunOfSpheres, TheFloorTakesWhatSlidingOnItCosts) {
+    const RunConfig config = experiment("20");
+    Simulation simulation(make_initial_state(config));
+    Snapshot s = simulation.snapshot();
+    EnergyBudget budget;
+    double heat = 0.0;
+    for (int k = 0; k < 20'000; ++k) {
+        const Snapshot from = s.up_to_date();
+        const Event event = simulation.step();
+        s.clock = event.clock;
+        const Snapshot to = s.up_to_date();
+        if (k > 0)
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                if (s.ax[i] == 0.0 && s.ay[i] == 0.0) continue;
+                const Vec2 a = slip_on_floor(from.disc(i), from.container_velocity),
+                           b = slip_on_floor(to.disc(i), from.container_velocity);
+                heat += config.floor_friction * config.gravity * config.mass *
+                        (to.clock - from.clock) * 0.5 *
+                        (std::sqrt(dot(a, a)) + std::sqrt(dot(b, b)));
+            }
+        simulation.refresh(s, event);
+        budget.sample(event, s.up_to_date());
+    }
+    budget.close_block(1.0);
+    // 20,000 events, each to the rounding of energies of order 10.
+    EXPECT_NEAR(budget.floor_friction_power().mean, heat, 1e-9 * heat);
+    EXPECT_GT(heat, 1.0);
+}
+
+// In a steady state what comes in goes out.
+TEST(RunOfSpheres, TheEnergyThatWallAndFloorPutInIsLostInContactsAndOnTheFloor) {
+    const RunConfig config =
+        resolve({{"preset", "experiment"}, {"discs", "20"}, {"periods", "60"}, {"warmup", "20"}});
+    const MeasuredRun measured = measured_run(config, {"energy"}, {});
+    const auto of = [&](const char* name) {
+        for (const MeasuredNumber& number : measured_numbers(measured.measured))
+            if (number.name == std::string("energy.") + name) return number.estimate.mean;
+        return not_known;
+    };
+    const double in = of("wall_power") + of("floor_power");
+    const double out = of("disc_friction_power") + of("wall_friction_power") +
+                       of("inelastic_power") + of("floor_friction_power");
+    // The energy at the end of 40 swirls is that at their beginning up to what there is of it.
+    EXPECT_NEAR(in, out, 20.0 / (40.0 * config.period));
+    EXPECT_GT(of("floor_friction_power"), 0.0);
+}
+
+// What is recorded is what was there, to the last bit: three spins and how they are turned.
+TEST(RunOfSpheres, ATrajectoryHoldsTheirSpinsAndOrientations) {
+    const RunConfig config = experiment("9", "3");
+    const Scratch scratch;
     RunFiles files;
-    files.trajectory = "spheres.h5";
-    EXPECT_THROW(run_recorded(config, files, {}, {}), WrongCall);
-    files.trajectory.clear();
-    files.event_log = "spheres.h5";
-    EXPECT_THROW(run_recorded(config, files, {}, {}), WrongCall);
+    files.trajectory = scratch / "spheres.h5";
+    files.frames.per_swirl = 20;
+    EXPECT_EQ(run_recorded(config, files, {}, {}).state_hash, run(config).state_hash);
+    TrajectoryReader reader(files.trajectory);
+    RunControl control;
+    control.orientations = true;
+    swirl::Run again(config, control);
+    SampleTimes times = again.sample_times(20);
+    std::uint64_t k = 0;
+    while (again.next_event()) {
+        while (again.next_sample(times)) {
+            const Snapshot &seen = again.snapshot(), read = reader.frame(k++);
+            EXPECT_TRUE(read.on_floor);
+            EXPECT_EQ(read.x, seen.x);
+            EXPECT_EQ(read.vy, seen.vy);
+            EXPECT_EQ(read.spin, seen.spin);
+            EXPECT_EQ(read.spin_x, seen.spin_x);
+            EXPECT_EQ(read.spin_y, seen.spin_y);
+            ASSERT_EQ(read.turned.size(), seen.turned.size());
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                EXPECT_EQ(read.turned[i].w, seen.turned[i].w);
+                EXPECT_EQ(read.turned[i].z, seen.turned[i].z);
+            }
+        }
+        again.pass_event();
+    }
+    EXPECT_EQ(reader.frames(), k);
+    EXPECT_GT(k, 55u);
+}
+
+TEST(RunOfSpheres, ResumedTheyAreTurnedTheSameWay) {
+    const RunConfig config = experiment("20", "4");
+    RunControl control;
+    control.orientations = true;
+    swirl::Run whole(config, control), first(config, control);
+    while (whole.next_event()) whole.pass_event();
+    for (int k = 0; k < 2000 && first.next_event(); ++k) first.pass_event();
+    control.resume = first.state();
+    swirl::Run resumed(config, control);
+    while (resumed.next_event()) resumed.pass_event();
+    const Snapshot a = whole.snapshot(), b = resumed.snapshot();
+    double moved = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a.turned[i].w, b.turned[i].w);
+        EXPECT_EQ(a.turned[i].x, b.turned[i].x);
+        moved += std::abs(a.turned[i].x);
+    }
+    EXPECT_GT(moved, 1.0);
 }
 
 // Few rotate with the swirl and many against it, as in the experiment. Of few by the rigid

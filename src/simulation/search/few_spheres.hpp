@@ -2,6 +2,18 @@
 // lists, no cells, everybody's contact with everybody; but spheres fly parabolas, and each has a
 // third pending event, the one in which it begins to roll.
 //
+// On a floor everything is predicted anew with every leg, so nobody need be looked at who cannot be
+// met within it. Seen from the floor, whose velocity u is constant, a sphere is at
+// x + (t − t₀) v − t u = X + (t − t₀)(v − u) + ½ (t − t₀)² a with X = x − t₀ u, and until the end
+// of the leg, so long as nothing happens to it, no farther from X than
+//
+//     |v − u| (t_end − t₀) + ½ |a| (t_end − t₀)².
+//
+// Two whose X are farther apart than the sum of these ways and of their radii do not meet. In a
+// thirtieth of a swirl a sphere goes a fraction of its radius, so five or six are left. The ways
+// are taken longer than they are by far more than rounding, so that it does not matter how they
+// were computed.
+//
 // Of eight contacts at once it is told which do not happen, or happen between equally accelerated
 // spheres; the few that are left, mostly one or two, are quartics and solved one by one
 // (contact_time.hpp).
@@ -24,29 +36,60 @@ namespace few_spheres {
 
 using all_pairs::Eight, all_pairs::set;
 
-SWIRL_INLINE Parabola<Eight> load_eight(const SpheresSideBySide& all, int group) {
-    const int k = 8 * group;
-    return {{Eight::load(all.x + k), Eight::load(all.y + k)},
-            {Eight::load(all.vx + k), Eight::load(all.vy + k)},
-            {Eight::load(all.ax + k), Eight::load(all.ay + k)},
-            Eight::load(all.time + k)};
-}
+/// Eight of those who may be met, one behind the other.
+struct alignas(64) EightOthers {
+    double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], radius[8], rolls[8];
+
+    SWIRL_INLINE Parabola<Eight> flight() const {
+        return {{Eight::load(x), Eight::load(y)},
+                {Eight::load(vx), Eight::load(vy)},
+                {Eight::load(ax), Eight::load(ay)},
+                Eight::load(time)};
+    }
+    SWIRL_INLINE void put(int lane, const SpheresSideBySide& all, std::uint32_t k) {
+        x[lane] = all.x[k];
+        y[lane] = all.y[k];
+        vx[lane] = all.vx[k];
+        vy[lane] = all.vy[k];
+        ax[lane] = all.ax[k];
+        ay[lane] = all.ay[k];
+        time[lane] = all.time[k];
+        radius[lane] = all.radius[k];
+        rolls[lane] = all.rolls[k];
+    }
+};
 SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
     return {in_lanes<8>(p.position), in_lanes<8>(p.velocity), in_lanes<8>(p.acceleration),
             Eight(p.time)};
 }
 
+/// Columns that are loaded by eights are stored by eights too (set): a wide load right behind a
+/// narrow store waits for it. The others are not.
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     const Parabola<double> flight = Spheres::flight(state, i);
     SpheresSideBySide& all = *state.spheres_side_by_side;
-    set(all.x, i, flight.position.x);
-    set(all.y, i, flight.position.y);
-    set(all.vx, i, flight.velocity.x);
-    set(all.vy, i, flight.velocity.y);
-    set(all.ax, i, flight.acceleration.x);
-    set(all.ay, i, flight.acceleration.y);
-    set(all.time, i, flight.time);
-    set(all.rolls, i, state.spheres[i].motion.begins_to_roll);
+    all.x[i] = flight.position.x;
+    all.y[i] = flight.position.y;
+    all.vx[i] = flight.velocity.x;
+    all.vy[i] = flight.velocity.y;
+    all.ax[i] = flight.acceleration.x;
+    all.ay[i] = flight.acceleration.y;
+    all.time[i] = flight.time;
+    all.rolls[i] = state.spheres[i].motion.begins_to_roll;
+    // Without a floor a leg's end predicts nobody anew: then all must be looked at.
+    if (!Spheres::feel_every_leg(state)) {
+        set(all.X, i, 0.0);
+        set(all.Y, i, 0.0);
+        return;
+    }
+    const Leg& leg = state.legs[state.leg];
+    const Vec2 over_floor = flight.velocity - leg.velocity, a = flight.acceleration;
+    const double left = leg.end - flight.time;
+    const double way = square_root(dot(over_floor, over_floor)) * left +
+                       0.5 * square_root(dot(a, a)) * left * left;
+    set(all.X, i, flight.position.x - flight.time * leg.velocity.x);
+    set(all.Y, i, flight.position.y - flight.time * leg.velocity.y);
+    set(all.reach, i, way * 1.000001 + 0x1p-30 * state.container_radius);
 }
 
 SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i) {
@@ -62,44 +105,70 @@ SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i)
     return e.now + contact_on_parabolas(e.s, e.v, e.g, e.sum_of_radii, e.horizon);
 }
 
+/// Bit k is set if sphere k may be met.
+template <int G>
+SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t i) {
+    const SpheresSideBySide& all = *state.spheres_side_by_side;
+    const Eight X(all.X[i]), Y(all.Y[i]), near(all.reach[i] + all.radius[i]);
+    Eight beyond[G];
+    for (int g = 0; g < G; ++g) {
+        const int k = 8 * g;
+        const Eight dx = Eight::load(all.X + k) - X, dy = Eight::load(all.Y + k) - Y;
+        const Eight most = near + (Eight::load(all.reach + k) + Eight::load(all.radius + k));
+        beyond[g] = larger(dx * dx + dy * dy - most * most, Eight(0.0));
+    }
+    const std::uint64_t everybody = ~std::uint64_t{0} >> (64 - state.size);
+    return lanes_equal(beyond, 0.0) & everybody & ~(std::uint64_t{1} << i);
+}
+
 /// Whom sphere i meets first. Says when.
 template <int G>
 SWIRL_INLINE double predict_meeting(EngineState& state, std::uint32_t i) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
     const Parabola<Eight> mine = eight_times(Spheres::flight(state, i));
     const Eight rolls(begins_to_roll_at(state, i)), radius(state.discs[i].radius);
-    Eight contact[G];
-    std::uint64_t open = 0;
-    for (int g = 0; g < G; ++g) {
-        const Encounter<Eight> e(mine, load_eight(all, g), rolls, Eight::load(all.rolls + 8 * g),
-                                 radius + Eight::load(all.radius + 8 * g));
+    PendingEvent first{never, i, 0};
+    for (std::uint64_t left = within_reach<G>(state, i); left != 0;) {
+        EightOthers others;
+        std::uint32_t who[8];
+        int count = 0;
+        for (; left != 0 && count < 8; left &= left - 1, ++count) {
+            who[count] = static_cast<std::uint32_t>(__builtin_ctzll(left));
+            others.put(count, all, who[count]);
+        }
+        for (int lane = count; lane < 8; ++lane) others.put(lane, all, who[0]);
+        const Encounter<Eight> e(mine, others.flight(), rolls, Eight::load(others.rolls),
+                                 radius + Eight::load(others.radius));
         const Eight wait = e.wait_or_quartic();
-        contact[g] = e.now + wait;
-        open |= static_cast<std::uint64_t>(lanes_equal(wait, ask_the_quartic)) << (8 * g);
+        alignas(64) double times[8];
+        (e.now + wait).store(times);
+        for (unsigned open = lanes_equal(wait, ask_the_quartic); open != 0; open &= open - 1) {
+            const int lane = __builtin_ctz(open);
+            if (lane < count) times[lane] = meeting_by_quartic(state, i, who[lane]);
+        }
+        // The others come in the order of their numbers, and the first of those at once counts.
+        for (int lane = 0; lane < count; ++lane)
+            if (times[lane] < first.time) first = {times[lane], i, who[lane]};
     }
-    alignas(64) double times[8 * G];
-    for (int g = 0; g < G; ++g) contact[g].store(times + 8 * g);
-    for (; open != 0; open &= open - 1) {
-        const auto k = static_cast<std::uint32_t>(__builtin_ctzll(open));
-        times[k] = meeting_by_quartic(state, i, k);
-    }
-    for (int g = 0; g < G; ++g) contact[g] = Eight::load(times + 8 * g);
-    Eight least = contact[0];
-    for (int g = 1; g < G; ++g) least = smaller(least, contact[g]);
-    const double time = smallest(least);
-    // Where nobody is met all lanes are equal, and the first will do.
-    const std::uint64_t equal = lanes_equal(contact, time);
-    note_partner(state, {time, i, static_cast<std::uint32_t>(__builtin_ctzll(equal))});
-    set(all.meeting, i, time);
-    return time;
+    note_partner(state, first);
+    all.meeting[i] = first.time;
+    return first.time;
 }
 
 SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
     const double time =
         time_of_wall_contact(Spheres::flight(state, i), begins_to_roll_at(state, i),
                              state.legs[state.leg], state.container_radius - state.discs[i].radius);
-    set(state.spheres_side_by_side->wall, i, time);
+    state.spheres_side_by_side->wall[i] = time;
     return time;
+}
+
+/// Of the meeting, the wall and the beginning to roll, what comes first.
+SWIRL_INLINE double note_first(EngineState& state, std::uint32_t i) {
+    SpheresSideBySide& all = *state.spheres_side_by_side;
+    const double first = smaller(smaller(all.meeting[i], all.wall[i]), all.rolls[i]);
+    set(all.first, i, first);
+    return first;
 }
 
 /// Of the events at one instant, that of the spheres whose bits are set, the first.
@@ -116,21 +185,22 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 template <int G>
 SWIRL_INLINE void find_next(EngineState& state) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
-    Eight meeting[G], wall[G], rolls[G];
-    for (int g = 0; g < G; ++g) {
-        meeting[g] = Eight::load(all.meeting + 8 * g);
-        wall[g] = Eight::load(all.wall + 8 * g);
-        rolls[g] = Eight::load(all.rolls + 8 * g);
-    }
-    Eight least = smaller(smaller(meeting[0], wall[0]), rolls[0]);
-    for (int g = 1; g < G; ++g)
-        least = smaller(least, smaller(smaller(meeting[g], wall[g]), rolls[g]));
+    Eight first[G];
+    for (int g = 0; g < G; ++g) first[g] = Eight::load(all.first + 8 * g);
+    Eight least = first[0];
+    for (int g = 1; g < G; ++g) least = smaller(least, first[g]);
     const double time = smallest(least);
+    all.next = {time, state.size, state.size};
     // Who comes after the leg's end need not be known.
-    all.next = time < state.legs[state.leg].end
-                   ? first_in_order(state, time, lanes_equal(meeting, time),
-                                    lanes_equal(wall, time), lanes_equal(rolls, time))
-                   : PendingEvent{time, state.size, state.size};
+    if (!(time < state.legs[state.leg].end)) return;
+    std::uint64_t meetings = 0, walls = 0, rolls = 0;
+    for (std::uint64_t equal = lanes_equal(first, time); equal != 0; equal &= equal - 1) {
+        const int i = __builtin_ctzll(equal);
+        meetings |= std::uint64_t{all.meeting[i] == time} << i;
+        walls |= std::uint64_t{all.wall[i] == time} << i;
+        rolls |= std::uint64_t{all.rolls[i] == time} << i;
+    }
+    all.next = first_in_order(state, time, meetings, walls, rolls);
 }
 
 template <int G>
@@ -139,14 +209,14 @@ template <int G>
     for (std::uint32_t i = 0; i < state.size; ++i) {
         predict_meeting<G>(state, i);
         predict_wall(state, i);
+        note_first(state, i);
     }
     find_next<G>(state);
 }
 
 SWIRL_INLINE void take_out(SpheresSideBySide& all, std::uint32_t i) {
-    set(all.meeting, i, never);
-    set(all.wall, i, never);
-    set(all.rolls, i, never);
+    all.meeting[i] = all.wall[i] = all.rolls[i] = never;
+    set(all.first, i, never);
 }
 
 }  // namespace few_spheres
@@ -164,6 +234,7 @@ struct FewSpheres {
     SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
         few_spheres::predict_meeting<G>(state, event.disc);
+        few_spheres::note_first(state, event.disc);
         few_spheres::find_next<G>(state);
     }
     /// What comes next is mostly known before the spheres that now collide have been predicted: the
@@ -182,16 +253,19 @@ struct FewSpheres {
         double first = never;
         for (int d = 0; d < D; ++d) few_spheres::copy(state, who[d]);
         for (int d = 0; d < D; ++d) {
-            first = smaller(first, few_spheres::begins_to_roll_at(state, who[d]));
-            first = smaller(first, few_spheres::predict_wall(state, who[d]));
-            first = smaller(first, few_spheres::predict_meeting<G>(state, who[d]));
+            few_spheres::predict_wall(state, who[d]);
+            few_spheres::predict_meeting<G>(state, who[d]);
+            first = smaller(first, few_spheres::note_first(state, who[d]));
         }
         if (first <= state.spheres_side_by_side->next.time) few_spheres::find_next<G>(state);
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) {
         if (state.leg == 0 || Spheres::feel_every_leg(state))
             return few_spheres::predict_all<G>(state);
-        for (std::uint32_t i = 0; i < state.size; ++i) few_spheres::predict_wall(state, i);
+        for (std::uint32_t i = 0; i < state.size; ++i) {
+            few_spheres::predict_wall(state, i);
+            few_spheres::note_first(state, i);
+        }
         few_spheres::find_next<G>(state);
     }
     /// In the build that checks: nobody overlaps, and nobody is outside.

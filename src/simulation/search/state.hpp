@@ -127,7 +127,10 @@ struct alignas(64) SideBySide {
 struct alignas(64) SpheresSideBySide {
     static constexpr std::uint32_t most = 64;
     double x[most], y[most], vx[most], vy[most], ax[most], ay[most], time[most], radius[most];
-    double meeting[most], wall[most], rolls[most];
+    double meeting[most], wall[most], rolls[most], first[most];  // first: of the three
+    // Where each would be at time 0 if it moved with the floor, and how far from there, seen from
+    // the floor, it can come in this leg.
+    double X[most], Y[most], reach[most];
     PendingEvent next;  // the first of all
 };
 

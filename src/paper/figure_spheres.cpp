@@ -1,0 +1,271 @@
+// The chapter "Spheres that roll": the paper's experiment, which its simulation is not
+// (docs/spheres.md). Its dish with solid spheres on a floor: ϖ(N) for frictions between those of
+// smooth and rough plastic, where its sign changes, what each ingredient of the model does, and
+// what is seen of the pinned spheres and of the rolling.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "swirl/paper/figures.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// 55 is the last number that runs; 56 collapse.
+std::vector<std::int64_t> numbers_of_spheres(const PaperSettings& settings) {
+    if (settings.quick) return {16, 24, 28, 30, 32, 36, 40, 44, 48, 52};
+    return {8,  12, 16, 20, 22, 24, 26, 28, 30, 32, 34, 35, 36,
+            37, 38, 40, 42, 44, 46, 48, 50, 52, 53, 54, 55};
+}
+
+/// In steps that decide where ingredients differ.
+std::vector<std::int64_t> fewer_numbers(const PaperSettings& settings) {
+    if (settings.quick) return {16, 30, 36, 44, 48, 52};
+    return {16, 24, 28, 30, 32, 34, 36, 40, 44, 48, 52, 54};
+}
+
+/// What few spheres need to forget their beginning, some 50 swirls, and as many as make the error of
+/// ϖ/Ω a few thousandths. A dense dish forgets sooner, and has many more events in a swirl.
+RunConfig experiment(const PaperSettings& settings, std::int64_t spheres) {
+    RunConfig config = resolve({{"preset", "experiment"}});
+    config.discs = spheres;
+    config.seed = settings.seed;
+    const bool dense = spheres >= 48;
+    config.warmup = settings.swirls(settings.quick || dense ? 25 : 50, 1);
+    config.periods = *config.warmup + settings.swirls(settings.quick || dense ? 50 : 150, 3);
+    return config;
+}
+
+/// Three seeds, also when it must be quick: of two the scatter says next to nothing.
+PaperPoint point_of_spheres(const PaperSettings& settings, const std::string& name,
+                            const RunConfig& config,
+                            const std::vector<std::string>& measurements = {}) {
+    RunConfig varied = config;
+    return {settings, name, 3, [&](std::uint64_t seed) {
+                varied.seed = seed;
+                return run_task(fmt::format("varied_{}_seed{}", name, seed), varied, measurements);
+            }};
+}
+
+std::string length_of(const RunConfig& c) {
+    return fmt::format("{}of{}periods", *c.warmup, *c.periods);
+}
+
+/// A curve, and how it differs from the experiment.
+struct Variant {
+    std::string name, words;
+    double mu;
+    std::function<void(RunConfig&)> change;
+};
+
+Variant friction(double mu) {
+    return {fmt::format("{}", mu), fmt::format("μ = {}", mu), mu,
+            [mu](RunConfig& c) { c.mu_disc = c.mu_wall = mu; }};
+}
+
+struct Point {
+    std::size_t variant;
+    std::int64_t spheres;
+};
+
+std::string sign_changes_sentence(std::span<const RotationPoint> curve) {
+    const std::vector<SignChange> changes = find_sign_changes(curve);
+    if (changes.empty()) return crossing_sentence(curve);
+    std::string text =
+        fmt::format("its sign changes {} time{}", changes.size(), changes.size() == 1 ? "" : "s");
+    for (const SignChange& change : changes)
+        text += fmt::format("{} to {} at N = {}", &change == changes.data() ? ":" : ",",
+                            change.to_counterrotation ? "counterrotation" : "rotation",
+                            with_error(change.discs, change.error));
+    const RotationPoint* lowest = nullptr;
+    for (const RotationPoint& p : curve)
+        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
+    return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f}", text,
+                       with_error(lowest->mean, lowest->error), lowest->discs);
+}
+
+FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
+                         const std::vector<Variant>& variants,
+                         const std::vector<std::int64_t>& numbers) {
+    FigurePlan plan;
+    plan.script = "figure_" + name + ".py";
+    std::vector<Point> points;
+    for (std::size_t v = 0; v < variants.size(); ++v)
+        for (const std::int64_t n : numbers) {
+            RunConfig config = experiment(settings, n);
+            variants[v].change(config);
+            points.push_back({v, n});
+            plan.points.push_back(varied_point(
+                settings, fmt::format("spheres_{}_N{}_{}", variants[v].name, n, length_of(config)),
+                config));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined({"curve", "mu", "discs"}, rotation_columns()));
+        Table changes({"curve", "mu", "crossing", "crossing_error", "before", "after", "sense"});
+        FigureOutcome outcome;
+        std::vector<NamedCurve> named;
+        for (std::size_t v = 0; v < variants.size(); ++v) {
+            std::vector<RotationPoint> curve;
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                if (points[k].variant != v) continue;
+                std::vector<Table::Cell> row{variants[v].name, variants[v].mu, points[k].spheres};
+                add_rotation(row, results[k]);
+                table.add(std::move(row));
+                curve.push_back(
+                    rotation_point(static_cast<double>(points[k].spheres), results[k], "by_time"));
+            }
+            for (const SignChange& c : find_sign_changes(curve))
+                changes.add({variants[v].name, variants[v].mu, c.discs, c.error, c.before, c.after,
+                             std::string(c.to_counterrotation ? "counterrotation" : "rotation")});
+            outcome.findings.push_back(
+                fmt::format("spheres, {}: {}.", variants[v].words, sign_changes_sentence(curve)));
+            named.push_back({variants[v].name, curve});
+        }
+        outcome.files.push_back(out / ("figure_" + name + ".csv"));
+        table.write(outcome.files.back());
+        outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
+        write_crossings(named, outcome.files.back());
+        outcome.files.push_back(out / ("figure_" + name + "_sign_changes.csv"));
+        changes.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+/// What is measured of them; the columns of the table.
+constexpr std::array<std::pair<const char*, const char*>, 14> seen{{
+    {"slip", "pinned_region"},
+    {"slip", "cluster"},
+    {"frustration", "wall_spin"},
+    {"frustration", "pinned_wall_spin"},
+    {"frustration", "spin_correlation"},
+    {"frustration", "triangles"},
+    {"stays", "becoming_pinned"},
+    {"stays", "becoming_free"},
+    {"rolling", "rolling_share"},
+    {"rolling", "wall_rolling_share"},
+    {"rolling", "floor_slip"},
+    {"rolling", "contact_correlation"},
+    {"rolling", "vertical_share"},
+    {"rolling", "vertical_power"},
+}};
+
+std::string first_and_last(const std::vector<Point>& points, const std::vector<Json>& results,
+                           std::size_t variant, const char* measurement, const char* quantity,
+                           const char* words) {
+    std::string text = words;
+    std::vector<std::size_t> known;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k].variant == variant &&
+            !std::isnan(number(at(results[k], {"measured", measurement, quantity, "mean"}))))
+            known.push_back(k);
+    if (known.empty()) return text + " is not known";
+    for (const std::size_t k : {known.front(), known.back()}) {
+        const Json& found = at(results[k], {"measured", measurement, quantity});
+        text += fmt::format("{} {} at N = {}", k == known.front() ? "" : ",",
+                            with_error(number(at(found, {"mean"})), number(at(found, {"error"}))),
+                            points[k].spheres);
+    }
+    return text;
+}
+
+}  // namespace
+
+FigurePlan plan_figure_spheres(const PaperSettings& settings) {
+    std::vector<Variant> variants;
+    for (const double mu : settings.quick ? std::vector<double>{0.15, 0.2, 0.5}
+                                          : std::vector<double>{0.1, 0.15, 0.2, 0.25, 0.3, 0.5})
+        variants.push_back(friction(mu));
+    return plan_variants(settings, "spheres", variants, numbers_of_spheres(settings));
+}
+
+/// The same runs; the table is that of the changes of sign.
+FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
+    FigurePlan plan = plan_figure_spheres(settings);
+    const auto curves = plan.finish;
+    plan.script = "figure_spheres_sense.py";
+    plan.finish = [curves](const std::vector<Json>& results, const fs::path& out) {
+        FigureOutcome outcome = curves(results, out);
+        const fs::path table = out / "figure_spheres_sense.csv";
+        std::error_code error;
+        fs::rename(outcome.files.back(), table, error);
+        if (error)
+            throw Failure(
+                fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
+        return FigureOutcome{{}, {table}};
+    };
+    return plan;
+}
+
+FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
+    const double mu = experiment_friction;
+    const std::vector<Variant> variants{
+        friction(mu),
+        {"no-vertical", "no vertical friction", mu,
+         [](RunConfig& c) { c.vertical_disc = c.vertical_wall = 0.0; }},
+        {"no-vertical-disc", "no vertical friction between spheres", mu,
+         [](RunConfig& c) { c.vertical_disc = 0.0; }},
+        {"no-vertical-wall", "no vertical friction at the wall", mu,
+         [](RunConfig& c) { c.vertical_wall = 0.0; }},
+        {"no-floor", "no floor", mu, [](RunConfig& c) { c.floor = false; }},
+        {"no-damping", "no damping (e = 1)", mu, [](RunConfig& c) { c.restitution = 1.0; }},
+        {"shell", "hollow spheres (I = 2/3)", mu,
+         [](RunConfig& c) { c.inertia = shell_inertia(c.mass, c.radius); }},
+    };
+    return plan_variants(settings, "spheres_ingredients", variants, fewer_numbers(settings));
+}
+
+FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_spheres_pinned.py";
+    std::vector<std::int64_t> numbers;
+    for (const std::int64_t n : fewer_numbers(settings))
+        if (n >= 24) numbers.push_back(n);
+    const std::vector<Variant> variants{friction(0.15), friction(0.5)};
+    std::vector<Point> points;
+    for (std::size_t v = 0; v < variants.size(); ++v)
+        for (const std::int64_t n : numbers) {
+            RunConfig config = experiment(settings, n);
+            variants[v].change(config);
+            points.push_back({v, n});
+            const std::string name =
+                fmt::format("spheres_measured_{}_N{}_{}", variants[v].name, n, length_of(config));
+            plan.points.push_back(point_of_spheres(settings, name, config,
+                                                   {"slip", "frustration", "stays", "rolling"}));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        std::vector<std::string> columns{"curve", "mu", "discs"};
+        for (const auto& [measurement, quantity] : seen)
+            columns.insert(columns.end(), {quantity, fmt::format("{}_error", quantity)});
+        Table table(joined(columns, rotation_columns()));
+        FigureOutcome outcome;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const Variant& variant = variants[points[k].variant];
+            std::vector<Table::Cell> row{variant.name, variant.mu, points[k].spheres};
+            for (const auto& [measurement, quantity] : seen)
+                for (const char* what : {"mean", "error"})
+                    row.emplace_back(
+                        number(at(results[k], {"measured", measurement, quantity, what})));
+            add_rotation(row, results[k]);
+            table.add(std::move(row));
+        }
+        for (std::size_t v = 0; v < variants.size(); ++v)
+            outcome.findings.push_back(
+                fmt::format("spheres, {}: {}.", variants[v].words,
+                            first_and_last(points, results, v, "slip", "pinned_region",
+                                           "slip parameter of the pinned")));
+        outcome.files.push_back(out / "figure_spheres_pinned.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
+}  // namespace swirl
