@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "swirl/math/real.hpp"
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
@@ -40,6 +39,8 @@ std::vector<Preset> presets() {
     bad.rim = 105.0;
     bad.gloss = 50.0;
     bad.texture = 0.2;
+    bad.ambient = 0.7;
+    bad.diffuse = 0.3;
     bad.noise = 5.0;
     bad.blur = 1.3;
     bad.exposure = 0.35;

@@ -21,6 +21,7 @@ BELOW = {
     "run": {*ENGINE, "files"},
     "study": {*ENGINE, "files", "run"},
     "film": {*ENGINE, "files", "draw", "run"},
+    "vision": {*ENGINE, "files", "draw", "run"},
     "paper": {*ENGINE, "files", "draw", "run", "study", "film"},
     "app": {*ENGINE, "files", "draw", "run", "study", "film", "paper"},
 }

@@ -1,0 +1,362 @@
+#include "swirl/vision/tracking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <opencv2/core.hpp>
+#include <thread>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/vision/beads.hpp"
+#include "swirl/vision/dish.hpp"
+#include "swirl/vision/link.hpp"
+#include "swirl/vision/video.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr std::int64_t survey_pictures = 48;
+constexpr double votes_side = 300.0;   // of the picture in which the dish is sought, pixels
+constexpr double votes_radius = 12.0;  // of the discs in the picture in which they are
+
+double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// What one picture says.
+struct Seen {
+    CircleFit rim;
+    std::vector<Bead> beads;
+};
+
+struct Survey {
+    Rim rim;
+    BeadLook look;
+    cv::Size size;
+};
+
+Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
+    const std::int64_t every = std::max<std::int64_t>(1, pictures / survey_pictures);
+    Video video(settings.film, every);
+    cv::Mat grey;
+    std::vector<cv::Mat> kept;
+    while (static_cast<std::int64_t>(kept.size()) < survey_pictures + 2 && video.next(grey)) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        kept.push_back(grey.clone());
+        if (settings.progress)
+            settings.progress("looking for the dish", double(kept.size()) / (survey_pictures + 2));
+    }
+    Survey found;
+    found.size = kept.front().size();
+    const double side = std::min(found.size.width, found.size.height);
+    if (side < 64)
+        throw Failure(fmt::format("The pictures of '{}' are {}x{} pixels, which shows no discs.",
+                                  settings.film, found.size.width, found.size.height));
+    std::vector<Picture> small;
+    for (const cv::Mat& picture : kept)
+        small.emplace_back(picture, std::min(1.0, votes_side / side), 1.0);
+    found.rim = survey_rim(small);
+    // The discs are looked for on fewer.
+    std::vector<Picture> fewer;
+    std::vector<CircleFit> rims;
+    const std::size_t stride = std::max<std::size_t>(1, small.size() / 24);
+    const double sharp_side = std::min(1.0, 1.6 * votes_side / side);
+    for (std::size_t k = 0; k < small.size(); k += stride) {
+        const CircleFit rim = find_rim(small[k], found.rim);
+        if (!rim.good) continue;
+        rims.push_back(rim);
+        fewer.emplace_back(kept[k], sharp_side, 1.0);
+    }
+    if (fewer.empty()) throw Failure("No dish was found in the pictures.");
+    found.look = survey_beads(fewer, rims);
+    return found;
+}
+
+/// Every picture, a batch at a time, shared between the threads.
+std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& found,
+                              std::int64_t expected, TrackedFilm& film) {
+    const unsigned threads =
+        settings.threads ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+    Video video(settings.film);
+    const double radius = found.look.radius();
+    const double shrink = std::min(1.0, votes_radius / radius);
+    const double blur = std::clamp(0.06 * radius, 0.9, 2.5);
+    std::vector<Seen> all;
+    std::vector<cv::Mat> batch(4 * threads);
+    cv::setNumThreads(1);
+    for (bool more = true; more;) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        std::size_t got = 0;
+        while (got < batch.size() && more) {
+            more = (settings.most_pictures == 0 || video.count() < settings.most_pictures) &&
+                   video.next(batch[got]);
+            if (!more) break;
+            if (batch[got].size() != found.size)
+                throw Failure(fmt::format("Picture {} of '{}' has another size than the first.",
+                                          video.count(), settings.film));
+            ++got;
+        }
+        const std::size_t begin = all.size();
+        all.resize(begin + got);
+        std::atomic<std::size_t> next{0};
+        std::exception_ptr trouble;
+        std::mutex mutex;
+        const auto work = [&] {
+            for (;;) {
+                const std::size_t k = next++;
+                if (k >= got) return;
+                try {
+                    const Picture picture(batch[k], shrink, blur);
+                    Seen& seen = all[begin + k];
+                    seen.rim = find_rim(picture, found.rim);
+                    if (seen.rim.good) seen.beads = find_beads(picture, seen.rim, found.look);
+                } catch (...) {
+                    const std::lock_guard lock(mutex);
+                    trouble = std::current_exception();
+                }
+            }
+        };
+        std::vector<std::thread> workers;
+        for (unsigned t = 1; t < threads; ++t) workers.emplace_back(work);
+        work();
+        for (std::thread& worker : workers) worker.join();
+        if (trouble) std::rethrow_exception(trouble);
+        if (settings.progress)
+            settings.progress("finding discs",
+                              double(all.size()) / double(std::max<std::int64_t>(
+                                                       expected, std::int64_t(all.size()) + 1)));
+    }
+    if (!video.complaint().empty())
+        film.warnings.push_back(
+            fmt::format("The film ends early or is damaged after {} pictures; ffmpeg says: {}",
+                        all.size(), video.complaint()));
+    return all;
+}
+
+/// Pictures whose rim is hidden are searched where the path says that the dish is.
+void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film) {
+    std::vector<std::vector<SeenDisc>> discs;
+    for (const Seen& seen : all) {
+        std::vector<SeenDisc> here;
+        for (const Bead& b : seen.beads) here.push_back({b.centre, b.kind, b.sure});
+        discs.push_back(std::move(here));
+    }
+    LinkSettings settings;
+    for (const TrackedKind& kind : film.kinds) {
+        settings.radii.push_back(kind.radius);
+        settings.numbers.push_back(kind.number);
+    }
+    const Links links = link_discs(discs, film.times, film.path, settings);
+    film.refused = links.refused;
+    // By track: where it was when.
+    struct Place {
+        std::size_t picture;
+        Vec2 centre;
+        double error;
+    };
+    std::vector<std::vector<Place>> places(links.kind.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0)
+                places[static_cast<std::size_t>(t)].push_back(
+                    {k, all[k].beads[d].centre, all[k].beads[d].error});
+    // A track of a few pictures is no disc.
+    const std::size_t fewest = std::min<std::size_t>(4, all.size());
+    film.tracks.y_down = true;
+    film.tracks.frames.resize(all.size());
+    film.errors.resize(all.size());
+    film.seen.resize(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.tracks.frames[k].number = static_cast<std::int64_t>(k);
+    const double per_period = 2.0 * pi / film.path.omega / (film.times[1] - film.times[0]);
+    const auto longest = static_cast<std::size_t>(std::max(2.0, per_period / 12.0));
+    std::int64_t id = 0;
+    std::map<std::size_t, std::size_t> kinds;
+    for (std::size_t t = 0; t < places.size(); ++t) {
+        if (places[t].size() < fewest) continue;
+        const double radius = film.kinds[links.kind[t]].radius;
+        const auto put = [&](std::size_t k, const Vec2& p, double error, bool seen) {
+            TrackFrame& f = film.tracks.frames[k];
+            f.id.push_back(id);
+            f.position.push_back(p);
+            f.radius.push_back(radius);
+            film.errors[k].push_back(error);
+            film.seen[k].push_back(seen ? 1 : 0);
+        };
+        for (std::size_t j = 0; j < places[t].size(); ++j) {
+            const Place& now = places[t][j];
+            if (j > 0) {
+                // Between two places, straight on relative to the dish.
+                const Place& before = places[t][j - 1];
+                const std::size_t gap = now.picture - before.picture;
+                const Vec2 from = before.centre - film.path.at(film.times[before.picture]),
+                           to = now.centre - film.path.at(film.times[now.picture]);
+                for (std::size_t k = before.picture + 1; gap <= longest && k < now.picture; ++k) {
+                    const double u = double(k - before.picture) / double(gap);
+                    put(k, film.path.at(film.times[k]) + (1.0 - u) * from + u * to, 0.1 * radius,
+                        false);
+                    ++film.filled;
+                }
+            }
+            put(now.picture, now.centre, now.error, true);
+        }
+        ++kinds[links.kind[t]];
+        ++id;
+    }
+    film.number = static_cast<std::size_t>(id);
+    for (std::size_t k = 0; k < film.kinds.size(); ++k) film.kinds[k].number = kinds[k];
+    (void)look;
+}
+
+void judge(const std::vector<Seen>& all, TrackedFilm& film) {
+    std::size_t complete = 0, count = 0;
+    double square = 0.0;
+    std::vector<double> reaches, gaps;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        const auto seen = static_cast<std::size_t>(
+            std::count(film.seen[k].begin(), film.seen[k].end(), std::uint8_t(1)));
+        if (seen == film.number) ++complete;
+        double reach = 0.0;
+        const Vec2 c = film.path.at(film.times[k]);
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            if (!film.seen[k][i]) continue;
+            square += film.errors[k][i] * film.errors[k][i];
+            ++count;
+            reach = std::max(reach, length(f.position[i] - c) + f.radius[i]);
+            double nearest = 1e300;
+            for (std::size_t j = 0; j < f.id.size(); ++j)
+                if (j != i && film.seen[k][j])
+                    nearest = std::min(
+                        nearest, length(f.position[i] - f.position[j]) - f.radius[i] - f.radius[j]);
+            if (nearest < 0.2 * f.radius[i]) gaps.push_back(nearest);
+        }
+        if (reach > 0.0) reaches.push_back(reach);
+    }
+    film.complete = double(complete) / double(all.size());
+    film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
+    film.reach = quantile(reaches, 0.9);
+    // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
+    // of a distance, √2 that of a place.
+    std::vector<double> overlaps;
+    for (const double g : gaps)
+        if (g < 0.0) overlaps.push_back(-g);
+    if (overlaps.size() > 50)
+        film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
+}
+
+/// Of the counts of discs that are sure, the largest that is no accident.
+std::size_t common_number(const std::vector<Seen>& all, std::size_t kind) {
+    std::map<std::size_t, std::size_t, std::greater<>> times;
+    std::size_t pictures = 0;
+    for (const Seen& seen : all) {
+        if (!seen.rim.good) continue;
+        ++pictures;
+        ++times[static_cast<std::size_t>(
+            std::count_if(seen.beads.begin(), seen.beads.end(),
+                          [&](const Bead& b) { return b.sure && b.kind == kind; }))];
+    }
+    std::size_t so_far = 0;
+    for (const auto& [number, often] : times) {
+        so_far += often;
+        if (so_far * 7 > pictures) return number;
+    }
+    return 0;
+}
+
+}  // namespace
+
+TrackScale TrackedFilm::scale() const {
+    TrackScale s;
+    s.frames_per_time = fps > 0.0 ? fps : 1.0;
+    s.pixels_per_radius = radius;
+    s.swirl_centre = path.centre;
+    s.period = 2.0 * pi / path.omega;
+    s.amplitude = path.amplitude / radius;
+    s.phase = path.angle(times.empty() ? 0.0 : times.front());
+    s.container_radius = container_radius / radius;
+    s.clockwise = path.clockwise;
+    return s;
+}
+
+TrackedFilm track_film(const TrackingSettings& settings) {
+    TrackedFilm film;
+    FilmTimes times = film_times(settings.film);
+    std::int64_t expected = static_cast<std::int64_t>(times.seconds.size());
+    if (settings.most_pictures > 0)
+        expected =
+            expected > 0 ? std::min(expected, settings.most_pictures) : settings.most_pictures;
+    const Survey found = survey(settings, expected > 0 ? expected : 4 * survey_pictures);
+    film.width = found.size.width;
+    film.height = found.size.height;
+    film.bright = found.look.polarity > 0;
+    const std::vector<Seen> all = look_at_all(settings, found, expected, film);
+    film.pictures = static_cast<std::int64_t>(all.size());
+    if (all.size() < 8)
+        throw Failure(fmt::format("'{}' holds {} pictures, too few to see a dish swirl.",
+                                  settings.film, all.size()));
+    // When they were taken: steps that are equal but for the rounding of the file's clock are
+    // equal.
+    film.fps = settings.fps.value_or(times.fps);
+    film.jitter = times.jitter;
+    const bool uneven = !settings.fps && times.jitter > 0.2 && times.seconds.size() == all.size();
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.times.push_back(uneven ? times.seconds[k] - times.seconds.front()
+                                    : double(k) / (film.fps > 0.0 ? film.fps : 1.0));
+    if (uneven)
+        film.warnings.push_back(fmt::format(
+            "The film's frame rate varies: the steps between its pictures differ by up to {:.0f} % "
+            "from their mean, as telephones do in poor light. Its own times are used; a fixed rate "
+            "(a setting of the camera) is better.",
+            100.0 * times.jitter));
+
+    std::vector<Vec2> centres;
+    std::vector<double> when, supports;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!all[k].rim.good) {
+            ++film.rims_missed;
+            continue;
+        }
+        centres.push_back(all[k].rim.centre);
+        when.push_back(film.times[k]);
+        supports.push_back(all[k].rim.support);
+    }
+    const auto path = fit_path(centres, when);
+    if (!path)
+        throw Failure(
+            "The dish was found, but its centre does not run round a circle: was the camera moved, "
+            "or is the film shorter than half a swirl?");
+    film.path = *path;
+    film.rim_radius = found.rim.radius;
+    film.rim_support = quantile(supports, 0.5);
+
+    for (std::size_t k = 0; k < found.look.kinds.size(); ++k) {
+        const BeadKind& kind = found.look.kinds[k];
+        film.kinds.push_back({kind.radius, kind.scatter, common_number(all, k)});
+    }
+    if (settings.discs && film.kinds.size() == 1)
+        film.kinds[0].number = static_cast<std::size_t>(*settings.discs);
+    std::size_t commonest = 0;
+    for (std::size_t k = 1; k < film.kinds.size(); ++k)
+        if (film.kinds[k].number > film.kinds[commonest].number) commonest = k;
+    film.radius = film.kinds[commonest].radius;
+    track(all, found.look, film);
+    if (film.number == 0) throw Failure("No disc could be followed through the film.");
+    judge(all, film);
+    film.container_radius = film.rim_radius;
+    return film;
+}
+
+}  // namespace swirl
