@@ -16,6 +16,10 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #ifdef SWIRL_CAMERA
+#include "swirl/app/track_options.hpp"
+#include "swirl/draw/label.hpp"
+#include "swirl/draw/movie.hpp"
+#include "swirl/film/movie.hpp"
 #include "swirl/vision/tracking.hpp"
 #endif
 
@@ -23,7 +27,7 @@ namespace swirl {
 namespace {
 
 struct TrackCall {
-    std::string film, out, json;
+    std::string film, out, json, overlay;
     std::optional<double> fps;
     std::string dish_diameter, disc_diameter;
     std::optional<std::int64_t> discs, frames;
@@ -82,8 +86,10 @@ Json json_of(const TrackedFilm& film, const TrackCall& call) {
               {"phase_error", degrees(film.path.phase_error)},
               {"clockwise", film.path.clockwise},
               {"residual", film.path.residual}}},
+            {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
             {"quality",
-             {{"pictures_with_all_discs", film.complete},
+             {{"touching_discs_are_apart", film.touching},
+              {"pictures_with_all_discs", film.complete},
               {"position_error", film.position_error},
               {"position_error_from_overlaps", film.overlap_error},
               {"filled_positions", film.filled},
@@ -121,6 +127,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "radii; {}\n"
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
+        "  lens        distortion {}{}\n"
         "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
         "  error       {:.3f} pixels of a place, from the edges{}\n",
         call.film, film.number, film.pictures, film.width, film.height, sizes,
@@ -131,8 +138,9 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         film.path.clockwise ? "clockwise in the picture" : "counter-clockwise",
         with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,
         with_error(film.path.omega, film.path.omega_error), unit,
-        with_error(phase_of(film), degrees(film.path.phase_error)), 100.0 * film.complete,
-        film.filled, film.position_error,
+        with_error(phase_of(film), degrees(film.path.phase_error)),
+        with_error(film.lens.k, film.lens.k_error), film.lens.k != 0.0 ? ", corrected" : "",
+        100.0 * film.complete, film.filled, film.position_error,
         film.overlap_error > 0.0
             ? fmt::format("; {:.3f} from overlaps that cannot be", film.overlap_error)
             : "");
@@ -140,9 +148,29 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
     return text;
 }
 
-/// tracks.csv → tracks.camera.json
-std::filesystem::path camera_file(std::filesystem::path tracks) {
-    return tracks.replace_extension(".camera.json");
+/// The film with the discs that were found drawn over it, picture by picture.
+void make_overlay(const TrackedFilm& film, const TrackCall& call) {
+    MovieConfig config;
+    config.out = call.overlay;
+    config.footage = {tracked(film.tracks, film.scale(),
+                              escaped(std::filesystem::path(call.film).filename().string()),
+                              call.film)};
+    const Footage& footage = config.footage.front();
+    config.appearance.size = {960, 960};
+    config.appearance.coloring = Coloring::id;
+    config.appearance.trails = true;
+    config.frames_per_second = movie_format(call.overlay) == MovieFormat::gif ? 25 : 60;
+    config.pace = config.frames_per_second / footage.frames_per_swirl;
+    config.start = footage.from.value_or(0.0);
+    config.frames = static_cast<int>(film.pictures);
+    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    ProgressLine line(call.overlay, call.quiet);
+    MovieControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](int done, int of) { line.show(double(done) / of, "overlay"); };
+    const MovieResult result = make_movie(config, control);
+    line.clear();
+    if (!result.complete) throw Interrupted("Stopped while the overlay was drawn.");
 }
 
 void track(const TrackCall& call) {
@@ -157,6 +185,13 @@ void track(const TrackCall& call) {
     if (call.frames && !(*call.frames > 0))
         throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *call.frames));
     refuse_unwritable(call.out);
+    if (!call.overlay.empty()) {
+        if (!movie_format(call.overlay))
+            throw WrongCall(
+                fmt::format("--overlay is '{}', but its name must end with .mp4, .webm or .gif.",
+                            call.overlay));
+        refuse_unwritable(call.overlay);
+    }
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
     if (!call.overwrite && std::filesystem::exists(call.out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
@@ -172,16 +207,19 @@ void track(const TrackCall& call) {
     const TrackedFilm film = track_film(settings);
     line.clear();
 
-    Table table({"frame", "particle", "x", "y", "radius", "error", "seen"});
+    Table table({"frame", "particle", "x", "y", "x_seen", "y_seen", "radius", "error", "seen"});
     for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
         const TrackFrame& f = film.tracks.frames[k];
-        for (std::size_t i = 0; i < f.id.size(); ++i)
-            table.add({f.number, f.id[i], f.position[i].x, f.position[i].y, f.radius[i],
-                       film.errors[k][i], std::int64_t(film.seen[k][i])});
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            const Vec2 seen = film.lens.seen(f.position[i]);
+            table.add({f.number, f.id[i], f.position[i].x, f.position[i].y, seen.x, seen.y,
+                       f.radius[i], film.errors[k][i], std::int64_t(film.seen[k][i])});
+        }
     }
     const Json json = json_of(film, call);
     table.write(call.out);
     write_output(camera_file(call.out), json.dump(2) + "\n");
+    if (!call.overlay.empty()) make_overlay(film, call);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
     if (!call.quiet) print_all(text_of(film, call));
@@ -204,6 +242,7 @@ void add_track_command(Subcommand& subcommand) {
     add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
+    add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
     add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout");
     subcommand.add_flag("--overwrite", call->overwrite, "replace tracks that are there");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");

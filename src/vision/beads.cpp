@@ -61,8 +61,16 @@ RaySettings rays_for(const Picture& picture, double radius) {
     rays.rays = std::clamp(static_cast<int>(pi * radius), 28, 96);
     rays.window = std::max(3.0, 0.17 * radius);
     rays.least = 3.0 * picture.noise;
-    rays.tolerance = std::max(1.0, 0.06 * radius);
+    rays.tolerance = std::max(1.2, 0.06 * radius);
     return rays;
+}
+
+/// Windows of a fifth of the radius to either side, four pixels at most outside, where neighbours
+/// are.
+Limb limb_for(double radius, double blur) {
+    const int inside = std::clamp(static_cast<int>(0.22 * radius / Limb::step), 5, 14);
+    const int outside = std::clamp(static_cast<int>(0.16 * radius / Limb::step), 5, 8);
+    return Limb(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0));
 }
 
 /// One size or two? The gap that splits the radii best.
@@ -104,7 +112,7 @@ std::vector<BeadKind> kinds_of(std::vector<double> radii) {
 
 BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims) {
     // Which radius explains most edges?
-    const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 8);
+    const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 6);
     struct Best {
         double worth = 0.0, radius = 0.0;
         Polarity polarity = 1;
@@ -114,8 +122,8 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
         edges.push_back(edges_inside(pictures[k], rims[k]));
     std::vector<std::pair<double, Polarity>> radii;
     const double dish = rims.front().radius * pictures.front().shrink;
-    for (double radius = std::max(3.0, dish / 25.0); radius < dish / 2.2;
-         radius += std::max(0.5, 0.035 * radius))
+    for (double radius = std::max(3.0, dish / 25.0); radius < dish / 2.5;
+         radius += std::max(0.5, 0.04 * radius))
         for (const Polarity polarity : {1, -1}) {
             double worth = 0.0;
             for (std::size_t k = 0; k < pictures.size(); k += stride) {
@@ -135,6 +143,12 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
             "The dish was found, but no discs in it: there are no circles that stand out from its "
             "floor.");
     // One or two sizes about that one, by fits with free radius.
+    struct Spot {
+        std::size_t picture;
+        Vec2 centre;
+        double radius;
+    };
+    std::vector<Spot> spots;
     std::vector<double> fitted;
     std::vector<std::vector<double>> by_picture;
     for (std::size_t k = 0; k < pictures.size(); ++k) {
@@ -146,17 +160,13 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
             const auto found = vote(edges[k], p.small.size(), radius, best.polarity, 0.35, 600);
             all.insert(all.end(), found.begin(), found.end());
         }
-        std::vector<double> here;
-        struct Fitted {
-            CircleFit fit;
-        };
         std::vector<CircleFit> kept;
         for (CircleCandidate& c : all) c.centre = p.to_sharp(c.centre), c.radius /= p.shrink;
         for (const CircleCandidate& c : apart(all)) {
             RaySettings rays = rays_for(p, c.radius);
             rays.free_radius = true;
             const CircleFit fit = fit_circle(p.sharp, c.centre, c.radius, best.polarity, rays);
-            if (!fit.good || fit.support < sure_support || !within(rims[k], fit.centre, fit.radius))
+            if (!fit.good || fit.support < 0.33 || !within(rims[k], fit.centre, fit.radius))
                 continue;
             kept.push_back(fit);
         }
@@ -168,8 +178,31 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
                     return length(s.centre - f.centre) < least_distance * (s.radius + f.radius);
                 }))
                 separate.push_back(f);
-        for (const CircleFit& f : separate) here.push_back(f.radius), fitted.push_back(f.radius);
-        by_picture.push_back(here);
+        for (const CircleFit& f : separate) spots.push_back({k, f.centre, f.radius});
+    }
+    // The film's blur is the one with which limbs fit best; then their true places.
+    std::vector<CircleFit> exact(spots.size());
+    double least_rest = 1e300, blur = 1.0;
+    for (const double trial : {0.6, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5}) {
+        const Limb limb = limb_for(best.radius / pictures.front().shrink, trial);
+        std::vector<CircleFit> fits;
+        std::vector<double> rests;
+        for (const Spot& spot : spots) {
+            const Picture& p = pictures[spot.picture];
+            RaySettings rays = rays_for(p, spot.radius);
+            rays.free_radius = true;
+            rays.limb = &limb;
+            fits.push_back(fit_circle(p.sharp, spot.centre, spot.radius, best.polarity, rays));
+            if (fits.back().good) rests.push_back(fits.back().rest);
+        }
+        const double rest = rests.size() < 4 ? 1e300 : median(rests);
+        if (rest < least_rest) least_rest = rest, blur = trial, exact = fits;
+    }
+    by_picture.resize(pictures.size());
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+        if (!exact[k].good) continue;
+        fitted.push_back(exact[k].radius);
+        by_picture[spots[k].picture].push_back(exact[k].radius);
     }
     if (fitted.empty())
         throw Failure(
@@ -178,6 +211,34 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     BeadLook look;
     look.polarity = best.polarity;
     look.kinds = kinds_of(fitted);
+    for (const BeadKind& kind : look.kinds) look.limbs.push_back(limb_for(kind.radius, blur));
+    // Soft or faint edges have less support; what is sure is judged by what is common here.
+    std::vector<double> supports;
+    for (const CircleFit& fit : exact)
+        if (fit.good) supports.push_back(fit.support);
+    look.sure = std::clamp(0.8 * median(supports), 0.3, sure_support);
+    // Equal balls show what the lens does; their size is that in the middle of the picture.
+    std::vector<SeenSize> sizes;
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+        if (!exact[k].good || exact[k].support < look.sure) continue;
+        double nearest = 1e300, size = 0.0;
+        for (const BeadKind& kind : look.kinds)
+            if (std::abs(exact[k].radius - kind.radius) < nearest) {
+                nearest = std::abs(exact[k].radius - kind.radius);
+                size = exact[k].radius / kind.radius;
+            }
+        if (nearest < 0.2 * look.radius()) sizes.push_back({exact[k].centre, size});
+    }
+    const cv::Size whole = pictures.front().sharp.size();
+    look.lens =
+        lens_of(sizes, {0.5 * (whole.width - 1), 0.5 * (whole.height - 1)}, 0.5 * whole.height);
+    if (look.lens.k != 0.0) {
+        std::vector<double> ratios;
+        for (const SeenSize& s : sizes)
+            ratios.push_back(s.size / look.lens.seen_radius(s.centre, 1.0));
+        const double factor = median(ratios);
+        for (BeadKind& kind : look.kinds) kind.radius *= factor;
+    }
     // How many of each: what most pictures say.
     const auto commonest = [&](auto&& counts) {
         std::map<std::size_t, std::size_t> times;
@@ -208,13 +269,14 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
         const double radius = look.kinds[kind].radius;
         const double area = rim.radius * rim.radius / (radius * radius);
         const auto candidates =
-            vote(edges, picture.small.size(), radius * picture.shrink, look.polarity, 0.2,
+            vote(edges, picture.small.size(), radius * picture.shrink, look.polarity, 0.18,
                  std::min(static_cast<std::size_t>(1.3 * area) + 4, 3 * look.number + 8));
-        const RaySettings rays = rays_for(picture, radius);
+        RaySettings rays = rays_for(picture, radius);
         for (const CircleCandidate& c : candidates) {
             const Vec2 seed = picture.to_sharp(c.centre);
             if (!within(rim, seed, radius)) continue;
-            const CircleFit fit = fit_circle(picture.sharp, seed, radius, look.polarity, rays);
+            const CircleFit fit = fit_circle(
+                picture.sharp, seed, look.lens.seen_radius(seed, radius), look.polarity, rays);
             if (!fit.good || fit.support < any_support || !within(rim, fit.centre, radius))
                 continue;
             all.push_back({fit.centre, kind, fit.support, fit.error, false});
@@ -232,8 +294,23 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
             overlaps = overlaps || (k.sure && distance < least_distance * sum);
         }
         if (same) continue;
-        bead.sure = !overlaps && bead.support >= sure_support;
+        bead.sure = !overlaps && bead.support >= look.sure;
         kept.push_back(bead);
+    }
+    // Their exact places.
+    for (Bead& bead : kept) {
+        const double radius = look.kinds[bead.kind].radius;
+        RaySettings rays = rays_for(picture, radius);
+        rays.limb = &look.limbs[bead.kind];
+        rays.limb_alone = true;
+        const CircleFit fit =
+            fit_circle(picture.sharp, bead.centre, look.lens.seen_radius(bead.centre, radius),
+                       look.polarity, rays);
+        // The steepest places err towards the lamp, the limb's with the texture: independent errors
+        // of about the same size, of which the mean is better than both.
+        if (!fit.good || length(fit.centre - bead.centre) > std::max(1.0, 0.04 * radius)) continue;
+        bead.centre = 0.5 * (bead.centre + fit.centre);
+        bead.error = fit.error;
     }
     return kept;
 }

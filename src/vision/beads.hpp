@@ -15,6 +15,7 @@
 
 #include "swirl/vision/circles.hpp"
 #include "swirl/vision/dish.hpp"
+#include "swirl/vision/lens.hpp"
 
 namespace swirl {
 
@@ -28,6 +29,9 @@ struct BeadLook {
     Polarity polarity = 1;
     std::vector<BeadKind> kinds;  // one or two, the smaller first
     std::size_t number = 0;       // of all
+    double sure = 0.45;           // support from which on a circle is a disc
+    Lens lens;
+    std::vector<Limb> limbs;  // of each kind, with the blur of this film
 
     double radius() const { return kinds.front().radius; }
 };

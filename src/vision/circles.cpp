@@ -29,6 +29,7 @@ inline float between_pixels(const cv::Mat& picture, float x, float y) {
 /// Steepest place on a ray.
 struct RayEdge {
     double ux, uy, distance, slope;
+    double rest = 0.0;
 };
 
 /// Solves the symmetric 3×3 (or, without the last row, 2×2) system; false if it is singular.
@@ -60,11 +61,35 @@ bool solve(const double (&m)[3][3], const double (&b)[3], int n, double (&x)[3],
     return true;
 }
 
+/// By the limb's profile, around a circle that is known to about a pixel.
+void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
+                const RaySettings& settings, std::vector<RayEdge>& edges) {
+    const Limb& limb = *settings.limb;
+    const int samples = limb.inside() + limb.outside() + 1;
+    std::vector<float> profile(static_cast<std::size_t>(samples));
+    for (int k = 0; k < settings.rays; ++k) {
+        const Vec2 u = unit_circle(double(k) / settings.rays);
+        const Vec2 first = fit.centre + (fit.radius - Limb::step * limb.inside()) * u,
+                   last = fit.centre + (fit.radius + Limb::step * limb.outside()) * u;
+        const auto within = [&](const Vec2& p) {
+            return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
+        };
+        if (!within(first) || !within(last)) continue;
+        for (int j = 0; j < samples; ++j)
+            profile[static_cast<std::size_t>(j)] =
+                between_pixels(picture, static_cast<float>(first.x + Limb::step * j * u.x),
+                               static_cast<float>(first.y + Limb::step * j * u.y));
+        const Limb::Edge edge = limb.find(profile.data());
+        if (!edge.found || polarity * edge.contrast <= 0.0) continue;
+        edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest});
+    }
+}
+
 }  // namespace
 
 double gradient_noise(const cv::Mat& picture) {
     std::vector<double> slopes;
-    for (int row = 1; row + 1 < picture.rows; row += 3) {
+    for (int row = 1; row + 1 < picture.rows; row += 7) {
         const float* p = picture.ptr<float>(row);
         for (int column = 1; column + 1 < picture.cols; column += 3)
             slopes.push_back(std::abs(0.5 * double(p[column + 1] - p[column - 1])));
@@ -80,7 +105,7 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
     cv::magnitude(dx, dy, steepness);
     // Faint edges count as well, if they stand out from the noise.
     std::vector<double> sample;
-    for (int row = 1; row < picture.rows; row += 3) {
+    for (int row = 1; row < picture.rows; row += 5) {
         const float* s = steepness.ptr<float>(row);
         for (int column = 1; column < picture.cols; column += 3)
             sample.push_back(double(s[column]));
@@ -140,7 +165,8 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
     }
     // Votes scatter: by the pixels' grid, and by a few degrees of the gradient's direction.
     const double spread = 0.7 + 0.07 * radius;
-    cv::GaussianBlur(votes, votes, cv::Size(), spread, spread, cv::BORDER_CONSTANT);
+    const int side = 2 * static_cast<int>(std::ceil(2.2 * spread)) + 1;
+    cv::GaussianBlur(votes, votes, cv::Size(side, side), spread, spread, cv::BORDER_CONSTANT);
     const double own = 0.5 + 0.05 * radius;
     // All of a circumference of 2π a pixels, of which the ridge keeps nine in ten.
     const double whole = 0.9 * 2.0 * pi * radius / (2.0 * pi * (spread * spread + own * own));
@@ -193,11 +219,15 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
     std::vector<float> profile;
     std::vector<double> sizes, weights;
     double window = settings.window;
-    for (int round = 0; round < 4; ++round) {
+    CircleFit steep = fit;  // by the steepest places alone
+    for (int round = settings.limb_alone ? 2 : 0; round < 4; ++round) {
         edges.clear();
+        const bool by_limb = settings.limb && round >= 2;
+        if (round == 2) steep = fit;
+        if (by_limb) limb_edges(picture, fit, polarity, settings, edges);
         const int samples = 2 * static_cast<int>(std::ceil(window / step)) + 5;
         profile.resize(static_cast<std::size_t>(samples));
-        for (int k = 0; k < settings.rays; ++k) {
+        for (int k = 0; k < settings.rays && !by_limb; ++k) {
             const Vec2 u = unit_circle(double(k) / settings.rays);
             const double begin = fit.radius - 0.5 * step * (samples - 1);
             const Vec2 first = fit.centre + begin * u,
@@ -227,7 +257,9 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             edges.push_back(
                 {u.x, u.y, begin + step * (best + std::clamp(shift, -1.0, 1.0)), double(steepest)});
         }
-        if (edges.size() < 6) return fit;
+        // Where limbs cannot be made out, the steepest places must do.
+        if (edges.size() < static_cast<std::size_t>(settings.rays) / 5 + 3)
+            return by_limb ? steep : fit;
         // Reweighted until it stands still, with a scale that shrinks to that of the inliers.
         double d[3] = {0.0, 0.0, 0.0}, inverse[3] = {0.0, 0.0, 0.0};
         {  // a start that half of the rays cannot move: the median of the distances
@@ -253,35 +285,44 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
                 }
             }
             m[1][0] = m[0][1];
-            if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse)) return fit;
+            if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse))
+                return by_limb ? steep : fit;
             for (int r = 0; r < 3; ++r) d[r] = x[r];
             scale = std::max(1.4826 * median_of(sizes), 0.15);
             scale = std::min(scale, window);
         }
         const double limit = 1.5 * settings.window;
-        if (std::abs(d[0]) > limit || std::abs(d[1]) > limit || std::abs(d[2]) > limit) return fit;
+        if (std::abs(d[0]) > limit || std::abs(d[1]) > limit || std::abs(d[2]) > limit)
+            return by_limb ? steep : fit;
         fit.centre = fit.centre + Vec2{d[0], d[1]};
         fit.radius += d[2];
         // What lies on the circle, and how well.
         weights.clear();
-        double square = 0.0;
+        double square = 0.0, fit_rest = 0.0;
         std::size_t on = 0;
         for (const RayEdge& e : edges) {
             const double rest = e.distance - (fit.radius - d[2]) - e.ux * d[0] - e.uy * d[1] - d[2];
             if (std::abs(rest) > settings.tolerance) continue;
             square += rest * rest;
             weights.push_back(e.slope);
+            fit_rest += e.rest;
             ++on;
         }
-        fit.support = double(on) / settings.rays;
-        if (on < 6) return fit;
+        if (on > 0) fit.rest = fit_rest / double(on);
+        fit.support = std::max(fit.support, double(on) / settings.rays);
+        if (on < 6) return by_limb ? steep : fit;
         fit.contrast = median_of(weights);
         fit.residual = std::sqrt(square / double(on - 2));
         fit.error = fit.residual * std::sqrt(0.5 * (inverse[0] + inverse[1]));
         fit.good = true;
         const double moved = std::sqrt(d[0] * d[0] + d[1] * d[1]);
         window = std::max(std::min(settings.window, 2.0), 0.6 * settings.window);
-        if (round > 0 && moved < 0.02) break;
+        if (settings.limb) {
+            if (round == 1 && moved > 0.5) continue;
+            if (round == 2 && moved < 0.05) break;
+        } else if (round > 0 && moved < 0.02) {
+            break;
+        }
     }
     return fit;
 }

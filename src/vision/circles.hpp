@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "swirl/math/vec2.hpp"
+#include "swirl/vision/limb.hpp"
 
 namespace swirl {
 
@@ -50,6 +51,9 @@ struct RaySettings {
     double least = 0.0;   // slope that is an edge
     bool free_radius = false;
     double tolerance = 1.0;  // an edge within this of the circle supports it, pixels
+    /// The last rounds look for the limb (limb.hpp) instead of the steepest place.
+    const Limb* limb = nullptr;
+    bool limb_alone = false;  // the circle is known to a pixel: no rounds before
 };
 
 struct CircleFit {
@@ -58,6 +62,7 @@ struct CircleFit {
     double support = 0.0;   // share of rays whose edge lies on the circle
     double contrast = 0.0;  // median slope of those edges
     double residual = 0.0;  // their scatter about the circle, standard deviation
+    double rest = 0.0;      // mean square of what the limb's fits leave
     double error = 0.0;     // standard error of each coordinate of the centre
     bool good = false;      // enough rays to fit at all
 };

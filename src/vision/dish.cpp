@@ -68,19 +68,26 @@ constexpr double least_amplitude = 1.0;  // pixels: a dish that moves less stand
 }  // namespace
 
 Picture::Picture(const cv::Mat& grey, double shrunk_to, double blur) : shrink(shrunk_to) {
-    cv::Mat floats;
-    grey.convertTo(floats, CV_32F);
-    cv::GaussianBlur(floats, sharp, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
+    // Kernels of 2.5 standard deviations to either side; OpenCV's own choice for floats is 4.
+    const auto smooth = [](const cv::Mat& from, cv::Mat& to, double deviation) {
+        const int side = 2 * static_cast<int>(std::ceil(2.5 * deviation)) + 1;
+        cv::GaussianBlur(from, to, cv::Size(side, side), deviation, deviation,
+                         cv::BORDER_REPLICATE);
+    };
+    grey.convertTo(sharp, CV_32F);
+    cv::Mat shrunk;
     if (shrink < 0.999) {
         const cv::Size size(std::max(8, cvRound(grey.cols * shrink)),
                             std::max(8, cvRound(grey.rows * shrink)));
-        cv::resize(floats, small, size, 0, 0, cv::INTER_AREA);
+        cv::resize(grey, shrunk, size, 0, 0, cv::INTER_AREA);
         shrink = double(size.width) / grey.cols;
-        cv::GaussianBlur(small, small, cv::Size(), 1.0, 1.0, cv::BORDER_REPLICATE);
+        shrunk.convertTo(shrunk, CV_32F);
+        smooth(shrunk, small, 1.0);
     } else {
         shrink = 1.0;
-        cv::GaussianBlur(floats, small, cv::Size(), 1.4, 1.4, cv::BORDER_REPLICATE);
+        smooth(sharp, small, 1.4);
     }
+    smooth(sharp, sharp, blur);
     edges = edge_pixels(small);
     noise = gradient_noise(sharp);
 }

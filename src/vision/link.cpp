@@ -17,7 +17,7 @@ Vec2 turned_by(const Vec2& v, double angle) {
 }
 
 constexpr int ways = 3;
-constexpr double unsure_costs = 0.12;  // of the squared gate
+constexpr double unsure_costs = 0.25;  // of the squared gate
 
 struct Track {
     std::size_t kind = 0;

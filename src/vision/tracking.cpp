@@ -35,6 +35,24 @@ double quantile(std::vector<double> values, double share) {
     return *at;
 }
 
+/// Where the values become dense.
+double commonest(const std::vector<double>& values, double width) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto number = [&](double from) {
+        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
+               std::lower_bound(sorted.begin(), sorted.end(), from);
+    };
+    std::ptrdiff_t most = 0;
+    double at = 0.0;
+    for (const double v : sorted)
+        if (number(v) > most) most = number(v), at = v;
+    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
+    double half = at;
+    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
+    return 0.5 * (half + at) + width;
+}
+
 /// What one picture says.
 struct Seen {
     CircleFit rim;
@@ -72,12 +90,12 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     std::vector<Picture> fewer;
     std::vector<CircleFit> rims;
     const std::size_t stride = std::max<std::size_t>(1, small.size() / 24);
-    const double sharp_side = std::min(1.0, 1.6 * votes_side / side);
+    const double sharp_side = std::min(1.0, 1.3 * votes_side / side);
     for (std::size_t k = 0; k < small.size(); k += stride) {
         const CircleFit rim = find_rim(small[k], found.rim);
         if (!rim.good) continue;
         rims.push_back(rim);
-        fewer.emplace_back(kept[k], sharp_side, 1.0);
+        fewer.emplace_back(kept[k], sharp_side, 0.6);
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
     found.look = survey_beads(fewer, rims);
@@ -92,7 +110,7 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
     Video video(settings.film);
     const double radius = found.look.radius();
     const double shrink = std::min(1.0, votes_radius / radius);
-    const double blur = std::clamp(0.06 * radius, 0.9, 2.5);
+    const double blur = 0.6;
     std::vector<Seen> all;
     std::vector<cv::Mat> batch(4 * threads);
     cv::setNumThreads(1);
@@ -223,7 +241,7 @@ void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film
 void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     std::size_t complete = 0, count = 0;
     double square = 0.0;
-    std::vector<double> reaches, gaps;
+    std::vector<double> reaches, gaps;  // gaps: to the nearest disc
     for (std::size_t k = 0; k < all.size(); ++k) {
         const TrackFrame& f = film.tracks.frames[k];
         const auto seen = static_cast<std::size_t>(
@@ -241,13 +259,15 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
                 if (j != i && film.seen[k][j])
                     nearest = std::min(
                         nearest, length(f.position[i] - f.position[j]) - f.radius[i] - f.radius[j]);
-            if (nearest < 0.2 * f.radius[i]) gaps.push_back(nearest);
+            if (std::abs(nearest) < 0.25 * f.radius[i]) gaps.push_back(nearest);
         }
         if (reach > 0.0) reaches.push_back(reach);
     }
     film.complete = double(complete) / double(all.size());
     film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
-    film.reach = quantile(reaches, 0.9);
+    film.reach = quantile(reaches, 0.8);
+    film.touching =
+        gaps.size() > 100 ? 1.0 + commonest(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
     // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
     // of a distance, √2 that of a place.
     std::vector<double> overlaps;
@@ -255,6 +275,58 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
         if (g < 0.0) overlaps.push_back(-g);
     if (overlaps.size() > 50)
         film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
+}
+
+/// What looks wrong, with its likely cause.
+void warn(TrackedFilm& film) {
+    const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
+    const double step = film.times[1] - film.times[0];
+    const double per_period = 2.0 * pi / (film.path.omega * step);
+    const double periods = double(film.pictures) / per_period;
+    if (periods < 1.0)
+        say(fmt::format("The film shows {:.2f} of a swirl; Ω and the centre want at least one.",
+                        periods));
+    if (per_period < 24.0)
+        say(fmt::format(
+            "There are only {:.1f} pictures for a swirl: discs may be taken for each other, and "
+            "their spins cannot be followed. 60 or more are right, 511 are the paper's.",
+            per_period));
+    if (film.path.used < 0.9)
+        say(fmt::format(
+            "In {:.0f} % of the pictures the rim is not where a dish on a circle would be: is "
+            "something in front of it (a hand), was the camera moved, or did the swirl change "
+            "during the film?",
+            100.0 * (1.0 - film.path.used)));
+    if (film.rims_missed * 20 > static_cast<std::size_t>(film.pictures))
+        say(fmt::format("The rim was not found in {:.0f} % of the pictures.",
+                        100.0 * double(film.rims_missed) / double(film.pictures)));
+    if (film.rim_radius - film.reach > 0.06 * film.radius)
+        say(fmt::format(
+            "The rim that is seen has a radius of {:.2f} pixels, but discs never come farther out "
+            "than {:.2f}: it is the outer edge of the wall. The latter is taken for the dish.",
+            film.rim_radius, film.reach));
+    if (film.reach - film.rim_radius > 0.06 * film.radius)
+        say(fmt::format(
+            "Discs come {:.2f} pixels farther out than the rim that is seen, of {:.2f} pixels "
+            "radius; where they are stopped is taken for the dish.",
+            film.reach - film.rim_radius, film.rim_radius));
+    if (film.complete < 0.9)
+        say(fmt::format(
+            "All {} discs are seen in only {:.1f} % of the pictures: more even light, less glare, "
+            "a sharper picture or a shorter exposure would help{}.",
+            film.number, 100.0 * film.complete,
+            film.kinds.size() == 1 ? "; --discs says how many there are" : ""));
+    if (double(film.refused) > 0.05 * double(film.pictures))
+        say(fmt::format(
+            "In {:.0f} % of the pictures there are more discs than the {} that were counted; "
+            "--discs says how many there are.",
+            100.0 * double(film.refused) / double(film.pictures), film.number));
+    if (film.touching > 0.0 && std::abs(film.touching - 1.0) > 0.03)
+        say(
+            fmt::format("Discs that touch are {:.3f} of the diameters apart that their outlines "
+                        "have, which are "
+                        "not sharp; the distance is taken for the diameter.",
+                        film.touching));
 }
 
 /// Of the counts of discs that are sure, the largest that is no accident.
@@ -302,7 +374,17 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     film.width = found.size.width;
     film.height = found.size.height;
     film.bright = found.look.polarity > 0;
-    const std::vector<Seen> all = look_at_all(settings, found, expected, film);
+    std::vector<Seen> all = look_at_all(settings, found, expected, film);
+    film.lens = found.look.lens;
+    std::vector<double> rims;
+    for (Seen& seen : all) {
+        if (!seen.rim.good) continue;
+        const Lens::Circle rim = film.lens.ideal({seen.rim.centre, seen.rim.radius});
+        seen.rim.centre = rim.centre;
+        rims.push_back(rim.radius);
+        for (Bead& bead : seen.beads)
+            bead.centre = film.lens.ideal({bead.centre, found.look.kinds[bead.kind].radius}).centre;
+    }
     film.pictures = static_cast<std::int64_t>(all.size());
     if (all.size() < 8)
         throw Failure(fmt::format("'{}' holds {} pictures, too few to see a dish swirl.",
@@ -339,7 +421,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
-    film.rim_radius = found.rim.radius;
+    film.rim_radius = quantile(rims, 0.5);
     film.rim_support = quantile(supports, 0.5);
 
     for (std::size_t k = 0; k < found.look.kinds.size(); ++k) {
@@ -355,7 +437,19 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     track(all, found.look, film);
     if (film.number == 0) throw Failure("No disc could be followed through the film.");
     judge(all, film);
-    film.container_radius = film.rim_radius;
+    // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or
+    // its top. Swirled discs are at the wall at all times.
+    // Where edges are soft, the shaded side of a ball is lost in the floor, and it looks too small.
+    if (std::abs(film.touching - 1.0) > 0.02 && film.touching > 0.5) {
+        film.reach += (film.touching - 1.0) * film.radius;
+        film.radius *= film.touching;
+        for (TrackedKind& kind : film.kinds) kind.radius *= film.touching;
+        for (TrackFrame& f : film.tracks.frames)
+            for (double& radius : f.radius) radius *= film.touching;
+    }
+    const bool agree = std::abs(film.rim_radius - film.reach) < 0.06 * film.radius;
+    film.container_radius = agree ? film.rim_radius : film.reach;
+    warn(film);
     return film;
 }
 

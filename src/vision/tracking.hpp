@@ -19,6 +19,7 @@
 
 #include "swirl/files/tracks.hpp"
 #include "swirl/vision/dish_path.hpp"
+#include "swirl/vision/lens.hpp"
 
 namespace swirl {
 
@@ -43,6 +44,7 @@ struct TrackedFilm {
     double fps = 0.0;  // pictures per second; 0: not known, and times are in pictures
     std::vector<double> times;
 
+    Lens lens;      // all places and radii are those of an ideal lens
     DishPath path;  // per second, or per picture
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     std::size_t rims_missed = 0;
@@ -56,6 +58,7 @@ struct TrackedFilm {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: put there between two that were seen
     std::size_t number = 0;
+    double touching = 0.0;  // distance of discs in contact, in sums of radii
 
     double complete = 0.0;        // share of pictures in which every disc was seen
     double position_error = 0.0;  // rms of errors
