@@ -29,7 +29,7 @@ namespace {
 struct TrackCall {
     std::string film, out, json, overlay;
     std::optional<double> fps;
-    std::string dish_diameter, disc_diameter;
+    std::optional<double> dish_diameter, disc_diameter;  // millimetres
     std::optional<std::int64_t> discs, frames;
     bool quiet = false, overwrite = false;
 };
@@ -94,6 +94,10 @@ Json json_of(const TrackedFilm& film, const TrackCall& call) {
               {"position_error_from_overlaps", film.overlap_error},
               {"filled_positions", film.filled},
               {"discs_too_many", film.refused}}},
+            {"millimetres_per_pixel",
+             call.disc_diameter   ? Json(*call.disc_diameter / (2.0 * film.radius))
+             : call.dish_diameter ? Json(*call.dish_diameter / (2.0 * film.container_radius))
+                                  : Json(nullptr)},
             {"warnings", film.warnings},
             // What `swirl measure` and `swirl movie` take the tracks with.
             {"camera",
@@ -144,6 +148,12 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         film.overlap_error > 0.0
             ? fmt::format("; {:.3f} from overlaps that cannot be", film.overlap_error)
             : "");
+    if (call.disc_diameter)
+        text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
+                            *call.disc_diameter / (2.0 * film.radius));
+    if (call.dish_diameter)
+        text += fmt::format("  scale       {:.5f} mm a pixel, from the dish\n",
+                            *call.dish_diameter / (2.0 * film.container_radius));
     for (const std::string& warning : film.warnings) text += warning + "\n";
     return text;
 }
@@ -182,6 +192,10 @@ void track(const TrackCall& call) {
         throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *call.fps));
     if (call.discs && !(*call.discs > 0))
         throw WrongCall(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
+    for (const auto& [name, given] : {std::pair("dish-diameter", call.dish_diameter),
+                                      std::pair("disc-diameter", call.disc_diameter)})
+        if (given && !(*given > 0.0))
+            throw WrongCall(fmt::format("--{} is {}, but it must be above 0.", name, *given));
     if (call.frames && !(*call.frames > 0))
         throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *call.frames));
     refuse_unwritable(call.out);
@@ -204,8 +218,17 @@ void track(const TrackCall& call) {
     settings.most_pictures = call.frames.value_or(0);
     settings.stop = &stop_signal();
     settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
-    const TrackedFilm film = track_film(settings);
+    TrackedFilm film = track_film(settings);
     line.clear();
+    if (call.dish_diameter && call.disc_diameter) {
+        const double given = *call.dish_diameter / *call.disc_diameter;
+        const double seen = film.container_radius / film.radius;
+        if (std::abs(given / seen - 1.0) > 0.03)
+            film.warnings.push_back(fmt::format(
+                "The diameters given are as {:.3f} to 1, but the dish in the film is {:.3f} times "
+                "as wide as a disc: one of them is wrong, or the dish's is that of its outside.",
+                given, seen));
+    }
 
     Table table({"frame", "particle", "x", "y", "x_seen", "y_seen", "radius", "error", "seen"});
     for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
@@ -240,6 +263,8 @@ void add_track_command(Subcommand& subcommand) {
         "the tracks, as trackpy writes them; what was found of the dish goes beside them "
         "(.camera.json), where swirl measure finds it");
     add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
+    add("--dish-diameter", call->dish_diameter, "MM", "of the dish inside, in millimetres");
+    add("--disc-diameter", call->disc_diameter, "MM", "of a disc, in millimetres");
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
     add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");

@@ -60,7 +60,7 @@ RaySettings rays_for(const Picture& picture, double radius) {
     RaySettings rays;
     rays.rays = std::clamp(static_cast<int>(pi * radius), 28, 96);
     rays.window = std::max(3.0, 0.17 * radius);
-    rays.least = 3.0 * picture.noise;
+    rays.least = 2.5 * picture.noise;
     rays.tolerance = std::max(1.2, 0.06 * radius);
     return rays;
 }
@@ -216,6 +216,14 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     std::vector<double> supports;
     for (const CircleFit& fit : exact)
         if (fit.good) supports.push_back(fit.support);
+    // Sharp pictures are left sharp; where edges hardly stand out from the noise, blur helps.
+    std::vector<double> clarity;
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (exact[k].good && pictures[spots[k].picture].noise > 0.0)
+            clarity.push_back(exact[k].contrast / pictures[spots[k].picture].noise);
+    if (!clarity.empty())
+        look.blur = std::clamp(0.6 * std::sqrt(60.0 / std::max(median(clarity), 1.0)), 0.6,
+                               std::clamp(0.1 * look.radius(), 0.6, 2.0));
     look.sure = std::clamp(0.8 * median(supports), 0.3, sure_support);
     // Equal balls show what the lens does; their size is that in the middle of the picture.
     std::vector<SeenSize> sizes;

@@ -29,6 +29,7 @@ struct BeadLook {
     Polarity polarity = 1;
     std::vector<BeadKind> kinds;  // one or two, the smaller first
     std::size_t number = 0;       // of all
+    double blur = 0.6;            // by which pictures are to be smoothed for their noise, pixels
     double sure = 0.45;           // support from which on a circle is a disc
     Lens lens;
     std::vector<Limb> limbs;  // of each kind, with the blur of this film

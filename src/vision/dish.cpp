@@ -34,7 +34,11 @@ Circle circle_through(const std::vector<Vec2>& points) {
     std::vector<double> xs, ys;
     for (const Vec2& p : points) xs.push_back(p.x), ys.push_back(p.y);
     const Vec2 origin{median(xs), median(ys)};
-    std::vector<double> weights(points.size(), 1.0);
+    // Squares of squares: one far stray would decide about the first circle.
+    std::vector<double> weights, distances;
+    for (const Vec2& p : points) distances.push_back(length(p - origin));
+    const double far = 4.0 * median(distances);
+    for (const double d : distances) weights.push_back(d <= far ? 1.0 : 0.0);
     Circle circle;
     for (int pass = 0; pass < 8; ++pass) {
         cv::Matx33d m = cv::Matx33d::zeros();
@@ -188,8 +192,10 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
     rim.support = moving->support / looked_at;
     rim.swirl_centre = moving->path.centre;
     rim.amplitude = moving->path.radius;
-    // Its size, to a fraction of a pixel.
+    // Its size, to a fraction of a pixel, and its path once more, wherever it may be.
     std::vector<double> radii;
+    std::vector<Vec2> centres;
+    rim.amplitude = 0.0;
     for (const Picture& p : pictures) {
         rim.radius = moving->radius / p.shrink;
         CircleFit fit = find_rim(p, rim);
@@ -200,8 +206,13 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
         rays.least = 3.0 * p.noise;
         rays.free_radius = true;
         fit = fit_circle(p.sharp, fit.centre, rim.radius, rim.polarity, rays);
-        if (fit.good) radii.push_back(fit.radius);
+        if (!fit.good) continue;
+        radii.push_back(fit.radius);
+        centres.push_back(fit.centre);
     }
+    const Circle path = centres.size() < 4 ? moving->path : circle_through(centres);
+    rim.swirl_centre = path.centre;
+    rim.amplitude = path.radius;
     rim.radius = radii.empty() ? moving->radius / first.shrink : median(radii);
     // Another one beside it?
     std::size_t pairs = 0;
@@ -226,7 +237,7 @@ CircleFit find_rim(const Picture& picture, const Rim& rim) {
     for (const CircleCandidate& c : candidates) {
         const Vec2 centre = picture.to_sharp(c.centre);
         const double off = length(centre - rim.swirl_centre) - rim.amplitude;
-        if (rim.amplitude > 0.0 && std::abs(off) > 6.0 / picture.shrink + 0.1 * rim.amplitude)
+        if (rim.amplitude > 0.0 && std::abs(off) > 6.0 / picture.shrink + 0.35 * rim.amplitude)
             continue;
         RaySettings rays;
         rays.rays = 360;
@@ -291,7 +302,7 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
         cv::Matx<double, 5, 5> normal = cv::Matx<double, 5, 5>::zeros();
         cv::Vec<double, 5> right = cv::Vec<double, 5>::all(0.0);
         std::vector<double> off;
-        double weight_sum = 0.0, square = 0.0;
+        double weight_sum = 0.0;
         for (std::size_t k = 0; k < n; ++k) {
             const double turn = path.angle(times[k]);
             const Vec2 u{std::cos(turn), -std::sin(turn)};   // radial, y down
@@ -302,7 +313,6 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
             if (q >= 1.0) continue;
             const double w = (1.0 - q * q) * (1.0 - q * q);
             weight_sum += w;
-            square += w * dot(rest, rest);
             const double t = sign * (times[k] - origin) / span;
             const cv::Vec<double, 5> jx(1.0, 0.0, u.x, path.amplitude * v.x,
                                         path.amplitude * v.x * t);
@@ -320,8 +330,10 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
         path.omega += d[4] / span;
         // The angle at `origin` moved by d[3], and the slope about it.
         path.phase += d[3] - sign * d[4] / span * origin;
-        path.residual = std::sqrt(square / (2.0 * weight_sum));
-        scale = std::max(median(off) / 1.18, 0.05);
+        // The median length of a vector of two normal components is 1.18 standard deviations;
+        // weighted squares would come out too small, for the weights favour what is close.
+        path.residual = median(off) / 1.1774;
+        scale = std::max(path.residual, 0.05);
         std::size_t close = 0;
         for (const double o : off)
             if (o < 4.7 * scale) ++close;

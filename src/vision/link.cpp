@@ -16,16 +16,17 @@ Vec2 turned_by(const Vec2& v, double angle) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-constexpr int ways = 3;
+constexpr int ways = 6;  // straight on in three frames, at rest in two of them, with the flow
 constexpr double unsure_costs = 0.25;  // of the squared gate
 
 struct Track {
     std::size_t kind = 0;
     Vec2 place{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
     double time = 0.0, time_before = 0.0;
-    int seen = 0;                                    // at how many times, up to 2
-    int missed = 0;                                  // pictures in a row
-    std::array<double, ways> misses{1.0, 1.0, 1.0};  // mean squared error of each way, in radii
+    int seen = 0;    // at how many times, up to 2
+    int missed = 0;  // pictures in a row
+    std::array<double, ways> misses{1.0, 1.0, 1.0,
+                                    1.0, 1.0, 1.0};  // mean squared error of each way, in radii
     std::array<Vec2, ways> expected{};
 };
 
@@ -88,17 +89,23 @@ Vec2 Linker::flow_at(const Vec2& place, double time_from, double time_to) const 
 Vec2 Linker::expect(Track& track, double time) const {
     if (track.seen < 2 || track.missed > 0) {
         const Vec2 there = flow_at(track.place, track.time, time);
-        track.expected = {there, there, there};
+        track.expected.fill(there);
         return there;
     }
     const double ahead = (time - track.time) / (track.time - track.time_before);
     Vec2 sum{0.0, 0.0};
     double weights = 0.0;
     for (int way = 0; way < ways; ++way) {
-        const Vec2 last = seen_by(way, track.place, track.time),
-                   before = seen_by(way, track.before, track.time_before);
         const auto k = static_cast<std::size_t>(way);
-        track.expected[k] = in_lab(way, last + ahead * (last - before), time);
+        if (way == ways - 1) {
+            track.expected[k] = flow_at(track.place, track.time, time);
+        } else {
+            const int frame = way < 3 ? way : way - 2;
+            const Vec2 last = seen_by(frame, track.place, track.time),
+                       before = seen_by(frame, track.before, track.time_before);
+            const double forward = way < 3 ? ahead : 0.0;
+            track.expected[k] = in_lab(frame, last + forward * (last - before), time);
+        }
         const double w = 1.0 / std::pow(track.misses[k] + 1e-4, 2.0);
         sum = sum + w * track.expected[k];
         weights += w;
@@ -138,12 +145,12 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
         if (second) {
             expected[t] =
                 in_lab(1, turned_by(seen_by(1, tracks[t].place, tracks[t].time), turn_), time);
-            tracks[t].expected = {expected[t], expected[t], expected[t]};
+            tracks[t].expected.fill(expected[t]);
         }
     }
     const auto gate_of = [&](const Track& t) {
         return settings_.radii[t.kind] *
-               std::min(settings_.gate + 0.12 * t.missed, 2.0 * settings_.gate);
+               std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
     };
     if (!tracks.empty() && !discs.empty()) {
         std::vector<std::vector<double>> cost(tracks.size(),
@@ -168,7 +175,7 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
         for (std::size_t d = 0; d < discs.size(); ++d) {
             if (of[d] >= 0 || !discs[d].sure) continue;
             for (std::size_t t = 0; t < tracks.size(); ++t) {
-                if (tracks[t].kind != discs[d].kind || tracks[t].missed < 2 ||
+                if (tracks[t].kind != discs[d].kind || tracks[t].missed < 1 ||
                     std::find(of.begin(), of.end(), static_cast<int>(t)) != of.end())
                     continue;
                 const double reach =

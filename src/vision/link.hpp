@@ -1,16 +1,17 @@
 // Which disc in this picture is which in the last.
 //
 // The whole field turns by Ω between two pictures, so the nearest disc is the wrong one where they
-// are few. A disc is expected where the best of three ways of going straight on would have it: in
-// the lab (a disc in flight), relative to the dish (pinned to its wall), and in the co-rotating
-// M-frame (a cluster that goes round with the swirl); each way counts by how well it has done so
-// far. A disc seen once moves as its neighbours do. For the very first step that all turn about
-// the middle of the dish by one angle, the one that fits best.
+// are few. A disc is expected where several ways of going on would have it, each of which counts by
+// how well it has done for that disc so far: straight on in the lab (in flight), relative to the
+// dish, or in the co-rotating M-frame (a cluster that goes round with the swirl); at rest in either
+// of the latter, and as its neighbours do (where discs collide more often than they are seen, their
+// own velocities tell little). A disc seen once moves as its neighbours do. For the very first step
+// that all turn about the middle of the dish by one angle, the one that fits best.
 //
 // Expected places and circles found are then joined so that the sum of squared distances is least
-// (assignment problem; Kuhn 1955, in the form of Jonker & Volgenant 1987), within a gate of about
-// one radius. There are only so many discs: nobody is born beyond their number, and one that was
-// lost is taken up again by the circle that nobody else explains.
+// (assignment problem; Kuhn 1955, in the form of Jonker & Volgenant 1987), within a gate. There are
+// only so many discs: nobody is born beyond their number, and one that was lost is taken up again
+// by the circle that nobody else explains.
 //
 // Pixels, y down.
 #pragma once
@@ -32,7 +33,7 @@ struct SeenDisc {
 struct LinkSettings {
     std::vector<double> radii;         // of the kinds
     std::vector<std::size_t> numbers;  // of discs of each kind; empty: not known
-    double gate = 0.95;                // of a radius
+    double gate = 1.4;                 // in radii
 };
 
 struct Links {

@@ -110,7 +110,7 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
     Video video(settings.film);
     const double radius = found.look.radius();
     const double shrink = std::min(1.0, votes_radius / radius);
-    const double blur = 0.6;
+    const double blur = found.look.blur;
     std::vector<Seen> all;
     std::vector<cv::Mat> batch(4 * threads);
     cv::setNumThreads(1);
@@ -163,6 +163,23 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
     return all;
 }
 
+/// Of two discs that lie in each other the one with less of an edge was none.
+void drop_overlaps(const std::vector<Seen>& all, const std::vector<double>& radii, Links& links) {
+    constexpr double nearest = 0.84;  // of the sum of radii: more than errors of places explain
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::vector<Bead>& beads = all[k].beads;
+        for (std::size_t a = 0; a < beads.size(); ++a)
+            for (std::size_t b = a + 1; b < beads.size(); ++b) {
+                int &first = links.track[k][a], &second = links.track[k][b];
+                if (first < 0 || second < 0) continue;
+                if (length(beads[a].centre - beads[b].centre) >
+                    nearest * (radii[beads[a].kind] + radii[beads[b].kind]))
+                    continue;
+                (beads[a].support < beads[b].support ? first : second) = -1;
+            }
+    }
+}
+
 /// Pictures whose rim is hidden are searched where the path says that the dish is.
 void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film) {
     std::vector<std::vector<SeenDisc>> discs;
@@ -176,7 +193,8 @@ void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film
         settings.radii.push_back(kind.radius);
         settings.numbers.push_back(kind.number);
     }
-    const Links links = link_discs(discs, film.times, film.path, settings);
+    Links links = link_discs(discs, film.times, film.path, settings);
+    drop_overlaps(all, settings.radii, links);
     film.refused = links.refused;
     // By track: where it was when.
     struct Place {
@@ -190,6 +208,27 @@ void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film
             if (const int t = links.track[k][d]; t >= 0)
                 places[static_cast<std::size_t>(t)].push_back(
                     {k, all[k].beads[d].centre, all[k].beads[d].error});
+    // Out for a single picture and back again: a disc hit from both sides in between changes its
+    // velocity by little more than twice the dish's, so what is farther off was something else.
+    const double step = film.times[1] - film.times[0];
+    for (std::size_t t = 0; t < places.size(); ++t) {
+        const double most = std::max(0.2 * film.kinds[links.kind[t]].radius,
+                                     1.2 * film.path.amplitude * film.path.omega * step);
+        std::vector<Place> kept;
+        const auto at_dish = [&](const Place& p) {
+            return p.centre - film.path.at(film.times[p.picture]);
+        };
+        for (std::size_t j = 0; j < places[t].size(); ++j) {
+            if (j > 0 && j + 1 < places[t].size() &&
+                places[t][j + 1].picture - places[t][j - 1].picture == 2) {
+                const Vec2 off = at_dish(places[t][j]) -
+                                 0.5 * (at_dish(places[t][j - 1]) + at_dish(places[t][j + 1]));
+                if (length(off) > most) continue;
+            }
+            kept.push_back(places[t][j]);
+        }
+        places[t] = std::move(kept);
+    }
     // A track of a few pictures is no disc.
     const std::size_t fewest = std::min<std::size_t>(4, all.size());
     film.tracks.y_down = true;
