@@ -49,6 +49,18 @@ swirl_floor(run -O2 PUBLIC swirl_files)
 swirl_floor(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
 swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
 swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
+# The camera's floor is built where OpenCV is (section [camera] of `packages`); without it the rest
+# is, and `swirl track` says what is missing.
+# (Debian has the CMake files of OpenCV in a package that takes all of it along.)
+find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
+find_library(opencv_core_library opencv_core)
+find_library(opencv_imgproc_library opencv_imgproc)
+if(opencv_include AND opencv_core_library AND opencv_imgproc_library)
+  set(SWIRL_CAMERA ON)
+  swirl_floor(vision -O3 PUBLIC swirl_run swirl_draw Threads::Threads
+    PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
+  target_include_directories(swirl_vision SYSTEM PUBLIC ${opencv_include})
+endif()
 
 # What goes into every result: the version (version.inc) and what built it.
 add_dependencies(swirl_run swirl_version_stamp)
@@ -62,5 +74,9 @@ set_source_files_properties(src/run/version.cpp PROPERTIES COMPILE_DEFINITIONS
 file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
 add_executable(swirl ${app_sources})
 target_link_libraries(swirl PRIVATE swirl_paper CLI11::CLI11)
+if(SWIRL_CAMERA)
+  target_link_libraries(swirl PRIVATE swirl_vision)
+  target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)
+endif()
 swirl_settings(swirl -O1)
 set_target_properties(swirl PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)

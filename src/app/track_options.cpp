@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "swirl/files/track_mending.hpp"
+#include "swirl/files/whole_file.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
@@ -25,7 +27,43 @@ std::string first_bytes(const std::string& file) {
     return bytes;
 }
 
+/// What `swirl track` found, where nothing else was said.
+TrackTexts completed(TrackTexts texts, const std::string& file) {
+    const std::filesystem::path beside = camera_file(file);
+    if (!std::filesystem::is_regular_file(beside)) return texts;
+    const auto json = nlohmann::json::parse(read_regular_file(beside), nullptr, false);
+    const auto camera = json.is_object() ? json.find("camera") : json.end();
+    if (!json.is_object() || camera == json.end() || !camera->is_object())
+        throw Failure(fmt::format(
+            "'{}' is not what `swirl track` writes beside its tracks; remove it, or track the film "
+            "again.",
+            beside.string()));
+    // Any of these would be of another calibration than the rest.
+    const bool clockwise = texts.clockwise;
+    for (const auto& [name, text] :
+         {std::pair("camera-fps", &texts.fps), std::pair("scale", &texts.scale),
+          std::pair("omega", &texts.omega), std::pair("phase", &texts.phase),
+          std::pair("amplitude", &texts.amplitude),
+          std::pair("container-radius", &texts.container_radius)}) {
+        const auto value = camera->find(name);
+        if (text->empty() && value != camera->end() && value->is_number())
+            *text = fmt::format("{}", value->get<double>());
+    }
+    const auto centre = camera->find("centre");
+    if (texts.centre.empty() && centre != camera->end() && centre->is_array() &&
+        centre->size() == 2 && (*centre)[0].is_number() && (*centre)[1].is_number())
+        texts.centre = fmt::format("{},{}", (*centre)[0].get<double>(), (*centre)[1].get<double>());
+    const auto sense = camera->find("clockwise");
+    texts.clockwise =
+        clockwise || (sense != camera->end() && sense->is_boolean() && sense->get<bool>());
+    return texts;
+}
+
 }  // namespace
+
+std::filesystem::path camera_file(std::filesystem::path tracks) {
+    return tracks.replace_extension(".camera.json");
+}
 
 double number_option(const std::string& name, const std::string& text, double otherwise,
                      double from) {
@@ -87,14 +125,17 @@ Tracks read_tracks(const std::string& file, const TrackScale& scale) {
     return mended(read_trackpy_csv(file));
 }
 
-TrackScale track_scale(const TrackTexts& texts, const std::string& file) {
+TrackScale track_scale(const TrackTexts& given, const std::string& file) {
+    const TrackTexts texts = completed(given, file);
     constexpr double any = -std::numeric_limits<double>::infinity();
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty())
             throw WrongCall(fmt::format(
                 "'{}' does not say how the container moved; --{} is needed (and --camera-fps, "
-                "--scale, --centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0).",
+                "--scale, --centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0). "
+                "Beside tracks of "
+                "`swirl track` lies a file that says all that.",
                 file, name));
     TrackScale scale;
     scale.frames_per_time = number_option("camera-fps", texts.fps, 1.0, 1e-12);

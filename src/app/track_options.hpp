@@ -1,6 +1,7 @@
 // The options that say how the tracks of a camera, or of another program, translate.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "swirl/app/options.hpp"
@@ -29,7 +30,10 @@ bool is_trajectory(const std::string& file);
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
 /// What was mended, a line each.
 std::string mended_text(const Tracks& tracks);
-/// Throws WrongCall for what is missing or wrong.
-TrackScale track_scale(const TrackTexts& texts, const std::string& file);
+/// tracks.csv → tracks.camera.json: what `swirl track` found of the dish, beside the tracks.
+std::filesystem::path camera_file(std::filesystem::path tracks);
+/// What is not given is taken from there, if there is such a file. Throws WrongCall for what is
+/// missing or wrong.
+TrackScale track_scale(const TrackTexts& given, const std::string& file);
 
 }  // namespace swirl

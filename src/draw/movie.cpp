@@ -33,7 +33,7 @@ const char* name_of(MovieFormat format) {
     return "gif";
 }
 
-std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second,
+std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second, int loss,
                                    const std::string& out) {
     const std::string dimensions = std::to_string(size.width) + "x" + std::to_string(size.height);
     std::vector<std::string> args{"-hide_banner", "-nostats",
@@ -54,9 +54,10 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
         case MovieFormat::mp4:
             // Flat drawings gain little from the slower presets. What is switched off besides takes
             // a fifth of this one's time and would make the file a tenth smaller.
-            add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", "2",
-                 "-x264-params", "subme=1:me=dia:weightp=0:8x8dct=0", "-pix_fmt", "yuv420p",
-                 "-movflags", "+faststart"});
+            add({"-c:v", "libx264", "-preset", "veryfast", "-threads", "2", "-x264-params",
+                 "subme=1:me=dia:weightp=0:8x8dct=0", "-pix_fmt", "yuv420p", "-movflags",
+                 "+faststart"});
+            args.insert(args.end(), {"-crf", std::to_string(loss)});
             break;
         case MovieFormat::webm:
             // The quicker way of this encoder: as like the drawing as "good" with 5 (SSIM 0.963
@@ -109,12 +110,12 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 }
 
 MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
-                         int frames_per_second)
+                         int frames_per_second, int loss)
     : path_(path), aside_(path + ".partial") {
     open_aside();
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
-            arguments(format, size, frames_per_second, aside_), Ffmpeg::Side::input,
+            arguments(format, size, frames_per_second, loss, aside_), Ffmpeg::Side::input,
             "Movies are made by the program ffmpeg, which was not found: install it "
             "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.");
     } catch (const DrawFailure&) {

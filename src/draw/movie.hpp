@@ -29,8 +29,10 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 
 class MovieWriter {
   public:
-    /// Starts ffmpeg. Throws DrawFailure if it is missing or does not start.
-    MovieWriter(const std::string& path, MovieFormat format, Size size, int frames_per_second);
+    /// Starts ffmpeg. `loss` is what H.264 calls its constant rate factor: 0 is none, 18 invisible
+    /// in a drawing. Throws DrawFailure if ffmpeg is missing or does not start.
+    MovieWriter(const std::string& path, MovieFormat format, Size size, int frames_per_second,
+                int loss = 18);
     /// Without finish(): ends ffmpeg and leaves no file.
     ~MovieWriter();
     MovieWriter(const MovieWriter&) = delete;

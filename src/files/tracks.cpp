@@ -200,7 +200,12 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         lines.wrong(
             "the header must name the columns frame, particle, x and y, separated by commas");
 
-    std::map<std::int64_t, std::map<std::int64_t, Vec2>> tracks;  // by particle and frame
+    struct Place {
+        Vec2 position;
+        double radius;
+    };
+    std::map<std::int64_t, std::map<std::int64_t, Place>> tracks;  // by particle and frame
+    const auto radius = index_of(names, "seen") ? index_of(names, "radius") : std::nullopt;
     std::string_view line;
     while (lines.next(line)) {
         if (line.empty()) continue;
@@ -208,10 +213,12 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         if (parts.size() != names.size())
             lines.wrong(fmt::format("{} values, but the header names {} columns", parts.size(),
                                     names.size()));
-        const bool fresh = tracks[lines.whole(parts[*particle])]
-                               .try_emplace(lines.whole(parts[*frame]),
-                                            Vec2{lines.number(parts[*x]), lines.number(parts[*y])})
-                               .second;
+        const bool fresh =
+            tracks[lines.whole(parts[*particle])]
+                .try_emplace(lines.whole(parts[*frame]),
+                             Place{{lines.number(parts[*x]), lines.number(parts[*y])},
+                                   radius ? lines.number(parts[*radius]) : 0.0})
+                .second;
         if (!fresh)
             lines.wrong(fmt::format("particle {} appears twice in frame {}", parts[*particle],
                                     parts[*frame]));
@@ -222,11 +229,12 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     result.y_down = true;
     std::map<std::int64_t, TrackFrame> frames;
     for (const auto& [id, track] : tracks)
-        for (const auto& [number, position] : track) {
+        for (const auto& [number, place] : track) {
             TrackFrame& f = frames[number];
             f.number = number;
             f.id.push_back(id);
-            f.position.push_back(position);
+            f.position.push_back(place.position);
+            if (radius) f.radius.push_back(place.radius);
         }
     for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
     return result;

@@ -1,7 +1,8 @@
 // Tracks recorded by a camera, or by another program, as snapshots.
 //
 //   trackpy CSV   a header line with at least frame, particle, x, y (any order, further columns
-//                 ignored); x to the right and y downwards, in pixels
+//                 ignored); x to the right and y downwards, in pixels. With the columns seen and
+//                 radius, as `swirl track` writes them, the discs have these radii
 //   LAMMPS dump   text; id, x and y (or xu, yu), and where given vx, vy, radius, mass, omegaz
 //
 // Velocities that are not given are central differences over the frame before and the frame after

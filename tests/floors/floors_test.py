@@ -21,8 +21,9 @@ BELOW = {
     "run": {*ENGINE, "files"},
     "study": {*ENGINE, "files", "run"},
     "film": {*ENGINE, "files", "draw", "run"},
+    "vision": {*ENGINE, "files", "draw", "run"},
     "paper": {*ENGINE, "files", "draw", "run", "study", "film"},
-    "app": {*ENGINE, "files", "draw", "run", "study", "film", "paper"},
+    "app": {*ENGINE, "files", "draw", "run", "study", "film", "vision", "paper"},
 }
 
 FORBIDDEN_HEADERS = {

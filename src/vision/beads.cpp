@@ -1,0 +1,326 @@
+#include "swirl/vision/beads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr double sure_support = 0.45, any_support = 0.16;
+/// Centres of hard discs are the sum of their radii apart; what is nearer than this share of it is
+/// the same disc twice.
+constexpr double least_distance = 0.8;
+
+double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The edges inside the dish; its wall's own are left out.
+std::vector<EdgePixel> edges_inside(const Picture& picture, const CircleFit& rim) {
+    const Vec2 centre = picture.to_small(rim.centre);
+    const double radius = rim.radius * picture.shrink - 1.0;
+    std::vector<EdgePixel> inside;
+    for (const EdgePixel& e : picture.edges) {
+        const double x = double(e.x) - centre.x, y = double(e.y) - centre.y;
+        if (x * x + y * y < radius * radius) inside.push_back(e);
+    }
+    return inside;
+}
+
+/// The best ones that keep their distance.
+std::vector<CircleCandidate> apart(std::vector<CircleCandidate> all) {
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.support * std::sqrt(a.radius) > b.support * std::sqrt(b.radius);
+    });
+    std::vector<CircleCandidate> kept;
+    for (const CircleCandidate& c : all) {
+        const bool free = std::none_of(kept.begin(), kept.end(), [&](const auto& k) {
+            return length(k.centre - c.centre) < least_distance * (k.radius + c.radius);
+        });
+        if (free) kept.push_back(c);
+    }
+    return kept;
+}
+
+bool within(const CircleFit& rim, const Vec2& centre, double radius) {
+    return length(centre - rim.centre) + radius < rim.radius + 0.3 * radius + 1.0;
+}
+
+RaySettings rays_for(const Picture& picture, double radius) {
+    RaySettings rays;
+    rays.rays = std::clamp(static_cast<int>(pi * radius), 28, 96);
+    rays.window = std::max(3.0, 0.17 * radius);
+    rays.least = 2.5 * picture.noise;
+    rays.tolerance = std::max(1.2, 0.06 * radius);
+    return rays;
+}
+
+/// Windows of a fifth of the radius to either side, four pixels at most outside, where neighbours
+/// are.
+Limb limb_for(double radius, double blur) {
+    const int inside = std::clamp(static_cast<int>(0.22 * radius / Limb::step), 5, 14);
+    const int outside = std::clamp(static_cast<int>(0.16 * radius / Limb::step), 5, 8);
+    return Limb(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0));
+}
+
+/// One size or two? The gap that splits the radii best.
+std::vector<BeadKind> kinds_of(std::vector<double> radii) {
+    std::sort(radii.begin(), radii.end());
+    const auto kind = [&](std::size_t from, std::size_t to) {
+        const std::vector<double> part(radii.begin() + static_cast<std::ptrdiff_t>(from),
+                                       radii.begin() + static_cast<std::ptrdiff_t>(to));
+        BeadKind k;
+        k.radius = median(part);
+        std::vector<double> off;
+        for (const double r : part) off.push_back(std::abs(r - k.radius));
+        k.scatter = 1.4826 * median(off);
+        k.number = part.size();
+        return k;
+    };
+    const std::size_t n = radii.size();
+    const BeadKind one = kind(0, n);
+    std::size_t best = 0;
+    double best_square = 0.0, sum = 0.0, total = 0.0;
+    for (const double r : radii) total += r;
+    for (std::size_t k = 1; k < n; ++k) {  // Otsu: the largest variance between the two
+        sum += radii[k - 1];
+        const double low = sum / double(k), high = (total - sum) / double(n - k);
+        const double square = double(k) * double(n - k) * (high - low) * (high - low);
+        if (square > best_square) best_square = square, best = k;
+    }
+    if (best == 0) return {one};
+    const BeadKind small = kind(0, best), large = kind(best, n);
+    const double gap = large.radius - small.radius;
+    const bool two = gap > 0.08 * small.radius &&
+                     gap > 5.0 * std::max(small.scatter, large.scatter) &&
+                     std::min(small.number, large.number) * 40 > n;
+    if (!two) return {one};
+    return {small, large};
+}
+
+}  // namespace
+
+BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims) {
+    // Which radius explains most edges?
+    const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 6);
+    struct Best {
+        double worth = 0.0, radius = 0.0;
+        Polarity polarity = 1;
+    } best;
+    std::vector<std::vector<EdgePixel>> edges;
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+        edges.push_back(edges_inside(pictures[k], rims[k]));
+    std::vector<std::pair<double, Polarity>> radii;
+    const double dish = rims.front().radius * pictures.front().shrink;
+    for (double radius = std::max(3.0, dish / 25.0); radius < dish / 2.5;
+         radius += std::max(0.5, 0.04 * radius))
+        for (const Polarity polarity : {1, -1}) {
+            double worth = 0.0;
+            for (std::size_t k = 0; k < pictures.size(); k += stride) {
+                if (!rims[k].good) continue;
+                const double area = dish * dish / (radius * radius);
+                auto found = apart(vote(edges[k], pictures[k].small.size(), radius, polarity, 0.3,
+                                        static_cast<std::size_t>(1.2 * area)));
+                for (const CircleCandidate& c : found)
+                    if (within(rims[k], pictures[k].to_sharp(c.centre),
+                               radius / pictures[k].shrink))
+                        worth += c.support * c.support * radius;
+            }
+            if (worth > best.worth) best = {worth, radius, polarity};
+        }
+    if (!(best.worth > 0.0))
+        throw Failure(
+            "The dish was found, but no discs in it: there are no circles that stand out from its "
+            "floor.");
+    // One or two sizes about that one, by fits with free radius.
+    struct Spot {
+        std::size_t picture;
+        Vec2 centre;
+        double radius;
+    };
+    std::vector<Spot> spots;
+    std::vector<double> fitted;
+    std::vector<std::vector<double>> by_picture;
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+        if (!rims[k].good) continue;
+        const Picture& p = pictures[k];
+        std::vector<CircleCandidate> all;
+        for (double factor = 0.6; factor < 1.9; factor *= 1.07) {
+            const double radius = best.radius * factor;
+            const auto found = vote(edges[k], p.small.size(), radius, best.polarity, 0.35, 600);
+            all.insert(all.end(), found.begin(), found.end());
+        }
+        std::vector<CircleFit> kept;
+        for (CircleCandidate& c : all) c.centre = p.to_sharp(c.centre), c.radius /= p.shrink;
+        for (const CircleCandidate& c : apart(all)) {
+            RaySettings rays = rays_for(p, c.radius);
+            rays.free_radius = true;
+            const CircleFit fit = fit_circle(p.sharp, c.centre, c.radius, best.polarity, rays);
+            if (!fit.good || fit.support < 0.33 || !within(rims[k], fit.centre, fit.radius))
+                continue;
+            kept.push_back(fit);
+        }
+        std::sort(kept.begin(), kept.end(),
+                  [](const CircleFit& a, const CircleFit& b) { return a.support > b.support; });
+        std::vector<CircleFit> separate;
+        for (const CircleFit& f : kept)
+            if (std::none_of(separate.begin(), separate.end(), [&](const CircleFit& s) {
+                    return length(s.centre - f.centre) < least_distance * (s.radius + f.radius);
+                }))
+                separate.push_back(f);
+        for (const CircleFit& f : separate) spots.push_back({k, f.centre, f.radius});
+    }
+    // The film's blur is the one with which limbs fit best; then their true places.
+    std::vector<CircleFit> exact(spots.size());
+    double least_rest = 1e300, blur = 1.0;
+    for (const double trial : {0.6, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5}) {
+        const Limb limb = limb_for(best.radius / pictures.front().shrink, trial);
+        std::vector<CircleFit> fits;
+        std::vector<double> rests;
+        for (const Spot& spot : spots) {
+            const Picture& p = pictures[spot.picture];
+            RaySettings rays = rays_for(p, spot.radius);
+            rays.free_radius = true;
+            rays.limb = &limb;
+            fits.push_back(fit_circle(p.sharp, spot.centre, spot.radius, best.polarity, rays));
+            if (fits.back().good) rests.push_back(fits.back().rest);
+        }
+        const double rest = rests.size() < 4 ? 1e300 : median(rests);
+        if (rest < least_rest) least_rest = rest, blur = trial, exact = fits;
+    }
+    by_picture.resize(pictures.size());
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+        if (!exact[k].good) continue;
+        fitted.push_back(exact[k].radius);
+        by_picture[spots[k].picture].push_back(exact[k].radius);
+    }
+    if (fitted.empty())
+        throw Failure(
+            "The dish was found, but no discs in it: what circles there are have no sharp edges. "
+            "Is the film out of focus, or the contrast between discs and floor too low?");
+    BeadLook look;
+    look.polarity = best.polarity;
+    look.kinds = kinds_of(fitted);
+    for (const BeadKind& kind : look.kinds) look.limbs.push_back(limb_for(kind.radius, blur));
+    // Soft or faint edges have less support; what is sure is judged by what is common here.
+    std::vector<double> supports;
+    for (const CircleFit& fit : exact)
+        if (fit.good) supports.push_back(fit.support);
+    // Sharp pictures are left sharp; where edges hardly stand out from the noise, blur helps.
+    std::vector<double> clarity;
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (exact[k].good && pictures[spots[k].picture].noise > 0.0)
+            clarity.push_back(exact[k].contrast / pictures[spots[k].picture].noise);
+    if (!clarity.empty())
+        look.blur = std::clamp(0.6 * std::sqrt(60.0 / std::max(median(clarity), 1.0)), 0.6,
+                               std::clamp(0.1 * look.radius(), 0.6, 2.0));
+    look.sure = std::clamp(0.8 * median(supports), 0.3, sure_support);
+    // Equal balls show what the lens does; their size is that in the middle of the picture.
+    std::vector<SeenSize> sizes;
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+        if (!exact[k].good || exact[k].support < look.sure) continue;
+        double nearest = 1e300, size = 0.0;
+        for (const BeadKind& kind : look.kinds)
+            if (std::abs(exact[k].radius - kind.radius) < nearest) {
+                nearest = std::abs(exact[k].radius - kind.radius);
+                size = exact[k].radius / kind.radius;
+            }
+        if (nearest < 0.2 * look.radius()) sizes.push_back({exact[k].centre, size});
+    }
+    const cv::Size whole = pictures.front().sharp.size();
+    look.lens =
+        lens_of(sizes, {0.5 * (whole.width - 1), 0.5 * (whole.height - 1)}, 0.5 * whole.height);
+    if (look.lens.k != 0.0) {
+        std::vector<double> ratios;
+        for (const SeenSize& s : sizes)
+            ratios.push_back(s.size / look.lens.seen_radius(s.centre, 1.0));
+        const double factor = median(ratios);
+        for (BeadKind& kind : look.kinds) kind.radius *= factor;
+    }
+    // How many of each: what most pictures say.
+    const auto commonest = [&](auto&& counts) {
+        std::map<std::size_t, std::size_t> times;
+        for (const auto& here : by_picture) ++times[counts(here)];
+        std::size_t mode = 0, most = 0;
+        for (const auto& [count, often] : times)
+            if (often >= most) mode = count, most = often;
+        return mode;
+    };
+    look.number = commonest([](const std::vector<double>& here) { return here.size(); });
+    if (look.kinds.size() == 2) {
+        const double border = 0.5 * (look.kinds[0].radius + look.kinds[1].radius);
+        look.kinds[1].number = commonest([&](const std::vector<double>& here) {
+            return static_cast<std::size_t>(
+                std::count_if(here.begin(), here.end(), [&](double r) { return r > border; }));
+        });
+        look.kinds[0].number = look.number - std::min(look.number, look.kinds[1].number);
+    } else {
+        look.kinds[0].number = look.number;
+    }
+    return look;
+}
+
+std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look) {
+    const std::vector<EdgePixel> edges = edges_inside(picture, rim);
+    std::vector<Bead> all;
+    for (std::size_t kind = 0; kind < look.kinds.size(); ++kind) {
+        const double radius = look.kinds[kind].radius;
+        const double area = rim.radius * rim.radius / (radius * radius);
+        const auto candidates =
+            vote(edges, picture.small.size(), radius * picture.shrink, look.polarity, 0.18,
+                 std::min(static_cast<std::size_t>(1.3 * area) + 4, 3 * look.number + 8));
+        RaySettings rays = rays_for(picture, radius);
+        for (const CircleCandidate& c : candidates) {
+            const Vec2 seed = picture.to_sharp(c.centre);
+            if (!within(rim, seed, radius)) continue;
+            const CircleFit fit = fit_circle(
+                picture.sharp, seed, look.lens.seen_radius(seed, radius), look.polarity, rays);
+            if (!fit.good || fit.support < any_support || !within(rim, fit.centre, radius))
+                continue;
+            all.push_back({fit.centre, kind, fit.support, fit.error, false});
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Bead& a, const Bead& b) { return a.support > b.support; });
+    std::vector<Bead> kept;
+    for (Bead bead : all) {
+        bool same = false, overlaps = false;
+        for (const Bead& k : kept) {
+            const double distance = length(k.centre - bead.centre);
+            const double sum = look.kinds[k.kind].radius + look.kinds[bead.kind].radius;
+            same = same || distance < 0.25 * sum;
+            overlaps = overlaps || (k.sure && distance < least_distance * sum);
+        }
+        if (same) continue;
+        bead.sure = !overlaps && bead.support >= look.sure;
+        kept.push_back(bead);
+    }
+    // Their exact places.
+    for (Bead& bead : kept) {
+        const double radius = look.kinds[bead.kind].radius;
+        RaySettings rays = rays_for(picture, radius);
+        rays.limb = &look.limbs[bead.kind];
+        rays.limb_alone = true;
+        const CircleFit fit =
+            fit_circle(picture.sharp, bead.centre, look.lens.seen_radius(bead.centre, radius),
+                       look.polarity, rays);
+        // The steepest places err towards the lamp, the limb's with the texture: independent errors
+        // of about the same size, of which the mean is better than both.
+        if (!fit.good || length(fit.centre - bead.centre) > std::max(1.0, 0.04 * radius)) continue;
+        bead.centre = 0.5 * (bead.centre + fit.centre);
+        bead.error = fit.error;
+    }
+    return kept;
+}
+
+}  // namespace swirl

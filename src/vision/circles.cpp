@@ -1,0 +1,330 @@
+#include "swirl/vision/circles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl {
+
+namespace {
+
+double median_of(std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+inline float between_pixels(const cv::Mat& picture, float x, float y) {
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+    const float* above = picture.ptr<float>(row) + column;
+    const float* below = picture.ptr<float>(row + 1) + column;
+    return (1.0f - v) * ((1.0f - u) * above[0] + u * above[1]) +
+           v * ((1.0f - u) * below[0] + u * below[1]);
+}
+
+/// Steepest place on a ray.
+struct RayEdge {
+    double ux, uy, distance, slope;
+    double rest = 0.0;
+};
+
+/// Solves the symmetric 3×3 (or, without the last row, 2×2) system; false if it is singular.
+bool solve(const double (&m)[3][3], const double (&b)[3], int n, double (&x)[3],
+           double (&inverse_diagonal)[3]) {
+    if (n == 2) {
+        const double det = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+        if (!(det > 1e-9 * m[0][0] * m[1][1])) return false;
+        x[0] = (m[1][1] * b[0] - m[0][1] * b[1]) / det;
+        x[1] = (m[0][0] * b[1] - m[0][1] * b[0]) / det;
+        x[2] = 0.0;
+        inverse_diagonal[0] = m[1][1] / det;
+        inverse_diagonal[1] = m[0][0] / det;
+        return true;
+    }
+    const double c00 = m[1][1] * m[2][2] - m[1][2] * m[1][2];
+    const double c01 = m[0][2] * m[1][2] - m[0][1] * m[2][2];
+    const double c02 = m[0][1] * m[1][2] - m[0][2] * m[1][1];
+    const double c11 = m[0][0] * m[2][2] - m[0][2] * m[0][2];
+    const double c12 = m[0][1] * m[0][2] - m[0][0] * m[1][2];
+    const double c22 = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+    const double det = m[0][0] * c00 + m[0][1] * c01 + m[0][2] * c02;
+    if (!(det > 1e-9 * m[0][0] * m[1][1] * m[2][2])) return false;
+    x[0] = (c00 * b[0] + c01 * b[1] + c02 * b[2]) / det;
+    x[1] = (c01 * b[0] + c11 * b[1] + c12 * b[2]) / det;
+    x[2] = (c02 * b[0] + c12 * b[1] + c22 * b[2]) / det;
+    inverse_diagonal[0] = c00 / det;
+    inverse_diagonal[1] = c11 / det;
+    return true;
+}
+
+/// By the limb's profile, around a circle that is known to about a pixel.
+void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
+                const RaySettings& settings, std::vector<RayEdge>& edges) {
+    const Limb& limb = *settings.limb;
+    const int samples = limb.inside() + limb.outside() + 1;
+    std::vector<float> profile(static_cast<std::size_t>(samples));
+    for (int k = 0; k < settings.rays; ++k) {
+        const Vec2 u = unit_circle(double(k) / settings.rays);
+        const Vec2 first = fit.centre + (fit.radius - Limb::step * limb.inside()) * u,
+                   last = fit.centre + (fit.radius + Limb::step * limb.outside()) * u;
+        const auto within = [&](const Vec2& p) {
+            return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
+        };
+        if (!within(first) || !within(last)) continue;
+        for (int j = 0; j < samples; ++j)
+            profile[static_cast<std::size_t>(j)] =
+                between_pixels(picture, static_cast<float>(first.x + Limb::step * j * u.x),
+                               static_cast<float>(first.y + Limb::step * j * u.y));
+        const Limb::Edge edge = limb.find(profile.data());
+        if (!edge.found || polarity * edge.contrast <= 0.0) continue;
+        edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest});
+    }
+}
+
+}  // namespace
+
+double gradient_noise(const cv::Mat& picture) {
+    std::vector<double> slopes;
+    for (int row = 1; row + 1 < picture.rows; row += 7) {
+        const float* p = picture.ptr<float>(row);
+        for (int column = 1; column + 1 < picture.cols; column += 3)
+            slopes.push_back(std::abs(0.5 * double(p[column + 1] - p[column - 1])));
+    }
+    return median_of(slopes) / 0.6745;
+}
+
+std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
+    cv::Mat dx, dy;
+    cv::Scharr(picture, dx, CV_32F, 1, 0, 1.0 / 32.0);
+    cv::Scharr(picture, dy, CV_32F, 0, 1, 1.0 / 32.0);
+    cv::Mat steepness;
+    cv::magnitude(dx, dy, steepness);
+    // Faint edges count as well, if they stand out from the noise.
+    std::vector<double> sample;
+    for (int row = 1; row < picture.rows; row += 5) {
+        const float* s = steepness.ptr<float>(row);
+        for (int column = 1; column < picture.cols; column += 3)
+            sample.push_back(double(s[column]));
+    }
+    if (sample.empty()) return {};
+    std::vector<double> copy = sample;
+    // For noise of standard deviation σ in both derivatives the median length is 1.18 σ.
+    const double noise = median_of(copy) / 1.18;
+    const auto high = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() * 97 / 100);
+    std::nth_element(sample.begin(), high, sample.end());
+    const auto least = static_cast<float>(std::max({3.5 * noise, 0.12 * *high, 0.25}));
+    std::vector<EdgePixel> edges;
+    for (int row = 1; row + 1 < picture.rows; ++row) {
+        const float* s = steepness.ptr<float>(row);
+        const float* above = steepness.ptr<float>(row - 1);
+        const float* below = steepness.ptr<float>(row + 1);
+        for (int column = 1; column + 1 < picture.cols; ++column) {
+            const float here = s[column];
+            if (here < least) continue;
+            const float gx = dx.ptr<float>(row)[column], gy = dy.ptr<float>(row)[column];
+            // The ridge of steepness: larger than both neighbours along the gradient.
+            float one, other;
+            const float ax = std::abs(gx), ay = std::abs(gy);
+            if (ax > 2.414f * ay) {
+                one = s[column - 1], other = s[column + 1];
+            } else if (ay > 2.414f * ax) {
+                one = above[column], other = below[column];
+            } else if ((gx > 0.0f) == (gy > 0.0f)) {
+                one = above[column - 1], other = below[column + 1];
+            } else {
+                one = above[column + 1], other = below[column - 1];
+            }
+            if (here < one || here <= other) continue;
+            edges.push_back({static_cast<float>(column), static_cast<float>(row), gx / here,
+                             gy / here, std::min(1.0f, here / (2.0f * least))});
+        }
+    }
+    return edges;
+}
+
+std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size size, double radius,
+                                  Polarity polarity, double least, std::size_t most) {
+    cv::Mat votes = cv::Mat::zeros(size, CV_32F);
+    const auto step = static_cast<float>(polarity * radius);
+    for (const EdgePixel& e : edges) {
+        const float x = e.x + step * e.gx, y = e.y + step * e.gy;
+        if (!(x >= 0.0f && y >= 0.0f)) continue;
+        const int column = static_cast<int>(x), row = static_cast<int>(y);
+        if (column + 1 >= size.width || row + 1 >= size.height) continue;
+        const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+        float* above = votes.ptr<float>(row) + column;
+        float* below = votes.ptr<float>(row + 1) + column;
+        above[0] += e.weight * (1.0f - u) * (1.0f - v);
+        above[1] += e.weight * u * (1.0f - v);
+        below[0] += e.weight * (1.0f - u) * v;
+        below[1] += e.weight * u * v;
+    }
+    // Votes scatter: by the pixels' grid, and by a few degrees of the gradient's direction.
+    const double spread = 0.7 + 0.07 * radius;
+    const int side = 2 * static_cast<int>(std::ceil(2.2 * spread)) + 1;
+    cv::GaussianBlur(votes, votes, cv::Size(side, side), spread, spread, cv::BORDER_CONSTANT);
+    const double own = 0.5 + 0.05 * radius;
+    // All of a circumference of 2π a pixels, of which the ridge keeps nine in ten.
+    const double whole = 0.9 * 2.0 * pi * radius / (2.0 * pi * (spread * spread + own * own));
+    std::vector<CircleCandidate> found;
+    const auto threshold = static_cast<float>(least * whole);
+    const int near = std::max(1, static_cast<int>(0.5 * radius));
+    for (int row = 1; row + 1 < size.height; ++row) {
+        const float* v = votes.ptr<float>(row);
+        for (int column = 1; column + 1 < size.width; ++column) {
+            const float here = v[column];
+            if (here < threshold || here < v[column - 1] || here <= v[column + 1]) continue;
+            const float* above = votes.ptr<float>(row - 1) + column;
+            const float* below = votes.ptr<float>(row + 1) + column;
+            if (here < above[0] || here <= below[0] || here < above[-1] || here < above[1] ||
+                here <= below[-1] || here <= below[1])
+                continue;
+            const auto vertex = [&](float before, float after) {
+                const float bend = before - 2.0f * here + after;
+                return bend < 0.0f ? 0.5 * double((before - after) / bend) : 0.0;
+            };
+            found.push_back(
+                {{column + vertex(v[column - 1], v[column + 1]), row + vertex(above[0], below[0])},
+                 radius,
+                 polarity,
+                 double(here) / whole});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+        return a.support != b.support     ? a.support > b.support
+               : a.centre.y != b.centre.y ? a.centre.y < b.centre.y
+                                          : a.centre.x < b.centre.x;
+    });
+    std::vector<CircleCandidate> kept;
+    for (const CircleCandidate& c : found) {
+        if (kept.size() == most) break;
+        const bool taken = std::any_of(kept.begin(), kept.end(), [&](const auto& k) {
+            const Vec2 d = k.centre - c.centre;
+            return dot(d, d) < double(near) * double(near);
+        });
+        if (!taken) kept.push_back(c);
+    }
+    return kept;
+}
+
+CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarity polarity,
+                     const RaySettings& settings) {
+    CircleFit fit{centre, radius};
+    constexpr double step = 0.5;
+    std::vector<RayEdge> edges;
+    std::vector<float> profile;
+    std::vector<double> sizes, weights;
+    double window = settings.window;
+    CircleFit steep = fit;  // by the steepest places alone
+    for (int round = settings.limb_alone ? 2 : 0; round < 4; ++round) {
+        edges.clear();
+        const bool by_limb = settings.limb && round >= 2;
+        if (round == 2) steep = fit;
+        if (by_limb) limb_edges(picture, fit, polarity, settings, edges);
+        const int samples = 2 * static_cast<int>(std::ceil(window / step)) + 5;
+        profile.resize(static_cast<std::size_t>(samples));
+        for (int k = 0; k < settings.rays && !by_limb; ++k) {
+            const Vec2 u = unit_circle(double(k) / settings.rays);
+            const double begin = fit.radius - 0.5 * step * (samples - 1);
+            const Vec2 first = fit.centre + begin * u,
+                       last = fit.centre + (begin + step * (samples - 1)) * u;
+            const auto inside = [&](const Vec2& p) {
+                return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
+            };
+            if (!inside(first) || !inside(last)) continue;
+            for (int j = 0; j < samples; ++j)
+                profile[static_cast<std::size_t>(j)] =
+                    between_pixels(picture, static_cast<float>(first.x + step * j * u.x),
+                                   static_cast<float>(first.y + step * j * u.y));
+            // Slopes over two pixels; bright inside descends outwards.
+            int best = -1;
+            float steepest = 0.0f;
+            const auto slope = [&](int j) {
+                return static_cast<float>(-polarity) * 0.5f *
+                       (profile[static_cast<std::size_t>(j + 2)] -
+                        profile[static_cast<std::size_t>(j - 2)]);
+            };
+            for (int j = 2; j + 2 < samples; ++j)
+                if (const float s = slope(j); s > steepest) steepest = s, best = j;
+            if (best < 3 || best + 3 >= samples || double(steepest) < settings.least) continue;
+            const float before = slope(best - 1), after = slope(best + 1);
+            const float bend = before - 2.0f * steepest + after;
+            const double shift = bend < 0.0f ? 0.5 * double((before - after) / bend) : 0.0;
+            edges.push_back(
+                {u.x, u.y, begin + step * (best + std::clamp(shift, -1.0, 1.0)), double(steepest)});
+        }
+        // Where limbs cannot be made out, the steepest places must do.
+        if (edges.size() < static_cast<std::size_t>(settings.rays) / 5 + 3)
+            return by_limb ? steep : fit;
+        // Reweighted until it stands still, with a scale that shrinks to that of the inliers.
+        double d[3] = {0.0, 0.0, 0.0}, inverse[3] = {0.0, 0.0, 0.0};
+        {  // a start that half of the rays cannot move: the median of the distances
+            sizes.clear();
+            for (const RayEdge& e : edges) sizes.push_back(e.distance - fit.radius);
+            if (settings.free_radius) d[2] = median_of(sizes);
+        }
+        double scale = window;
+        for (int pass = 0; pass < 8; ++pass) {
+            double m[3][3] = {}, b[3] = {}, x[3];
+            sizes.clear();
+            for (const RayEdge& e : edges) {
+                const double rest = e.distance - fit.radius - e.ux * d[0] - e.uy * d[1] - d[2];
+                sizes.push_back(std::abs(rest));
+                const double q = rest / (3.0 * scale);
+                if (q * q >= 1.0) continue;
+                const double w = (1.0 - q * q) * (1.0 - q * q);
+                const double y = e.distance - fit.radius;
+                const double j[3] = {e.ux, e.uy, 1.0};
+                for (int r = 0; r < 3; ++r) {
+                    for (int c = r; c < 3; ++c) m[r][c] += w * j[r] * j[c];
+                    b[r] += w * j[r] * y;
+                }
+            }
+            m[1][0] = m[0][1];
+            if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse))
+                return by_limb ? steep : fit;
+            for (int r = 0; r < 3; ++r) d[r] = x[r];
+            scale = std::max(1.4826 * median_of(sizes), 0.15);
+            scale = std::min(scale, window);
+        }
+        const double limit = 1.5 * settings.window;
+        if (std::abs(d[0]) > limit || std::abs(d[1]) > limit || std::abs(d[2]) > limit)
+            return by_limb ? steep : fit;
+        fit.centre = fit.centre + Vec2{d[0], d[1]};
+        fit.radius += d[2];
+        // What lies on the circle, and how well.
+        weights.clear();
+        double square = 0.0, fit_rest = 0.0;
+        std::size_t on = 0;
+        for (const RayEdge& e : edges) {
+            const double rest = e.distance - (fit.radius - d[2]) - e.ux * d[0] - e.uy * d[1] - d[2];
+            if (std::abs(rest) > settings.tolerance) continue;
+            square += rest * rest;
+            weights.push_back(e.slope);
+            fit_rest += e.rest;
+            ++on;
+        }
+        if (on > 0) fit.rest = fit_rest / double(on);
+        fit.support = std::max(fit.support, double(on) / settings.rays);
+        if (on < 6) return by_limb ? steep : fit;
+        fit.contrast = median_of(weights);
+        fit.residual = std::sqrt(square / double(on - 2));
+        fit.error = fit.residual * std::sqrt(0.5 * (inverse[0] + inverse[1]));
+        fit.good = true;
+        const double moved = std::sqrt(d[0] * d[0] + d[1] * d[1]);
+        window = std::max(std::min(settings.window, 2.0), 0.6 * settings.window);
+        if (settings.limb) {
+            if (round == 1 && moved > 0.5) continue;
+            if (round == 2 && moved < 0.05) break;
+        } else if (round > 0 && moved < 0.02) {
+            break;
+        }
+    }
+    return fit;
+}
+
+}  // namespace swirl

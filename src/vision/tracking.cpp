@@ -1,0 +1,495 @@
+#include "swirl/vision/tracking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <opencv2/core.hpp>
+#include <thread>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/vision/beads.hpp"
+#include "swirl/vision/dish.hpp"
+#include "swirl/vision/link.hpp"
+#include "swirl/vision/video.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr std::int64_t survey_pictures = 48;
+constexpr double votes_side = 300.0;   // of the picture in which the dish is sought, pixels
+constexpr double votes_radius = 12.0;  // of the discs in the picture in which they are
+
+double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// Where the values become dense.
+double commonest(const std::vector<double>& values, double width) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto number = [&](double from) {
+        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
+               std::lower_bound(sorted.begin(), sorted.end(), from);
+    };
+    std::ptrdiff_t most = 0;
+    double at = 0.0;
+    for (const double v : sorted)
+        if (number(v) > most) most = number(v), at = v;
+    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
+    double half = at;
+    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
+    return 0.5 * (half + at) + width;
+}
+
+/// What one picture says.
+struct Seen {
+    CircleFit rim;
+    std::vector<Bead> beads;
+};
+
+struct Survey {
+    Rim rim;
+    BeadLook look;
+    cv::Size size;
+};
+
+Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
+    const std::int64_t every = std::max<std::int64_t>(1, pictures / survey_pictures);
+    Video video(settings.film, every);
+    cv::Mat grey;
+    std::vector<cv::Mat> kept;
+    while (static_cast<std::int64_t>(kept.size()) < survey_pictures + 2 && video.next(grey)) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        kept.push_back(grey.clone());
+        if (settings.progress)
+            settings.progress("looking for the dish", double(kept.size()) / (survey_pictures + 2));
+    }
+    Survey found;
+    found.size = kept.front().size();
+    const double side = std::min(found.size.width, found.size.height);
+    if (side < 64)
+        throw Failure(fmt::format("The pictures of '{}' are {}x{} pixels, which shows no discs.",
+                                  settings.film, found.size.width, found.size.height));
+    std::vector<Picture> small;
+    for (const cv::Mat& picture : kept)
+        small.emplace_back(picture, std::min(1.0, votes_side / side), 1.0);
+    found.rim = survey_rim(small);
+    // The discs are looked for on fewer.
+    std::vector<Picture> fewer;
+    std::vector<CircleFit> rims;
+    const std::size_t stride = std::max<std::size_t>(1, small.size() / 24);
+    const double sharp_side = std::min(1.0, 1.3 * votes_side / side);
+    for (std::size_t k = 0; k < small.size(); k += stride) {
+        const CircleFit rim = find_rim(small[k], found.rim);
+        if (!rim.good) continue;
+        rims.push_back(rim);
+        fewer.emplace_back(kept[k], sharp_side, 0.6);
+    }
+    if (fewer.empty()) throw Failure("No dish was found in the pictures.");
+    found.look = survey_beads(fewer, rims);
+    return found;
+}
+
+/// Every picture, a batch at a time, shared between the threads.
+std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& found,
+                              std::int64_t expected, TrackedFilm& film) {
+    const unsigned threads =
+        settings.threads ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+    Video video(settings.film);
+    const double radius = found.look.radius();
+    const double shrink = std::min(1.0, votes_radius / radius);
+    const double blur = found.look.blur;
+    std::vector<Seen> all;
+    std::vector<cv::Mat> batch(4 * threads);
+    cv::setNumThreads(1);
+    for (bool more = true; more;) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        std::size_t got = 0;
+        while (got < batch.size() && more) {
+            more = (settings.most_pictures == 0 || video.count() < settings.most_pictures) &&
+                   video.next(batch[got]);
+            if (!more) break;
+            if (batch[got].size() != found.size)
+                throw Failure(fmt::format("Picture {} of '{}' has another size than the first.",
+                                          video.count(), settings.film));
+            ++got;
+        }
+        const std::size_t begin = all.size();
+        all.resize(begin + got);
+        std::atomic<std::size_t> next{0};
+        std::exception_ptr trouble;
+        std::mutex mutex;
+        const auto work = [&] {
+            for (;;) {
+                const std::size_t k = next++;
+                if (k >= got) return;
+                try {
+                    const Picture picture(batch[k], shrink, blur);
+                    Seen& seen = all[begin + k];
+                    seen.rim = find_rim(picture, found.rim);
+                    if (seen.rim.good) seen.beads = find_beads(picture, seen.rim, found.look);
+                } catch (...) {
+                    const std::lock_guard lock(mutex);
+                    trouble = std::current_exception();
+                }
+            }
+        };
+        std::vector<std::thread> workers;
+        for (unsigned t = 1; t < threads; ++t) workers.emplace_back(work);
+        work();
+        for (std::thread& worker : workers) worker.join();
+        if (trouble) std::rethrow_exception(trouble);
+        if (settings.progress)
+            settings.progress("finding discs",
+                              double(all.size()) / double(std::max<std::int64_t>(
+                                                       expected, std::int64_t(all.size()) + 1)));
+    }
+    if (!video.complaint().empty())
+        film.warnings.push_back(
+            fmt::format("The film ends early or is damaged after {} pictures; ffmpeg says: {}",
+                        all.size(), video.complaint()));
+    return all;
+}
+
+/// Of two discs that lie in each other the one with less of an edge was none.
+void drop_overlaps(const std::vector<Seen>& all, const std::vector<double>& radii, Links& links) {
+    constexpr double nearest = 0.84;  // of the sum of radii: more than errors of places explain
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::vector<Bead>& beads = all[k].beads;
+        for (std::size_t a = 0; a < beads.size(); ++a)
+            for (std::size_t b = a + 1; b < beads.size(); ++b) {
+                int &first = links.track[k][a], &second = links.track[k][b];
+                if (first < 0 || second < 0) continue;
+                if (length(beads[a].centre - beads[b].centre) >
+                    nearest * (radii[beads[a].kind] + radii[beads[b].kind]))
+                    continue;
+                (beads[a].support < beads[b].support ? first : second) = -1;
+            }
+    }
+}
+
+/// Pictures whose rim is hidden are searched where the path says that the dish is.
+void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film) {
+    std::vector<std::vector<SeenDisc>> discs;
+    for (const Seen& seen : all) {
+        std::vector<SeenDisc> here;
+        for (const Bead& b : seen.beads) here.push_back({b.centre, b.kind, b.sure});
+        discs.push_back(std::move(here));
+    }
+    LinkSettings settings;
+    for (const TrackedKind& kind : film.kinds) {
+        settings.radii.push_back(kind.radius);
+        settings.numbers.push_back(kind.number);
+    }
+    Links links = link_discs(discs, film.times, film.path, settings);
+    drop_overlaps(all, settings.radii, links);
+    film.refused = links.refused;
+    // By track: where it was when.
+    struct Place {
+        std::size_t picture;
+        Vec2 centre;
+        double error;
+    };
+    std::vector<std::vector<Place>> places(links.kind.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0)
+                places[static_cast<std::size_t>(t)].push_back(
+                    {k, all[k].beads[d].centre, all[k].beads[d].error});
+    // Out for a single picture and back again: a disc hit from both sides in between changes its
+    // velocity by little more than twice the dish's, so what is farther off was something else.
+    const double step = film.times[1] - film.times[0];
+    for (std::size_t t = 0; t < places.size(); ++t) {
+        const double most = std::max(0.2 * film.kinds[links.kind[t]].radius,
+                                     1.2 * film.path.amplitude * film.path.omega * step);
+        std::vector<Place> kept;
+        const auto at_dish = [&](const Place& p) {
+            return p.centre - film.path.at(film.times[p.picture]);
+        };
+        for (std::size_t j = 0; j < places[t].size(); ++j) {
+            if (j > 0 && j + 1 < places[t].size() &&
+                places[t][j + 1].picture - places[t][j - 1].picture == 2) {
+                const Vec2 off = at_dish(places[t][j]) -
+                                 0.5 * (at_dish(places[t][j - 1]) + at_dish(places[t][j + 1]));
+                if (length(off) > most) continue;
+            }
+            kept.push_back(places[t][j]);
+        }
+        places[t] = std::move(kept);
+    }
+    // A track of a few pictures is no disc.
+    const std::size_t fewest = std::min<std::size_t>(4, all.size());
+    film.tracks.y_down = true;
+    film.tracks.frames.resize(all.size());
+    film.errors.resize(all.size());
+    film.seen.resize(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.tracks.frames[k].number = static_cast<std::int64_t>(k);
+    const double per_period = 2.0 * pi / film.path.omega / (film.times[1] - film.times[0]);
+    const auto longest = static_cast<std::size_t>(std::max(2.0, per_period / 12.0));
+    std::int64_t id = 0;
+    std::map<std::size_t, std::size_t> kinds;
+    for (std::size_t t = 0; t < places.size(); ++t) {
+        if (places[t].size() < fewest) continue;
+        const double radius = film.kinds[links.kind[t]].radius;
+        const auto put = [&](std::size_t k, const Vec2& p, double error, bool seen) {
+            TrackFrame& f = film.tracks.frames[k];
+            f.id.push_back(id);
+            f.position.push_back(p);
+            f.radius.push_back(radius);
+            film.errors[k].push_back(error);
+            film.seen[k].push_back(seen ? 1 : 0);
+        };
+        for (std::size_t j = 0; j < places[t].size(); ++j) {
+            const Place& now = places[t][j];
+            if (j > 0) {
+                // Between two places, straight on relative to the dish.
+                const Place& before = places[t][j - 1];
+                const std::size_t gap = now.picture - before.picture;
+                const Vec2 from = before.centre - film.path.at(film.times[before.picture]),
+                           to = now.centre - film.path.at(film.times[now.picture]);
+                for (std::size_t k = before.picture + 1; gap <= longest && k < now.picture; ++k) {
+                    const double u = double(k - before.picture) / double(gap);
+                    put(k, film.path.at(film.times[k]) + (1.0 - u) * from + u * to, 0.1 * radius,
+                        false);
+                    ++film.filled;
+                }
+            }
+            put(now.picture, now.centre, now.error, true);
+        }
+        ++kinds[links.kind[t]];
+        ++id;
+    }
+    film.number = static_cast<std::size_t>(id);
+    for (std::size_t k = 0; k < film.kinds.size(); ++k) film.kinds[k].number = kinds[k];
+    (void)look;
+}
+
+void judge(const std::vector<Seen>& all, TrackedFilm& film) {
+    std::size_t complete = 0, count = 0;
+    double square = 0.0;
+    std::vector<double> reaches, gaps;  // gaps: to the nearest disc
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        const auto seen = static_cast<std::size_t>(
+            std::count(film.seen[k].begin(), film.seen[k].end(), std::uint8_t(1)));
+        if (seen == film.number) ++complete;
+        double reach = 0.0;
+        const Vec2 c = film.path.at(film.times[k]);
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            if (!film.seen[k][i]) continue;
+            square += film.errors[k][i] * film.errors[k][i];
+            ++count;
+            reach = std::max(reach, length(f.position[i] - c) + f.radius[i]);
+            double nearest = 1e300;
+            for (std::size_t j = 0; j < f.id.size(); ++j)
+                if (j != i && film.seen[k][j])
+                    nearest = std::min(
+                        nearest, length(f.position[i] - f.position[j]) - f.radius[i] - f.radius[j]);
+            if (std::abs(nearest) < 0.25 * f.radius[i]) gaps.push_back(nearest);
+        }
+        if (reach > 0.0) reaches.push_back(reach);
+    }
+    film.complete = double(complete) / double(all.size());
+    film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
+    film.reach = quantile(reaches, 0.8);
+    film.touching =
+        gaps.size() > 100 ? 1.0 + commonest(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
+    // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
+    // of a distance, √2 that of a place.
+    std::vector<double> overlaps;
+    for (const double g : gaps)
+        if (g < 0.0) overlaps.push_back(-g);
+    if (overlaps.size() > 50)
+        film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
+}
+
+/// What looks wrong, with its likely cause.
+void warn(TrackedFilm& film) {
+    const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
+    const double step = film.times[1] - film.times[0];
+    const double per_period = 2.0 * pi / (film.path.omega * step);
+    const double periods = double(film.pictures) / per_period;
+    if (periods < 1.0)
+        say(fmt::format("The film shows {:.2f} of a swirl; Ω and the centre want at least one.",
+                        periods));
+    if (per_period < 24.0)
+        say(fmt::format(
+            "There are only {:.1f} pictures for a swirl: discs may be taken for each other, and "
+            "their spins cannot be followed. 60 or more are right, 511 are the paper's.",
+            per_period));
+    if (film.path.used < 0.9)
+        say(fmt::format(
+            "In {:.0f} % of the pictures the rim is not where a dish on a circle would be: is "
+            "something in front of it (a hand), was the camera moved, or did the swirl change "
+            "during the film?",
+            100.0 * (1.0 - film.path.used)));
+    if (film.rims_missed * 20 > static_cast<std::size_t>(film.pictures))
+        say(fmt::format("The rim was not found in {:.0f} % of the pictures.",
+                        100.0 * double(film.rims_missed) / double(film.pictures)));
+    if (film.rim_radius - film.reach > 0.06 * film.radius)
+        say(fmt::format(
+            "The rim that is seen has a radius of {:.2f} pixels, but discs never come farther out "
+            "than {:.2f}: it is the outer edge of the wall. The latter is taken for the dish.",
+            film.rim_radius, film.reach));
+    if (film.reach - film.rim_radius > 0.06 * film.radius)
+        say(fmt::format(
+            "Discs come {:.2f} pixels farther out than the rim that is seen, of {:.2f} pixels "
+            "radius; where they are stopped is taken for the dish.",
+            film.reach - film.rim_radius, film.rim_radius));
+    if (film.complete < 0.9)
+        say(fmt::format(
+            "All {} discs are seen in only {:.1f} % of the pictures: more even light, less glare, "
+            "a sharper picture or a shorter exposure would help{}.",
+            film.number, 100.0 * film.complete,
+            film.kinds.size() == 1 ? "; --discs says how many there are" : ""));
+    if (double(film.refused) > 0.05 * double(film.pictures))
+        say(fmt::format(
+            "In {:.0f} % of the pictures there are more discs than the {} that were counted; "
+            "--discs says how many there are.",
+            100.0 * double(film.refused) / double(film.pictures), film.number));
+    if (film.touching > 0.0 && std::abs(film.touching - 1.0) > 0.03)
+        say(
+            fmt::format("Discs that touch are {:.3f} of the diameters apart that their outlines "
+                        "have, which are "
+                        "not sharp; the distance is taken for the diameter.",
+                        film.touching));
+}
+
+/// Of the counts of discs that are sure, the largest that is no accident.
+std::size_t common_number(const std::vector<Seen>& all, std::size_t kind) {
+    std::map<std::size_t, std::size_t, std::greater<>> times;
+    std::size_t pictures = 0;
+    for (const Seen& seen : all) {
+        if (!seen.rim.good) continue;
+        ++pictures;
+        ++times[static_cast<std::size_t>(
+            std::count_if(seen.beads.begin(), seen.beads.end(),
+                          [&](const Bead& b) { return b.sure && b.kind == kind; }))];
+    }
+    std::size_t so_far = 0;
+    for (const auto& [number, often] : times) {
+        so_far += often;
+        if (so_far * 7 > pictures) return number;
+    }
+    return 0;
+}
+
+}  // namespace
+
+TrackScale TrackedFilm::scale() const {
+    TrackScale s;
+    s.frames_per_time = fps > 0.0 ? fps : 1.0;
+    s.pixels_per_radius = radius;
+    s.swirl_centre = path.centre;
+    s.period = 2.0 * pi / path.omega;
+    s.amplitude = path.amplitude / radius;
+    s.phase = path.angle(times.empty() ? 0.0 : times.front());
+    s.container_radius = container_radius / radius;
+    s.clockwise = path.clockwise;
+    return s;
+}
+
+TrackedFilm track_film(const TrackingSettings& settings) {
+    TrackedFilm film;
+    FilmTimes times = film_times(settings.film);
+    std::int64_t expected = static_cast<std::int64_t>(times.seconds.size());
+    if (settings.most_pictures > 0)
+        expected =
+            expected > 0 ? std::min(expected, settings.most_pictures) : settings.most_pictures;
+    const Survey found = survey(settings, expected > 0 ? expected : 4 * survey_pictures);
+    film.width = found.size.width;
+    film.height = found.size.height;
+    film.bright = found.look.polarity > 0;
+    std::vector<Seen> all = look_at_all(settings, found, expected, film);
+    film.lens = found.look.lens;
+    std::vector<double> rims;
+    for (Seen& seen : all) {
+        if (!seen.rim.good) continue;
+        const Lens::Circle rim = film.lens.ideal({seen.rim.centre, seen.rim.radius});
+        seen.rim.centre = rim.centre;
+        rims.push_back(rim.radius);
+        for (Bead& bead : seen.beads)
+            bead.centre = film.lens.ideal({bead.centre, found.look.kinds[bead.kind].radius}).centre;
+    }
+    film.pictures = static_cast<std::int64_t>(all.size());
+    if (all.size() < 8)
+        throw Failure(fmt::format("'{}' holds {} pictures, too few to see a dish swirl.",
+                                  settings.film, all.size()));
+    // When they were taken: steps that are equal but for the rounding of the file's clock are
+    // equal.
+    film.fps = settings.fps.value_or(times.fps);
+    film.jitter = times.jitter;
+    const bool uneven = !settings.fps && times.jitter > 0.2 && times.seconds.size() == all.size();
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.times.push_back(uneven ? times.seconds[k] - times.seconds.front()
+                                    : double(k) / (film.fps > 0.0 ? film.fps : 1.0));
+    if (uneven)
+        film.warnings.push_back(fmt::format(
+            "The film's frame rate varies: the steps between its pictures differ by up to {:.0f} % "
+            "from their mean, as telephones do in poor light. Its own times are used; a fixed rate "
+            "(a setting of the camera) is better.",
+            100.0 * times.jitter));
+
+    std::vector<Vec2> centres;
+    std::vector<double> when, supports;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!all[k].rim.good) {
+            ++film.rims_missed;
+            continue;
+        }
+        centres.push_back(all[k].rim.centre);
+        when.push_back(film.times[k]);
+        supports.push_back(all[k].rim.support);
+    }
+    const auto path = fit_path(centres, when);
+    if (!path)
+        throw Failure(
+            "The dish was found, but its centre does not run round a circle: was the camera moved, "
+            "or is the film shorter than half a swirl?");
+    film.path = *path;
+    film.rim_radius = quantile(rims, 0.5);
+    film.rim_support = quantile(supports, 0.5);
+
+    for (std::size_t k = 0; k < found.look.kinds.size(); ++k) {
+        const BeadKind& kind = found.look.kinds[k];
+        film.kinds.push_back({kind.radius, kind.scatter, common_number(all, k)});
+    }
+    if (settings.discs && film.kinds.size() == 1)
+        film.kinds[0].number = static_cast<std::size_t>(*settings.discs);
+    std::size_t commonest = 0;
+    for (std::size_t k = 1; k < film.kinds.size(); ++k)
+        if (film.kinds[k].number > film.kinds[commonest].number) commonest = k;
+    film.radius = film.kinds[commonest].radius;
+    track(all, found.look, film);
+    if (film.number == 0) throw Failure("No disc could be followed through the film.");
+    judge(all, film);
+    // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or
+    // its top. Swirled discs are at the wall at all times.
+    // Where edges are soft, the shaded side of a ball is lost in the floor, and it looks too small.
+    if (std::abs(film.touching - 1.0) > 0.02 && film.touching > 0.5) {
+        film.reach += (film.touching - 1.0) * film.radius;
+        film.radius *= film.touching;
+        for (TrackedKind& kind : film.kinds) kind.radius *= film.touching;
+        for (TrackFrame& f : film.tracks.frames)
+            for (double& radius : f.radius) radius *= film.touching;
+    }
+    const bool agree = std::abs(film.rim_radius - film.reach) < 0.06 * film.radius;
+    film.container_radius = agree ? film.rim_radius : film.reach;
+    warn(film);
+    return film;
+}
+
+}  // namespace swirl

@@ -1,0 +1,113 @@
+#include "swirl/vision/dish.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+double noise(Random& random) {
+    double sum = -6.0;
+    for (int k = 0; k < 12; ++k) sum += random.uniform();
+    return sum;
+}
+
+TEST(DishPath, IsFoundWithItsErrors) {
+    Random random(5);
+    int within = 0, tried = 0;
+    for (const bool clockwise : {false, true})
+        for (int trial = 0; trial < 20; ++trial) {
+            DishPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, clockwise};
+            std::vector<Vec2> centres;
+            std::vector<double> times;
+            for (int k = 0; k < 300; ++k) {
+                times.push_back(k);
+                centres.push_back(truth.at(k) + Vec2{0.2 * noise(random), 0.2 * noise(random)});
+                if (k % 23 == 0) centres.back() = {100.0 * random.uniform(), 5.0};  // strays
+            }
+            const auto found = fit_path(centres, times);
+            ASSERT_TRUE(found);
+            EXPECT_EQ(found->clockwise, clockwise);
+            EXPECT_NEAR(found->residual, 0.2, 0.03);
+            EXPECT_NEAR(found->amplitude, 40.0, 0.1);
+            ++tried;
+            within += std::abs(found->omega - truth.omega) < 2.0 * found->omega_error;
+            EXPECT_NEAR(std::remainder(found->phase - truth.phase, 2.0 * pi), 0.0, 0.01);
+        }
+    // Two standard errors hold 95 of 100.
+    EXPECT_GE(within, tried * 8 / 10);
+}
+
+TEST(DishPath, AStillDishHasNone) {
+    Random random(6);
+    std::vector<Vec2> centres;
+    std::vector<double> times;
+    for (int k = 0; k < 200; ++k) {
+        times.push_back(k);
+        centres.push_back({300.0 + 0.3 * noise(random), 200.0 + 0.3 * noise(random)});
+    }
+    EXPECT_FALSE(fit_path(centres, times));
+}
+
+/// A bright ball on a dark floor: shaded towards its limb, textured, blurred, with noise.
+cv::Mat picture_of(const Vec2& centre, double radius, Polarity polarity, double noise_level,
+                   Random& random) {
+    cv::Mat picture(128, 128, CV_32F);
+    const Vec2 tilt = random.in_disc(5.0);
+    for (int row = 0; row < picture.rows; ++row)
+        for (int column = 0; column < picture.cols; ++column) {
+            double level = 0.0;
+            constexpr int fine = 3;
+            for (int a = 0; a < fine; ++a)
+                for (int b = 0; b < fine; ++b) {
+                    const double x = column + (a - 1) / 3.0 - centre.x;
+                    const double y = row + (b - 1) / 3.0 - centre.y;
+                    const double q = (x * x + y * y) / (radius * radius);
+                    const double up = std::sqrt(std::max(0.0, 1.0 - q));
+                    const double pattern =
+                        1.0 + 0.15 * std::sin(tilt.x * x / radius + tilt.y * y / radius);
+                    level += q < 1.0 ? (90.0 + 60.0 * up) * pattern : 40.0;
+                }
+            level /= fine * fine;
+            if (polarity < 0) level = 255.0 - level;
+            picture.ptr<float>(row)[column] =
+                static_cast<float>(level + noise_level * noise(random));
+        }
+    return picture;
+}
+
+TEST(CircleFit, FindsACentreToATenthOfAPixel) {
+    Random random(7);
+    const Limb limb(0.8, 10, 7, 2.0);
+    for (const Polarity polarity : {1, -1}) {
+        double square = 0.0;
+        constexpr int trials = 40;
+        for (int trial = 0; trial < trials; ++trial) {
+            const Vec2 centre = Vec2{63.5, 63.5} + random.in_disc(2.0);
+            const cv::Mat picture = picture_of(centre, 24.0, polarity, 2.0, random);
+            RaySettings rays;
+            rays.rays = 72;
+            rays.least = 1.0;
+            rays.limb = &limb;
+            rays.free_radius = true;
+            const CircleFit fit = fit_circle(picture, {63.0, 64.0}, 23.0, polarity, rays);
+            ASSERT_TRUE(fit.good);
+            EXPECT_GT(fit.support, 0.9);
+            EXPECT_NEAR(fit.radius, 24.0, 0.3);
+            square += dot(fit.centre - centre, fit.centre - centre);
+        }
+        EXPECT_LT(std::sqrt(square / (2.0 * trials)), 0.1);
+        // Of the other polarity there is no circle.
+        const cv::Mat picture = picture_of({64.0, 64.0}, 24.0, -polarity, 2.0, random);
+        RaySettings rays;
+        rays.least = 3.0;
+        EXPECT_LT(fit_circle(picture, {64.0, 64.0}, 24.0, polarity, rays).support, 0.3);
+    }
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,135 @@
+#include "swirl/vision/link.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+TEST(BestAssignment, IsTheBestOfAllPermutations) {
+    Random random(1);
+    for (int trial = 0; trial < 200; ++trial) {
+        const std::size_t rows = 1 + random.below(5), columns = 1 + random.below(5);
+        std::vector<std::vector<double>> cost(rows, std::vector<double>(columns));
+        for (auto& row : cost)
+            for (double& c : row) c = random.uniform();
+        const std::vector<int> found = best_assignment(cost);
+        // As many as can be are assigned, each column once.
+        double sum = 0.0;
+        std::vector<char> used(columns, 0);
+        std::size_t assigned = 0;
+        for (std::size_t r = 0; r < rows; ++r) {
+            if (found[r] < 0) continue;
+            const auto c = static_cast<std::size_t>(found[r]);
+            ASSERT_LT(c, columns);
+            ASSERT_FALSE(used[c]);
+            used[c] = 1;
+            sum += cost[r][c];
+            ++assigned;
+        }
+        EXPECT_EQ(assigned, std::min(rows, columns));
+        // Every way of putting the longer side's members to the shorter one's.
+        std::vector<std::size_t> order(std::max(rows, columns));
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        double best = 1e300;
+        do {
+            double total = 0.0;
+            for (std::size_t k = 0; k < std::min(rows, columns); ++k)
+                total += rows <= columns ? cost[k][order[k]] : cost[order[k]][k];
+            best = std::min(best, total);
+        } while (std::next_permutation(order.begin(), order.end()));
+        EXPECT_NEAR(sum, best, 1e-12);
+    }
+}
+
+/// A cluster that goes round with the given angular velocity about the middle of a swirled dish,
+/// seen so rarely that the nearest disc is the wrong one.
+struct Scene {
+    DishPath path{{200.0, 180.0}, 28.0, 0.2, 0.3, false};
+    std::vector<std::vector<SeenDisc>> pictures;
+    std::vector<double> times;
+
+    /// `turn`: of the cluster relative to the dish, in units of Ω, counter-clockwise.
+    Scene(double turn, int count, bool clockwise = false) {
+        path.clockwise = clockwise;
+        for (int k = 0; k < count; ++k) {
+            times.push_back(k);
+            std::vector<SeenDisc> here;
+            for (int row = -4; row <= 4; ++row)
+                for (int column = -4; column <= 4; ++column) {
+                    const Vec2 p{33.0 * (column + 0.5 * (row & 1)) + 3.0 * row, 29.0 * row};
+                    if (dot(p, p) > 100.0 * 100.0) continue;
+                    const Vec2 u = unit_circle(turn * path.omega * k / (2.0 * pi) -
+                                               std::floor(turn * path.omega * k / (2.0 * pi)));
+                    // y down: counter-clockwise is x towards −y.
+                    const Vec2 at{u.x * p.x + u.y * p.y, -u.y * p.x + u.x * p.y};
+                    here.push_back({path.at(k) + at});
+                }
+            pictures.push_back(here);
+        }
+    }
+    LinkSettings settings() const { return {{15.0}, {pictures.front().size()}, 0.95}; }
+};
+
+/// How often a disc's track is another than in the first picture.
+int exchanged(const Scene& scene, const Links& links) {
+    int count = 0;
+    for (const auto& tracks : links.track)
+        for (std::size_t d = 0; d < tracks.size(); ++d) count += tracks[d] != links.track[0][d];
+    (void)scene;
+    return count;
+}
+
+TEST(Linking, FollowsRotationAndCounterrotationAtFewPicturesASwirl) {
+    for (const bool clockwise : {false, true})
+        for (const double turn : {1.0, 0.5, 0.0, -0.1}) {
+            // In a picture where the swirl is clockwise the cluster's sense is mirrored, too.
+            const Scene scene(clockwise ? -turn : turn, 60, clockwise);
+            const Links links =
+                link_discs(scene.pictures, scene.times, scene.path, scene.settings());
+            EXPECT_EQ(exchanged(scene, links), 0) << turn << clockwise;
+            EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+        }
+}
+
+TEST(Linking, WithAWrongPathItFails) {
+    // The test above can fail: without the dish's motion the lattice is taken for its neighbour.
+    Scene scene(1.0, 40);
+    DishPath still = scene.path;
+    still.amplitude = 0.0;
+    still.omega = 1e-9;
+    const Links links = link_discs(scene.pictures, scene.times, still, scene.settings());
+    EXPECT_GT(exchanged(scene, links), 0);
+}
+
+TEST(Linking, ADiscThatIsHiddenForAWhileKeepsItsName) {
+    Scene scene(0.4, 60);
+    const std::size_t hidden = 7;
+    for (std::size_t k = 20; k < 26; ++k)
+        scene.pictures[k].erase(scene.pictures[k].begin() + hidden);
+    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+    EXPECT_EQ(links.track[59], links.track[0]);
+}
+
+TEST(Linking, NobodyIsBornBeyondTheNumber) {
+    Scene scene(0.4, 30);
+    for (std::size_t k = 10; k < 20; ++k)
+        scene.pictures[k].push_back({{scene.path.centre.x + 170.0, scene.path.centre.y}});
+    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+    EXPECT_EQ(links.refused, 10u);
+    LinkSettings open = scene.settings();
+    open.numbers.clear();
+    EXPECT_EQ(link_discs(scene.pictures, scene.times, scene.path, open).kind.size(),
+              scene.pictures.front().size() + 1);
+}
+
+}  // namespace
+}  // namespace swirl
