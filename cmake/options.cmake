@@ -9,7 +9,8 @@ add_compile_options(
 # The Python module is a shared object made of the same libraries. What is hidden is called directly,
 # as in a program; the event loop is as fast with these as without (docs/python.md).
 if(SWIRL_PROGRAM)
-  add_compile_options(-fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
+  add_compile_options(-fPIC
+    "$<$<COMPILE_LANGUAGE:CXX>:-fvisibility=hidden;-fvisibility-inlines-hidden>")
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   add_compile_options(-Werror)
