@@ -84,7 +84,8 @@ def _table(found: Any, name: str) -> Table:
         if name not in measured:
             raise ValueError(f"This has no '{name}'; swirl.run(measure=[\"{name}\"]) measures it.")
         found = measured[name]
-    return found.table
+    table: Table = found.table
+    return table
 
 
 def density(found: Any, *, by: str = "time", axes: Optional[Axes] = None) -> Axes:
