@@ -31,8 +31,8 @@ std::vector<std::int64_t> fewer_numbers(const PaperSettings& settings) {
     return {16, 24, 28, 30, 32, 34, 36, 40, 44, 48, 52, 54};
 }
 
-/// What few spheres need to forget their beginning, some 50 swirls, and as many as make the error of
-/// ϖ/Ω a few thousandths. A dense dish forgets sooner, and has many more events in a swirl.
+/// What few spheres need to forget their beginning, some 50 swirls, and as many as make the error
+/// of ϖ/Ω a few thousandths. A dense dish forgets sooner, and has many more events in a swirl.
 RunConfig experiment(const PaperSettings& settings, std::int64_t spheres) {
     RunConfig config = resolve({{"preset", "experiment"}});
     config.discs = spheres;

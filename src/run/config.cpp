@@ -79,12 +79,16 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
 /// What spheres cannot do yet.
 std::optional<std::string> not_for_spheres(const RunConfig& c) {
     if (c.body == Shape::disc) {
-        if (c.vertical_disc != 1.0 || c.vertical_wall != 1.0)
+        if (c.vertical_disc != 1.0)
             return fmt::format(
-                "--vertical-{} is {}, but discs do not slip vertically; --body sphere would be "
+                "--vertical-disc is {}, but discs do not slip vertically; --body sphere would be "
                 "right.",
-                c.vertical_disc != 1.0 ? "disc" : "wall",
-                c.vertical_disc != 1.0 ? c.vertical_disc : c.vertical_wall);
+                c.vertical_disc);
+        if (c.vertical_wall != 1.0)
+            return fmt::format(
+                "--vertical-wall is {}, but discs do not slip vertically; --body sphere would be "
+                "right.",
+                c.vertical_wall);
         if (!c.floor) return {};
         return "--floor is sliding, but discs have no floor; --body sphere would be right, or "
                "--floor none.";

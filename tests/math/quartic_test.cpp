@@ -55,7 +55,9 @@ double rounding_of(const Quartic& f, double t) {
 std::string wrong(const Quartic& f, double horizon, double grain) {
     const double found = first_fall(f, horizon, grain);
     const double end = found == never ? horizon : found;
-    const double error = rounding_of(f, horizon) + 2.0 * grain;
+    // Who begins a little below 0, by the rounding of a contact, has fallen when f is a grain
+    // lower.
+    const double error = rounding_of(f, horizon) + 2.0 * grain + larger(-f.c0, 0.0);
     const std::string place = " at " + std::to_string(end) + " of " + std::to_string(horizon);
     if (end < 0.0 || end > horizon) return "outside" + place;
     // Now is right for who touches, or overlaps, and approaches, however deep.

@@ -95,8 +95,8 @@ TEST(Crossing, NonsenseIsLeftOut) {
 // Of a curve that comes back.
 TEST(SignChanges, AllOfThemAreFoundInOrder) {
     const std::vector<RotationPoint> points{
-        {16, 0.06, 0.002},   {24, -0.02, 0.002}, {28, 0.03, 0.002},  {30, 0.05, 0.002},
-        {34, 0.001, 0.002},  {36, -0.04, 0.002}, {40, -0.02, 0.002}, {48, -0.05, 0.002}};
+        {16, 0.06, 0.002},  {24, -0.02, 0.002}, {28, 0.03, 0.002},  {30, 0.05, 0.002},
+        {34, 0.001, 0.002}, {36, -0.04, 0.002}, {40, -0.02, 0.002}, {48, -0.05, 0.002}};
     const auto changes = find_sign_changes(points);
     ASSERT_EQ(changes.size(), 3u);
     EXPECT_TRUE(changes[0].to_counterrotation);
@@ -115,8 +115,8 @@ TEST(SignChanges, AllOfThemAreFoundInOrder) {
 }
 
 TEST(SignChanges, WhatIsNotCertainIsNone) {
-    EXPECT_TRUE(find_sign_changes(std::vector<RotationPoint>{
-                                      {20, 0.1, 0.01}, {30, -0.02, 0.01}, {40, 0.1, 0.01}})
+    EXPECT_TRUE(find_sign_changes(
+                    std::vector<RotationPoint>{{20, 0.1, 0.01}, {30, -0.02, 0.01}, {40, 0.1, 0.01}})
                     .empty());
     EXPECT_TRUE(find_sign_changes(std::vector<RotationPoint>{}).empty());
 }
