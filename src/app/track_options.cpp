@@ -134,8 +134,8 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
             throw WrongCall(fmt::format(
                 "'{}' does not say how the container moved; --{} is needed (and --camera-fps, "
                 "--scale, --centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0). "
-                "Beside tracks of "
-                "`swirl track` lies a file that says all that.",
+                "Tracks that were "
+                "made of a film here have a file beside them that says all that.",
                 file, name));
     TrackScale scale;
     scale.frames_per_time = number_option("camera-fps", texts.fps, 1.0, 1e-12);

@@ -112,13 +112,15 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
         Polarity polarity;
         double support;  // the sum over pictures
         std::vector<Vec2> centres;
+        std::vector<double>
+            radii;  // of fits with free radius: votes are as coarse as their picture
         Circle path;
     };
     std::vector<Found> all;
     const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 16);
     for (const Polarity polarity : {1, -1}) {
         for (double radius = 0.1 * side; radius < 0.56 * side; radius += 1.0) {
-            Found found{radius, polarity, 0.0, {}, {}};
+            Found found{radius, polarity, 0.0, {}, {}, {}};
             for (std::size_t k = 0; k < pictures.size(); k += stride) {
                 const auto best = vote(pictures[k].edges, size, radius, polarity, 0.1, 1);
                 if (!best.empty()) found.support += best.front().support;
@@ -151,12 +153,14 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
             if (best.empty()) continue;
             RaySettings rays;
             rays.rays = 180;
-            rays.window = std::max(3.0, 1.6 / p.shrink);
+            rays.window = std::max(3.0, 1.8 / p.shrink);
             rays.least = 3.0 * p.noise;
             rays.free_radius = true;
             const CircleFit fit = fit_circle(p.sharp, p.to_sharp(best.front().centre),
                                              f.radius / p.shrink, f.polarity, rays);
-            if (fit.good && fit.support > least_rim) f.centres.push_back(fit.centre);
+            if (!fit.good || fit.support < least_rim) continue;
+            f.centres.push_back(fit.centre);
+            f.radii.push_back(fit.radius);
         }
         if (f.centres.size() < 4) continue;
         f.path = circle_through(f.centres);
@@ -192,28 +196,7 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
     rim.support = moving->support / looked_at;
     rim.swirl_centre = moving->path.centre;
     rim.amplitude = moving->path.radius;
-    // Its size, to a fraction of a pixel, and its path once more, wherever it may be.
-    std::vector<double> radii;
-    std::vector<Vec2> centres;
-    rim.amplitude = 0.0;
-    for (const Picture& p : pictures) {
-        rim.radius = moving->radius / p.shrink;
-        CircleFit fit = find_rim(p, rim);
-        if (!fit.good) continue;
-        RaySettings rays;
-        rays.rays = 240;
-        rays.window = std::max(2.5, 1.2 / p.shrink);
-        rays.least = 3.0 * p.noise;
-        rays.free_radius = true;
-        fit = fit_circle(p.sharp, fit.centre, rim.radius, rim.polarity, rays);
-        if (!fit.good) continue;
-        radii.push_back(fit.radius);
-        centres.push_back(fit.centre);
-    }
-    const Circle path = centres.size() < 4 ? moving->path : circle_through(centres);
-    rim.swirl_centre = path.centre;
-    rim.amplitude = path.radius;
-    rim.radius = radii.empty() ? moving->radius / first.shrink : median(radii);
+    rim.radius = median(moving->radii);
     // Another one beside it?
     std::size_t pairs = 0;
     for (std::size_t k = 0; k < pictures.size(); k += stride) {
@@ -243,6 +226,7 @@ CircleFit find_rim(const Picture& picture, const Rim& rim) {
         rays.rays = 360;
         rays.window = std::max(3.0, 1.5 / picture.shrink);
         rays.least = 3.0 * picture.noise;
+        rays.tolerance = 1.5;
         const CircleFit fit = fit_circle(picture.sharp, centre, rim.radius, rim.polarity, rays);
         if (fit.good && fit.support > best.support) best = fit;
     }
@@ -348,6 +332,7 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     path.phase_error = error(3);
     path.omega_error = error(4) / span;
     path.phase = std::remainder(path.phase, 2.0 * pi);
+    if (path.used < 0.5 || path.amplitude_error > 0.05 * path.amplitude) return std::nullopt;
     return path;
 }
 

@@ -179,7 +179,7 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
                     std::find(of.begin(), of.end(), static_cast<int>(t)) != of.end())
                     continue;
                 const double reach =
-                    settings_.radii[discs[d].kind] * std::min(1.0 + 0.4 * tracks[t].missed, 6.0);
+                    settings_.radii[discs[d].kind] * (1.0 + 0.4 * tracks[t].missed);
                 const double q = square(discs[d].place - expected[t]);
                 if (q < reach * reach && q < nearest) nearest = q, disc = d, lost = t;
             }

@@ -25,6 +25,10 @@ constexpr std::int64_t survey_pictures = 48;
 constexpr double votes_side = 300.0;   // of the picture in which the dish is sought, pixels
 constexpr double votes_radius = 12.0;  // of the discs in the picture in which they are
 
+constexpr std::string_view second_dish =
+    "There is a second circle of the dish's size beside it: of two dishes in the picture the one "
+    "with the clearer rim was followed. Crop the film to one.";
+
 double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
 
 double quantile(std::vector<double> values, double share) {
@@ -405,7 +409,7 @@ TrackScale TrackedFilm::scale() const {
 TrackedFilm track_film(const TrackingSettings& settings) {
     TrackedFilm film;
     FilmTimes times = film_times(settings.film);
-    std::int64_t expected = static_cast<std::int64_t>(times.seconds.size());
+    std::int64_t expected = times.pictures;
     if (settings.most_pictures > 0)
         expected =
             expected > 0 ? std::min(expected, settings.most_pictures) : settings.most_pictures;
@@ -415,6 +419,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     film.bright = found.look.polarity > 0;
     std::vector<Seen> all = look_at_all(settings, found, expected, film);
     film.lens = found.look.lens;
+    if (found.rim.second_dish) film.warnings.emplace_back(second_dish);
     std::vector<double> rims;
     for (Seen& seen : all) {
         if (!seen.rim.good) continue;

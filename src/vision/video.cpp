@@ -82,7 +82,14 @@ std::string no_film(const std::string& film, const std::string& words) {
 
 FilmTimes film_times(const std::string& film) {
     FilmTimes times;
-    if (is_device(film) || is_numbered(film)) return times;
+    if (is_device(film)) return times;
+    if (is_numbered(film)) {
+        if (const auto wrong = film_problem(film)) throw WrongCall(*wrong);
+        const Film names(film);
+        const std::int64_t first = first_number(film);
+        while (names.may_have(first + times.pictures)) ++times.pictures;
+        return times;
+    }
     std::vector<std::string> arguments = input_of(film);
     for (const char* more : {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"})
         arguments.push_back(more);
@@ -108,6 +115,7 @@ FilmTimes film_times(const std::string& film) {
     }
     ffmpeg.end();
     if (times.seconds.empty()) throw Failure(no_film(film, ffmpeg.complaint()));
+    times.pictures = static_cast<std::int64_t>(times.seconds.size());
     std::sort(times.seconds.begin(), times.seconds.end());
     const std::size_t n = times.seconds.size();
     const double length = times.seconds.back() - times.seconds.front();

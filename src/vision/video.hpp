@@ -16,6 +16,7 @@ namespace swirl {
 /// When the pictures were taken, as the file says.
 struct FilmTimes {
     std::vector<double> seconds;  // ascending; empty where it does not say
+    std::int64_t pictures = 0;    // 0: not known
     double fps = 0.0;             // of the whole film; 0 where it does not say
     double jitter = 0.0;          // largest deviation from equal steps, in steps
 };

@@ -1,0 +1,219 @@
+"""swirl film-test and swirl track: from made-up films, whose truth is known, to ϖ.
+
+    track_test.py            small films
+    track_test.py --table    the four films of docs/camera.md, and their table (minutes)
+"""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+from program import InFolder, swirl
+
+# Twenty discs of twelve pixels in a dish of 6.5 radii, 64 pictures a swirl.
+SMALL = ["--discs", 20, "--container-radius", 6.5, "--scale", 12, "--width", 240, "--height", 240,
+         "--frames-per-period", 64, "--noise", 2, "--quality", 14, "--seed", 3]
+
+
+def rows(path):
+    with open(path, encoding="utf-8") as file:
+        yield from csv.DictReader(file)
+
+
+def places(path, x="x", y="y"):
+    """{frame: {particle: (x, y)}}, of what was seen."""
+    found = {}
+    for row in rows(path):
+        if row.get("seen", "1") == "1":
+            found.setdefault(int(row["frame"]), {})[int(row["particle"])] = (float(row[x]),
+                                                                              float(row[y]))
+    return found
+
+
+class Comparison:
+    """Tracks against the truth of a film."""
+
+    def __init__(self, film, tracks):
+        stem = film[:-len(".mp4")]
+        with open(stem + ".truth.json", encoding="utf-8") as file:
+            self.truth = json.load(file)
+        with open(tracks[:-len(".csv")] + ".camera.json", encoding="utf-8") as file:
+            self.found = json.load(file)
+        truth, found = places(stem + ".truth.csv", "x_ideal", "y_ideal"), places(tracks)
+        radius = self.truth["scale"]
+        errors, owner = [], {}
+        self.exchanges = self.full = 0
+        for frame, discs in truth.items():
+            hits = 0
+            for disc, (x, y) in discs.items():
+                near = min(((math.hypot(u - x, v - y), track)
+                            for track, (u, v) in found.get(frame, {}).items()), default=(1e9, -1))
+                if near[0] > 0.5 * radius:
+                    continue
+                hits += 1
+                errors.append(near[0])
+                self.exchanges += owner.get(disc, near[1]) != near[1]
+                owner[disc] = near[1]
+            self.full += hits == len(discs)
+        self.frames = len(truth)
+        self.complete = self.full / self.frames
+        self.rms = math.sqrt(sum(e * e for e in errors) / len(errors) / 2.0)
+        periods = self.frames * self.truth["omega"] / (2.0 * math.pi)
+        self.exchanges_per_thousand = 1000.0 * self.exchanges / (self.truth["discs"] * periods)
+        fps = self.found["fps"]
+        self.omega = self.found["path"]["omega"] / fps / self.truth["omega"] - 1.0
+        self.centre = math.dist(self.found["path"]["centre"], self.truth["centre"])
+        self.amplitude = self.found["path"]["amplitude"] - self.truth["amplitude"]
+        self.radius = self.found["kinds"][0]["radius"] / radius - 1.0
+
+
+class FilmTest(InFolder):
+    def film(self, *more, name="film.mp4", length=1.15):
+        path = self.path(name)
+        done = swirl("film-test", *SMALL, "--length", length, "--out", path, "--quiet", *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return path
+
+    def track(self, film, *more, name="tracks.csv"):
+        out = self.path(name)
+        done = swirl("track", film, "--out", out, *more)
+        if "has no eyes" in done.stderr:
+            self.skipTest("this build was made without OpenCV")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return out, done.stdout
+
+    def refused(self, code, *words, call):
+        if "has no eyes" in call.stderr:
+            self.skipTest("this build was made without OpenCV")
+        self.assertEqual(call.returncode, code, call.stdout + call.stderr)
+        for word in words:
+            self.assertIn(word, call.stderr)
+        self.assertFalse(os.path.exists(self.path("tracks.csv")))
+
+    def test_from_a_film_to_the_rotation(self):
+        film = self.film()
+        tracks, said = self.track(film, "--json", self.path("found.json"))
+        self.assertIn("20 discs", said)
+        result = Comparison(film, tracks)
+        self.assertEqual(result.found["discs"], 20)
+        self.assertTrue(result.found["discs_are"] == "bright")
+        self.assertFalse(result.found["path"]["clockwise"])
+        self.assertGreater(result.complete, 0.95)
+        self.assertEqual(result.exchanges, 0)
+        self.assertLess(result.rms, 0.4)          # a thirtieth of a radius
+        self.assertLess(abs(result.omega), 5e-4)
+        self.assertLess(result.centre, 0.3)
+        self.assertLess(abs(result.amplitude), 0.3)
+        self.assertLess(abs(result.radius), 0.04)
+        # The same measurement on the truth's own places.
+        with open(self.path("truth.csv"), "w", encoding="utf-8") as table:
+            table.write("frame,particle,x,y\n")
+            for row in rows(film[:-4] + ".truth.csv"):
+                table.write(f"{row['frame']},{row['particle']},{row['x_ideal']},{row['y_ideal']}\n")
+        truth = result.truth
+        of_truth = swirl("measure", self.path("truth.csv"), "--camera-fps", 1, "--scale",
+                         truth["scale"], "--omega", truth["omega"], "--centre",
+                         "%r,%r" % tuple(truth["centre"]), "--phase", truth["phase"], "--amplitude",
+                         truth["amplitude"] / truth["scale"], "--container-radius",
+                         truth["container_radius"] / truth["scale"], "--json", "-")
+        of_film = swirl("measure", tracks, "--json", "-")  # no option: it lies beside the tracks
+        values = []
+        for done in (of_truth, of_film):
+            self.assertEqual(done.returncode, 0, done.stderr)
+            values.append(json.loads(done.stdout)["rotation"]["rigid_by_time"]["mean"])
+        self.assertLess(abs(values[0] - values[1]), 0.02)  # of Ω, in little more than one swirl
+
+    def test_a_mirrored_film_and_dark_discs(self):
+        film = self.film("--mirrored", "--disc-level", 60, "--floor-level", 200, "--rim-level", 90,
+                         "--table-level", 150, "--gloss", 120, "--texture", 0.1)
+        tracks, said = self.track(film)
+        result = Comparison(film, tracks)
+        self.assertTrue(result.found["path"]["clockwise"])
+        self.assertEqual(result.found["discs_are"], "dark")
+        self.assertEqual(result.found["discs"], 20)
+        self.assertIn("clockwise in the picture", said)
+        self.assertLess(result.rms, 0.4)
+        self.assertLess(abs((result.found["path"]["phase"] - result.truth["phase"] + 180) % 360
+                            - 180), 1.0)
+
+    def test_numbered_pictures_give_the_same_as_the_film(self):
+        film = self.film(length=0.8)
+        os.makedirs(self.path("seen"))
+        subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-pix_fmt", "gray",
+                        "-start_number", "100",
+                        self.path("seen/%05d.png")], check=True)
+        tables = []
+        for source, name in ((film, "a.csv"), (self.path("seen/%05d.png"), "b.csv")):
+            out, _ = self.track(source, "--fps", 64, "--quiet", name=name)
+            with open(out, "rb") as file:
+                tables.append(file.read())
+        self.assertTrue(tables[0] == tables[1])
+
+    def test_what_is_wrong_is_named(self):
+        still = self.film("--still", name="still.mp4", length=0.5)
+        out = self.path("tracks.csv")
+        self.refused(1, "stands still", call=swirl("track", still, "--out", out))
+        empty = self.path("empty.mp4")
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i",
+                        "nullsrc=s=240x240:r=30:d=2,geq=lum='100+30*random(1)':cb=128:cr=128",
+                        empty], check=True)
+        self.refused(1, "No dish was found", call=swirl("track", empty, "--out", out))
+        with open(still, "rb") as file:
+            part = file.read()[:20000]
+        for name, content in (("cut.mp4", part[:-2000] if b"moov" not in part else part[:30]),
+                              ("text.mp4", b"this is no film")):
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+            self.refused(1, "no pictures that can be read",
+                         call=swirl("track", self.path(name), "--out", out))
+        self.refused(1, "There is no film", call=swirl("track", self.path("none.mp4"), "--out", out))
+        self.refused(1, "no pictures named",
+                     call=swirl("track", self.path("no%05d.png"), "--out", out))
+
+    def test_wrong_calls(self):
+        for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
+                                 (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
+                                 (["--discs"], ["--out", self.path("x.csv"), "--discs", 0])):
+            call = swirl("track", "film.mp4", *arguments)
+            self.refused(2, *words, call=call)
+        self.refused(2, "one of laboratory", call=swirl("film-test", "--camera", "x", "--out",
+                                                        self.path("x.mp4")))
+        self.refused(2, ".mp4", call=swirl("film-test", "--out", self.path("x.avi")))
+        self.assertEqual(self.left_behind(), [])
+
+
+FILMS = (("laboratory", ["--discs", 36, "--length", 1.5]),
+         ("telephone", ["--discs", 48, "--length", 4, "--quality", 26]),
+         ("bad", ["--discs", 28, "--length", 12, "--quality", 26]),
+         ("steel", ["--discs", 32, "--mixture", "10:1.35", "--length", 4, "--quality", 24]))
+
+
+def print_table(folder):
+    print("| film | pictures with all discs | exchanges per 1000 | rms, pixels | Ω | centre, pixels "
+          "| amplitude, pixels | radius |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, options in FILMS:
+        film, tracks = (os.path.join(folder, name + end) for end in (".mp4", ".csv"))
+        for call in (["film-test", "--camera", name, *options, "--out", film, "--overwrite"],
+                     ["track", film, "--out", tracks, "--overwrite"]):
+            done = swirl(*call, "--quiet", timeout=1200)
+            if done.returncode != 0:
+                print(done.stderr)
+                return 1
+        c = Comparison(film, tracks)
+        print(f"| {name} | {100 * c.complete:.1f} % | {c.exchanges_per_thousand:.1f} | {c.rms:.2f} "
+              f"| {c.omega:+.0e} | {c.centre:.2f} | {c.amplitude:+.2f} | {100 * c.radius:+.1f} % |",
+              flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--table"]:
+        import tempfile
+        with tempfile.TemporaryDirectory(prefix="swirl-films-") as place:
+            sys.exit(print_table(place))
+    unittest.main()
