@@ -17,7 +17,7 @@ const markdown = markdownIt({html: true}).use(anchor, {
 
 const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 const titles = {parameters: "Parameters", measurements: "Measurements", paper: "The paper, regenerated",
-                physics: "Physics", spheres: "Spheres that roll", pictures: "Pictures and movies",
+                physics: "Physics", spheres: "Spheres that roll", camera: "From a film", pictures: "Pictures and movies",
                 lab: "The laboratory", python: "Python", python_reference: "Python: reference",
                 files: "Files", determinism: "The same bits everywhere",
                 performance: "Performance", reliability: "Reliability", design: "Design"};
