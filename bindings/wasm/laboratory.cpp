@@ -176,6 +176,13 @@ class Dish {
     double time_of(const Event& event) const {
         return static_cast<double>(event.swirls) * config_.period + event.clock;
     }
+    /// Spheres brought up to date, as a run shows them: an observer takes it that nobody is
+    /// accelerated.
+    const Snapshot& observed() {
+        if (!snapshot_.are_spheres()) return snapshot_;
+        snapshot_.up_to_date(dated_);
+        return dated_;
+    }
     bool counts() const { return snapshot_.swirls >= warmup(); }
     ClusterRotation& rotation_now() { return counts() ? rotation_ : in_warmup_; }
 
@@ -186,27 +193,27 @@ class Dish {
             rotation_now().sample_by_time(snapshot_);
         if (!observes()) return;
         while (observation_times_.next(snapshot_, path_, event_.clock))
-            observation_.sample(snapshot_);
+            observation_.sample(observed());
     }
     void pass() {
         found_ = false;
         ClusterRotation& rotation = rotation_now();
-        const bool observed = observes();
+        const bool watched = observes();
         simulation_.refresh(snapshot_, event_);
         passed_clock_ = snapshot_.clock;
         rotation.follow(snapshot_, event_);
         rotation.sample(snapshot_);
-        if (observed) observation_.sample(event_, snapshot_);
+        if (watched) observation_.sample(event_, observed());
         if (snapshot_.swirls == event_.swirls) return;
         rotation.close_block();
-        if (observed) observation_.close_block();
+        if (watched) observation_.close_block();
     }
     bool observes() const { return counts() && !observation_.empty(); }
 
     const RunConfig config_;
     const ContainerPath path_;
     Simulation simulation_;
-    Snapshot snapshot_, seen_;
+    Snapshot snapshot_, seen_, dated_;
     Event event_{};
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed

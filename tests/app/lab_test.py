@@ -25,6 +25,7 @@ SCENES = [
     {"discs": 40, "mixture": "20:0.6"}, {"discs": 48, "restitution": 0.9},
     {"discs": 28, "inertia": "solid", "tangential_restitution": 0.5},
     {"discs": 300, "radius": 0.3, "sides": 7}, {"discs": 48, "amplitude": 3, "container_radius": 9},
+    {"discs": 20, "preset": "experiment"}, {"discs": 28, "body": "sphere", "mu": 0.3},
 ]
 EVENTS = 20000
 
@@ -100,7 +101,7 @@ class Laboratory(unittest.TestCase):
                                json.dumps(calls)], check=True, capture_output=True, text=True)
         return json.loads(done.stdout)
 
-    def test_twelve_scenes_have_the_bits_of_the_command_line(self):
+    def test_fourteen_scenes_have_the_bits_of_the_command_line(self):
         said = self.engine([{"given": {**{k: str(v) for k, v in scene.items()}, "warmup": "0",
                                        "measure": "slip"}, "events": EVENTS} for scene in SCENES])
         for scene, there in zip(SCENES, said["said"]):

@@ -105,5 +105,6 @@ export const presets: {name: string; given: Record<string, string>}[] = [
     {name: "48 discs, no friction at the wall", given: {discs: "48", mu_disc: "1", mu_wall: "0"}},
     {name: "One large ball", given: {discs: "1", radius: "4"}},
     {name: "Two sizes", given: {discs: "40", mixture: "20:0.6"}},
+    {name: "36 spheres that roll (the experiment)", given: {preset: "experiment", discs: "36"}},
     {name: "2000 small discs", given: {discs: "2000", radius: "0.14", inertia: "solid"}},
 ];
