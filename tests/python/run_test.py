@@ -143,8 +143,6 @@ def test_wrong_types_and_names(bad, sentence):
 def test_wrong_measurements():
     with pytest.raises(ValueError, match="measure has 'dens' in its list, but each must be one of: d"):
         swirl.run(events=10, measure="dens")
-    with pytest.raises(ValueError, match="measure names energy, which knows one spin"):
-        swirl.run(events=10, discs=5, body="sphere", measure=["energy"])
 
 
 def test_numbers_of_numpy_are_numbers():
