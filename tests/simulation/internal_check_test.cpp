@@ -10,8 +10,10 @@
 
 #if defined(SWIRL_INTERNAL_CHECKS)
 
-// The sanitizer's stack trace tells the name of the promise.
-extern "C" const char* __asan_default_options() { return "handle_sigill=1"; }
+// The sanitizer's stack trace tells the name of the promise. Its library must be able to see this.
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options() {
+    return "handle_sigill=1";
+}
 
 namespace swirl {
 namespace {
