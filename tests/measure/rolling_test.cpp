@@ -11,10 +11,9 @@ namespace swirl {
 namespace {
 
 void add_sphere(Snapshot& s, const Vec2& position, const Vec2& velocity, const Vec2& rolling) {
-    add_disc(s, position, velocity);
-    const std::size_t i = s.size() - 1;
+    const std::size_t i = s.size();
     s.resize_for_spheres(i + 1);
-    s.inertia[i] = 0.4;
+    s.set(i, {position, velocity, 0.0, 0.0, s.clock, 1.0, 1.0, 0.4});
     s.set_floor_motion(i, rolling, {0.0, 0.0});
 }
 void add_rolling(Snapshot& s, const Vec2& position, const Vec2& velocity) {
