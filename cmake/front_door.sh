@@ -9,6 +9,10 @@ give_up() {
     say "$*"
     exit 1
 }
+wrong_call() {
+    say "$*"
+    exit 2
+}
 
 # The packages in the given sections of the file `packages`.
 listed_packages() {

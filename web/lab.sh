@@ -24,11 +24,6 @@ Examples:
 TEXT
 }
 
-wrong_call() {
-    say "$*"
-    exit 2
-}
-
 port=8720 out= browser=yes
 while [ $# -gt 0 ]; do
     case $1 in

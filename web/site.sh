@@ -21,11 +21,6 @@ Examples:
   swirl paper --out results && swirl site --out site --report results
 TEXT
 }
-wrong_call() {
-    say "$*"
-    exit 2
-}
-
 out= report=
 while [ $# -gt 0 ]; do
     case $1 in

@@ -224,6 +224,7 @@ class Dish {
 
 std::unique_ptr<Dish> dish;
 std::vector<double> numbers;
+std::vector<MeasurementReport> reports;
 
 /// The parameters that change at contacts, and where the container goes: discs go on with others of
 /// these; with any other parameter it is another dish.
@@ -390,13 +391,16 @@ EXPORTED(rotation) std::uint32_t rotation() {
                               blocks));
 }
 
-/// A column of a table of what is measured: "density//by_time". How many values there are; 0 if
+/// What is measured, as it is now: for the columns to come.
+EXPORTED(report) void report() { reports = dish->observation().report(); }
+
+/// A column of a table of the last report: "density//by_time". How many values there are; 0 if
 /// there is no such column.
 EXPORTED(column) std::uint32_t column() {
     const std::string_view path = buffer;
     const std::size_t first = path.find('/'), second = path.find('/', first + 1);
     if (second == path.npos) return 0;
-    for (const auto& [name, report] : dish->observation().report()) {
+    for (const auto& [name, report] : reports) {
         if (name != path.substr(0, first)) continue;
         for (const ReportTable& table : report.tables) {
             if (table.name != path.substr(first + 1, second - first - 1)) continue;

@@ -18,6 +18,16 @@ double perimeter_of(const MFrameView& view, std::vector<Vec2>& centres) {
     return perimeter(convex_hull(centres)) + 2.0 * pi * radius;
 }
 
+/// ϖ of some of the discs.
+struct Rates {
+    double sum = 0.0, count = 0.0;
+
+    void add(double rate) {
+        sum += rate;
+        count += 1.0;
+    }
+};
+
 }  // namespace
 
 double cluster_perimeter(const MFrameView& view) {
@@ -33,26 +43,24 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     perimeter_.add(P);
     pancake_.add(pancake_rotation(P, P_container));
 
-    double all = 0.0, all_count = 0.0, held = 0.0, held_count = 0.0;
-    double at_wall = 0.0, at_wall_count = 0.0;
+    Rates all, held, held_at_wall;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const double rate = view.varpi[i];
         const Vec2 d = view.position(i) - view.centre_of_mass;
         if (!(rate == rate) || dot(d, d) < view.radius[i] * view.radius[i]) continue;
-        all += rate;
-        all_count += 1.0;
+        all.add(rate);
         if (i >= pinned.size() || pinned[i] == 0) continue;
-        held += rate;
-        held_count += 1.0;
-        if (!in_wall_layer(view, i)) continue;
-        at_wall += rate;
-        at_wall_count += 1.0;
+        held.add(rate);
+        if (in_wall_layer(view, i)) held_at_wall.add(rate);
     }
-    const double factor = P / (P_container * view.frame.omega);
-    if (all_count > 0.0) cluster_.add((view.frame.omega - all / all_count) * factor);
-    if (at_wall_count > 0.0)
-        pinned_at_wall_.add((view.frame.omega - at_wall / at_wall_count) * factor);
-    if (held_count > 0.0) pinned_.add((view.frame.omega - held / held_count) * factor);
+    const auto add = [&](BlockMean& slip, const Rates& rates) {
+        if (rates.count == 0.0) return;
+        slip.add((view.frame.omega - rates.sum / rates.count) *
+                 (P / (P_container * view.frame.omega)));
+    };
+    add(cluster_, all);
+    add(pinned_, held);
+    add(pinned_at_wall_, held_at_wall);
 }
 
 }  // namespace swirl

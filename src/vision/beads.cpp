@@ -16,15 +16,6 @@ constexpr double sure_support = 0.45, any_support = 0.16;
 /// the same disc twice.
 constexpr double least_distance = 0.8;
 
-double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// The edges inside the dish; its wall's own are left out.
 std::vector<EdgePixel> edges_inside(const Picture& picture, const CircleFit& rim) {
     const Vec2 centre = picture.to_small(rim.centre);

@@ -10,6 +10,7 @@ namespace swirl {
 
 namespace {
 
+/// Puts them in another order.
 double median_of(std::vector<double>& values) {
     if (values.empty()) return 0.0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -86,6 +87,8 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
 }
 
 }  // namespace
+
+double median(std::vector<double> values) { return median_of(values); }
 
 double gradient_noise(const cv::Mat& picture) {
     std::vector<double> slopes;

@@ -14,6 +14,7 @@
 // Places in pixels, the middle of the first one is 0,0; y is down.
 #pragma once
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -21,6 +22,10 @@
 #include "swirl/vision/limb.hpp"
 
 namespace swirl {
+
+inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+/// The middle one, of two in the middle the larger; 0 of none.
+double median(std::vector<double> values);
 
 /// 1: bright inside, dark outside; −1: the reverse.
 using Polarity = int;

@@ -14,15 +14,6 @@ namespace swirl {
 
 namespace {
 
-double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 struct Circle {
     Vec2 centre{0.0, 0.0};
     double radius = 0.0;

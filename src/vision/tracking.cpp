@@ -29,8 +29,6 @@ constexpr std::string_view second_dish =
     "There is a second circle of the dish's size beside it: of two dishes in the picture the one "
     "with the clearer rim was followed. Crop the film to one.";
 
-double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
-
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;
     const auto at = values.begin() +
@@ -184,8 +182,8 @@ void drop_overlaps(const std::vector<Seen>& all, const std::vector<double>& radi
     }
 }
 
-/// Pictures whose rim is hidden are searched where the path says that the dish is.
-void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film) {
+/// From discs in pictures to discs that are the same ones from picture to picture.
+void track(const std::vector<Seen>& all, TrackedFilm& film) {
     std::vector<std::vector<SeenDisc>> discs;
     for (const Seen& seen : all) {
         std::vector<SeenDisc> here;
@@ -278,7 +276,6 @@ void track(const std::vector<Seen>& all, const BeadLook& look, TrackedFilm& film
     }
     film.number = static_cast<std::size_t>(id);
     for (std::size_t k = 0; k < film.kinds.size(); ++k) film.kinds[k].number = kinds[k];
-    (void)look;
 }
 
 void judge(const std::vector<Seen>& all, TrackedFilm& film) {
@@ -478,7 +475,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     for (std::size_t k = 1; k < film.kinds.size(); ++k)
         if (film.kinds[k].number > film.kinds[commonest].number) commonest = k;
     film.radius = film.kinds[commonest].radius;
-    track(all, found.look, film);
+    track(all, film);
     if (film.number == 0) throw Failure("No disc could be followed through the film.");
     judge(all, film);
     // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or

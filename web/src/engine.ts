@@ -47,6 +47,7 @@ interface Exports {
     rotation(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
+    report(): void;
     column(): number;
     values(): number;
     points(count: number): number;
@@ -120,7 +121,11 @@ export class Engine {
     steer(time: number, x: number, y: number, duration: number): void {
         this.out.steer(time, x, y, duration);
     }
-    /** Of what is measured: "density//by_time". */
+    /** Of what is measured, as it is now; column() reads it. */
+    report(): void {
+        this.out.report();
+    }
+    /** Of the last report: "density//by_time". */
     column(path: string): Float64Array {
         this.hand(path);
         const size = this.out.column();

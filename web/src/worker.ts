@@ -56,14 +56,20 @@ function begin(given: Record<string, string>, events: number): void {
 /** The page's own measurements go along with every dish: they change no bit. */
 const watched = {measure: "density,flow,profile"};
 
+/** To a moment, or as far as patience goes; whether it has come there. */
+function advance(dish: Engine, target: number): boolean {
+    const deadline = performance.now() + patience;
+    let arrived = dish.advanceTo(target, eventsAtOnce);
+    while (!arrived && performance.now() < deadline)
+        arrived = dish.advanceTo(target, eventsAtOnce);
+    return arrived;
+}
+
 function tick(swirls: number): void {
     if (!engine) return;
     const swirlEnds = (Math.floor(now / period + 1e-9) + 1) * period;
     const target = change ? Math.min(now + swirls * period, swirlEnds) : now + swirls * period;
-    const deadline = performance.now() + patience;
-    let arrived = engine.advanceTo(target, eventsAtOnce);
-    while (!arrived && performance.now() < deadline)
-        arrived = engine.advanceTo(target, eventsAtOnce);
+    const arrived = advance(engine, target);
     const reached = arrived ? target : Math.min(engine.time, target);
     if (arrived || reached > now + 1e-9 * period) stuckSince = undefined;
     else if (performance.now() - (stuckSince ??= performance.now()) > collapse)
@@ -91,16 +97,13 @@ function steer(x: number, y: number, duration: number): void {
     if (!engine) return;
     engine.steer(now, x, y, duration);
     period = Number.POSITIVE_INFINITY;
-    const deadline = performance.now() + patience;
-    let arrived = engine.advanceTo(duration, eventsAtOnce);
-    while (!arrived && performance.now() < deadline)
-        arrived = engine.advanceTo(duration, eventsAtOnce);
-    now = arrived ? duration : engine.time;
+    now = advance(engine, duration) ? duration : engine.time;
     show();
 }
 
 function maps(): void {
     if (!engine) return;
+    engine.report();
     const of = (column: string): Float64Array => engine!.column(column);
     say({kind: "maps", density: of("density//by_time"),
          flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
