@@ -16,9 +16,9 @@
 #include "swirl/files/track_mending.hpp"
 #include "swirl/files/tracks.hpp"
 #include "swirl/files/trajectory.hpp"
-#include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/measured_series.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl::python {
 namespace {
@@ -29,7 +29,12 @@ using WholeNumbers = py::array_t<std::int64_t, py::array::c_style | py::array::f
 /// Frames that are read, or worked out, when they are asked for. From any thread, in turns.
 class Recording {
   public:
-    explicit Recording(SnapshotSeries series) : series_(std::move(series)) {}
+    explicit Recording(SnapshotSeries series) : series_(std::move(series)) {
+        series_.frame = [this, read = std::move(series_.frame)](std::uint64_t k) {
+            const std::lock_guard turn(turn_);
+            return read(k);
+        };
+    }
     static std::unique_ptr<Recording> open(const std::string& file) {
         auto reader = std::make_shared<TrajectoryReader>(file);
         auto recording = std::make_unique<Recording>(series_of(reader));
@@ -37,17 +42,13 @@ class Recording {
         return recording;
     }
 
+    const SnapshotSeries& series() const { return series_; }
     std::uint64_t size() const { return series_.frames; }
     bool same_discs() const { return series_.same_discs(); }
-    const std::vector<std::uint64_t>& breaks() const { return series_.breaks; }
-    Snapshot frame(std::uint64_t k) {
-        const std::lock_guard turn(turn_);
-        return series_.frame(k);
-    }
     std::shared_ptr<Frames> frames(std::uint64_t begin, std::uint64_t end, std::uint64_t step) {
         auto frames = std::make_shared<Frames>();
         for (std::uint64_t k = begin; k < end; k += step) {
-            const Snapshot s = frame(k);
+            const Snapshot s = series_.frame(k);
             if (!frames->fits(s))
                 throw WrongCall(fmt::format(
                     "Frame {} has {} discs and the one before it {}; frames of different "
@@ -66,6 +67,7 @@ class Recording {
         return about;
     }
     bool complete() const { return !reader_ || reader_->complete(); }
+    std::string remarks;  // of tracks, a line each
 
   private:
     SnapshotSeries series_;
@@ -73,12 +75,14 @@ class Recording {
     std::mutex turn_;
 };
 
-/// Rows of a table in order of frames, as trackpy has them.
+/// Rows of a table in order of frames, as trackpy has them; radii of our own tracker's.
 std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers& particle,
-                                  const Numbers& x, const Numbers& y, const py::dict& scale) {
+                                  const Numbers& x, const Numbers& y, const Numbers& radius,
+                                  const py::dict& scale, double misfit) {
     const py::ssize_t n = frame.size();
     if (n == 0) throw WrongCall("There are no positions in the tracks.");
-    if (particle.size() != n || x.size() != n || y.size() != n)
+    if (particle.size() != n || x.size() != n || y.size() != n ||
+        (radius.size() != n && radius.size() != 0))
         throw WrongCall("The columns of the tracks have different lengths.");
     Tracks tracks;
     tracks.y_down = true;
@@ -95,6 +99,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
             throw WrongCall(fmt::format("Particle {} is in frame {} twice.", id, number));
         at.id.push_back(id);
         at.position.push_back({x.data()[k], y.data()[k]});
+        if (radius.size() == n) at.radius.push_back(radius.data()[k]);
     }
     const auto number = [&](const char* name) { return py::cast<double>(scale[name]); };
     TrackScale s;
@@ -111,7 +116,10 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
             "The tracks are of a single frame, which tells no velocities; two are the "
             "least.");
     mend(tracks, s.pixels_per_radius);
-    return std::make_unique<Recording>(series_of(std::move(tracks), s));
+    FittedSeries fitted = fitted_series(tracks, s, misfit);
+    auto recording = std::make_unique<Recording>(std::move(fitted.series));
+    recording->remarks = std::move(fitted.remarks);
+    return recording;
 }
 
 /// Frames that are there already.
@@ -122,62 +130,13 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
     return std::make_unique<Recording>(std::move(series));
 }
 
-/// Whether the same discs are seen long enough for their tracks to say anything.
-bool holds_tracks(const Recording& recording) {
-    std::uint64_t begin = 0, longest = 0;
-    for (const std::uint64_t end : recording.breaks()) {
-        longest = std::max(longest, end - begin);
-        begin = end;
-    }
-    longest = std::max(longest, recording.size() - begin);
-    return recording.same_discs() || longest > std::uint64_t(PinnedLoose::width);
-}
-
-struct Analysed {
-    std::vector<MeasurementReport> reports;
-    RotationEstimates rotation;
-    std::uint64_t used = 0;
-};
-
-/// As `swirl measure` does it: a block is what is seen of one swirl.
-Analysed analysed(Recording& recording, std::vector<std::string> names, double skip,
-                  const std::atomic<bool>& stop) {
-    const bool tracked = holds_tracks(recording);
-    const Snapshot first = recording.frame(0);
-    Observation observation(first.container_radius, first.period, std::move(names), tracked);
-    ClusterRotation rotation;
-    Analysed found;
-    std::int64_t swirl = first.swirls;
-    auto next_break = recording.breaks().begin();
-    for (std::uint64_t k = 0; k < recording.size() && !stop; ++k) {
-        const Snapshot s = recording.frame(k);
-        const bool others = next_break != recording.breaks().end() && *next_break == k;
-        if (others) ++next_break;
-        if (s.time() < skip * s.period) continue;
-        if (found.used > 0 && s.swirls != swirl) {
-            rotation.close_block();
-            observation.close_block();
-        }
-        if (others) observation.begin_tracks();
-        swirl = s.swirls;
-        rotation.sample_by_time(s);
-        observation.sample(s);
-        ++found.used;
-    }
-    rotation.close_block();
-    observation.close_block();
-    found.reports = observation.report();
-    found.rotation = rotation.estimates();
-    return found;
-}
-
 /// Without those that frames cannot tell: refused where they were asked for by name.
-std::vector<std::string> told_by_frames(const Recording& recording,
+std::vector<std::string> told_by_frames(const SnapshotSeries& series,
                                         const std::vector<std::string>& names, bool all) {
     std::vector<std::string> told;
     for (const std::string& name : names) {
         const MeasurementKind& kind = *find_measurement(name);
-        const bool untold = kind.needs_events || (kind.needs_tracks && !holds_tracks(recording));
+        const bool untold = kind.needs_events || (kind.needs_tracks && !holds_tracks(series));
         if (!untold) told.push_back(name);
         if (!untold || all) continue;
         if (kind.needs_events)
@@ -202,9 +161,12 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
     if (!(skip >= 0.0))
         throw WrongCall(fmt::format("skip is {}, but it must be 0 or more swirls.", skip));
     if (recording.size() == 0) throw WrongCall("The recording holds no frames.");
-    const auto told = told_by_frames(recording, names, all);
+    const SnapshotSeries& series = recording.series();
+    const auto told = told_by_frames(series, names, all);
     std::atomic<bool> stop = false;
-    const Analysed found = listening(stop, [&] { return analysed(recording, told, skip, stop); });
+    const MeasuredSeries found = listening(stop, [&] {
+        return measure_series(series, told, skip, [&](std::uint64_t) { return !stop; });
+    });
     if (found.used == 0) throw WrongCall(fmt::format("skip {} leaves no frame.", skip));
     return py::make_tuple(reports_in_python(found.reports), estimate_tuple(found.rotation.by_time),
                           estimate_tuple(found.rotation.rigid_by_time), found.used);
@@ -225,6 +187,7 @@ void bind_recordings(py::module_& module) {
              })
         .def_property_readonly("same_discs", &Recording::same_discs)
         .def_property_readonly("complete", &Recording::complete)
+        .def_readonly("remarks", &Recording::remarks)
         .def("about", &Recording::about)
         .def("analyse", &analyse);
 }

@@ -9,14 +9,14 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
-#include "swirl/app/track_fit.hpp"
 #include "swirl/app/track_options.hpp"
 #include "swirl/files/trajectory.hpp"
-#include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/track_fit.hpp"
 #include "swirl/run/version.hpp"
 
 namespace swirl {
@@ -37,53 +37,33 @@ struct Opened {
     Json camera;          // of tracks only
 };
 
-Json camera_json(const Tracks& tracks, const SnapshotSeries& series, const TrackFit& fit) {
+Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
     return {{"filled_positions", tracks.mended.filled},
             {"renamed", tracks.mended.renamed},
             {"dropped_positions", tracks.mended.dropped},
-            {"breaks", series.breaks.size()},
-            {"frames_outside", fit.outside},
-            {"frames_overlapping", fit.overlapping},
-            {"wall_gap", fit.wall_gap},
-            {"fitting_phase", fit.fitting_phase}};
+            {"breaks", fitted.series.breaks.size()},
+            {"frames_outside", fitted.fit.outside},
+            {"frames_overlapping", fitted.fit.overlapping},
+            {"wall_gap", fitted.fit.wall_gap},
+            {"fitting_phase", fitted.fit.fitting_phase}};
 }
 
 Opened open_tracks(const MeasureCall& call) {
     const TrackScale scale = track_scale(call.camera, call.file);
-    const double misfit = number_option("misfit", call.misfit, 0.05, 0.0);
-    Tracks tracks = read_tracks(call.file, scale);
+    const double misfit = number_option("misfit", call.misfit, default_misfit, 0.0);
+    const Tracks tracks = read_tracks(call.file, scale);
     if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
         throw Failure(fmt::format(
             "'{}' holds a single frame, which tells no velocities; two are the least.", call.file));
-    Opened opened;
-    opened.remarks = mended_text(tracks);
-    opened.series = series_of(tracks, scale);
-    const TrackFit fit = fit_of(opened.series, scale);
-    refuse_misfit(fit, scale, misfit);
-    opened.remarks += fit_text(fit);
-    if (!opened.series.same_discs())
-        opened.remarks += fmt::format(
-            "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",
-            opened.series.breaks.size(), opened.series.frames);
-    opened.camera = camera_json(tracks, opened.series, fit);
-    return opened;
+    FittedSeries fitted = fitted_series(tracks, scale, misfit);
+    const Json camera = camera_json(tracks, fitted);
+    return {std::move(fitted.series), std::move(fitted.remarks), camera};
 }
 
 Opened open_series(const MeasureCall& call) {
     if (is_trajectory(call.file))
         return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
     return open_tracks(call);
-}
-
-/// Whether the same discs are seen long enough for their tracks to say anything.
-bool holds_tracks(const SnapshotSeries& series) {
-    std::uint64_t begin = 0, longest = 0;
-    for (const std::uint64_t end : series.breaks) {
-        longest = std::max(longest, end - begin);
-        begin = end;
-    }
-    longest = std::max(longest, series.frames - begin);
-    return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
 }
 
 /// Frames do not tell one collision from the next.
@@ -121,62 +101,39 @@ void measure_file(const MeasureCall& call) {
     const Opened opened = open_series(call);
     const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
-    const Snapshot first = series.frame(0);
-    const bool tracked = holds_tracks(series);
-    if (!tracked) drop_what_needs_tracks(names, call);
-
-    Observation observation(first.container_radius, first.period, names, tracked);
-    ClusterRotation rotation;
+    if (!holds_tracks(series)) drop_what_needs_tracks(names, call);
     ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
-    std::int64_t swirl = first.swirls;
-    std::uint64_t used = 0;
-    std::size_t discs = 0;
-    auto next_break = series.breaks.begin();
-    for (std::uint64_t k = 0; k < series.frames; ++k) {
+    const MeasuredSeries found = measure_series(series, names, skip, [&](std::uint64_t k) {
         if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
-        const Snapshot s = series.frame(k);
-        const bool others = next_break != series.breaks.end() && *next_break == k;
-        if (others) ++next_break;
-        if (s.time() < skip * s.period) continue;
-        if (used > 0 && s.swirls != swirl) {
-            rotation.close_block();
-            observation.close_block();
-        }
-        if (others) observation.begin_tracks();
-        swirl = s.swirls;
-        discs = std::max(discs, s.size());
-        rotation.sample_by_time(s);
-        observation.sample(s);
-        ++used;
-        line.show(double(k + 1) / double(series.frames), fmt::format("frame {}", k + 1));
-    }
+        line.show(double(k) / double(series.frames), fmt::format("frame {}", k));
+        return true;
+    });
     line.clear();
-    if (used == 0)
+    if (found.used == 0)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
-    rotation.close_block();
-    observation.close_block();
 
-    const MeasurementReports measured = observation.report();
-    const RotationEstimates found = rotation.estimates();
-    const double swirls = series.frame(series.frames - 1).time() / first.period - skip;
+    const RotationEstimates& rotation = found.rotation;
+    const Snapshot last = series.frame(series.frames - 1);
+    const double swirls = last.time() / last.period - skip;
     Json json{{"file", call.file},
-              {"frames", used},
-              {"discs", discs},
+              {"frames", found.used},
+              {"discs", found.discs},
               {"same_discs", series.same_discs()},
               {"rotation",
-               {{"by_time", estimate_json(found.by_time)},
-                {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
-              {"measured", measured_json(measured)},
+               {{"by_time", estimate_json(rotation.by_time)},
+                {"rigid_by_time", estimate_json(rotation.rigid_by_time)}}},
+              {"measured", measured_json(found.reports)},
               {"camera", opened.camera},
               {"remark", opened.remarks},
               {"version", version()}};
     std::string text = fmt::format(
-        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
-        sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
-        with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
-    text += measured_text(measured);
+        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", found.discs,
+        sense_of_rotation(rotation.by_time),
+        with_error(rotation.by_time.mean, rotation.by_time.error),
+        with_error(rotation.rigid_by_time.mean, rotation.rigid_by_time.error), found.used);
+    text += measured_text(found.reports);
     text += opened.remarks;
-    const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
+    const double per_swirl = swirls > 0.0 ? double(found.used) / swirls : 0.0;
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
     });
@@ -186,7 +143,7 @@ void measure_file(const MeasureCall& call) {
             per_swirl, samples_per_period);
     if (!call.tables.empty()) {
         make_folder(call.tables);
-        write_measured_tables(measured, call.tables);
+        write_measured_tables(found.reports, call.tables);
     }
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");

@@ -91,20 +91,6 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
         ->group(group);
 }
 
-std::string mended_text(const Tracks& tracks) {
-    const auto& [filled, renamed, dropped] = tracks.mended;
-    std::string text;
-    if (filled > 0)
-        text += fmt::format("{} positions missing for up to five frames were put back.\n", filled);
-    if (renamed > 0)
-        text += fmt::format(
-            "{} times a disc went on under another name, and was given its own back.\n", renamed);
-    if (dropped > 0)
-        text +=
-            fmt::format("{} positions of discs seen in a single frame were left out.\n", dropped);
-    return text;
-}
-
 bool is_trajectory(const std::string& file) {
     // By its name too: what is wrong with it is then said by who knows trajectories.
     return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");

@@ -28,8 +28,6 @@ bool is_trajectory(const std::string& file);
 /// A table of trackpy or a LAMMPS dump, by what it begins with, mended (files/track_mending.hpp).
 /// Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
-/// What was mended, a line each.
-std::string mended_text(const Tracks& tracks);
 /// tracks.csv → tracks.camera.json: what `swirl track` found of the dish, beside the tracks.
 std::filesystem::path camera_file(std::filesystem::path tracks);
 /// What is not given is taken from there, if there is such a file. Throws WrongCall for what is

@@ -11,11 +11,11 @@
 #include <set>
 
 #include "swirl/measure/several_runs.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/all_cores.hpp"
 
 namespace swirl {
 namespace {

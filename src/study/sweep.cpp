@@ -20,12 +20,12 @@
 #include "swirl/files/whole_file.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/measure/several_runs.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/all_cores.hpp"
 #include "swirl/study/crossing.hpp"
 
 namespace swirl {

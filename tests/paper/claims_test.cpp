@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "swirl/measure/crossing.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/run.hpp"
-#include "swirl/study/all_cores.hpp"
 
 namespace swirl {
 namespace {

@@ -199,3 +199,33 @@ def test_wrong_tables(table):
         swirl.Tracks(few.assign(x="here"), **SCALE)
     with pytest.raises(ValueError, match="columns frame"):
         swirl.Tracks(np.zeros((4, 4)), **SCALE)
+
+
+@pytest.mark.parametrize("change, said", [
+    (dict(scale=25.0), "scale 25 is too large"), (dict(phase=180), "phase that fits best is phase 0"),
+    (dict(container_radius=12.0), "hardly ever come near the wall"),
+])
+def test_tracks_that_do_not_fit_the_dish_are_refused(table, change, said):
+    with pytest.raises(swirl.Failure, match=said):
+        swirl.Tracks(table, **{**SCALE, **change})
+    as_it_is = swirl.Tracks(table, **{**SCALE, **change}, misfit=1)
+    assert len(as_it_is) == len(swirl.Tracks(table, **SCALE))
+
+
+def test_what_was_mended_is_said(table):
+    assert swirl.Tracks(table, **SCALE).remarks == []
+    gap = table[~((table.particle == 3) & table.frame.isin([100, 101]))]
+    assert swirl.Tracks(gap, **SCALE).remarks == [
+        "2 positions missing for up to five frames were put back."]
+
+
+def test_a_film_tracked_here_needs_no_scale(table, tmp_path):
+    table.assign(radius=20.0, seen=1).to_csv(tmp_path / "tracks.csv", index=False)
+    camera = {name.replace("_", "-"): value for name, value in SCALE.items()}
+    (tmp_path / "tracks.camera.json").write_text(json.dumps({"camera": camera}))
+    read, given = swirl.Tracks.read(tmp_path / "tracks.csv"), swirl.Tracks(table, **SCALE)
+    np.testing.assert_array_equal(read[200].position, given[200].position)
+    np.testing.assert_array_equal(read[200].radius, np.ones(20))
+    (tmp_path / "tracks.camera.json").write_text("{}")
+    with pytest.raises(swirl.Failure, match="is not what `swirl track` writes beside its tracks"):
+        swirl.Tracks.read(tmp_path / "tracks.csv")

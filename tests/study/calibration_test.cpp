@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "swirl/measure/several_runs.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/run.hpp"
-#include "swirl/study/all_cores.hpp"
 #include "swirl/study/crossing.hpp"
 
 namespace swirl {

@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 import os
+import pathlib
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union, overload
 
@@ -95,16 +96,21 @@ class Tracks(Recording):
     container at frame 0, in degrees counter-clockwise from the right, as the camera saw it. clockwise:
     the swirl ran clockwise in the picture.
 
+    misfit: the share of frames that may show discs outside the dish or in each other; where more do,
+    swirl.Failure says which of the above is likely to be wrong. `remarks` says what does not quite fit,
+    and what was mended.
+
     Short gaps are filled, and velocities are differences between frames (src/files/tracks.hpp).
     """
 
     def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
                  camera_fps: float = 1.0, scale: float = 1.0,
                  centre: tuple[float, float] = (0.0, 0.0), phase: float = 0.0,
-                 clockwise: bool = False) -> None:
+                 clockwise: bool = False, misfit: float = 0.05) -> None:
         for name, value, least in (("omega", omega, 1e-12), ("container_radius", container_radius, 1e-12),
                                    ("amplitude", amplitude, 0.0), ("camera_fps", camera_fps, 1e-12),
-                                   ("scale", scale, 1e-12), ("phase", phase, -1e9)):
+                                   ("scale", scale, 1e-12), ("phase", phase, -1e9),
+                                   ("misfit", misfit, 0.0)):
             if isinstance(value, bool) or not hasattr(value, "__float__"):
                 raise TypeError(f"{name} is {value!r}, but it must be a number.")
             if not least <= float(value) < math.inf:
@@ -122,22 +128,52 @@ class Tracks(Recording):
         x0, y0 = (float(part) for part in centre)
         if not (math.isfinite(x0) and math.isfinite(y0)):
             raise ValueError(f"centre is {centre}, but it must be two finite numbers.")
+        radius = np.asarray(table["radius"], float) if _of_our_tracker(table) else np.empty(0)
         order = np.lexsort((columns["particle"], columns["frame"]))
         self._frames = _engine.Recording.tracks(
             columns["frame"][order], columns["particle"][order], columns["x"][order],
-            columns["y"][order],
+            columns["y"][order], radius[order] if radius.size else radius,
             {"omega": float(omega), "container_radius": float(container_radius),
              "amplitude": float(amplitude), "camera_fps": float(camera_fps), "scale": float(scale),
-             "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)})
+             "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)},
+            float(misfit))
 
     @classmethod
     def read(cls, file: PathName, **scale: Any) -> "Tracks":
-        """From a table of trackpy as CSV."""
+        """From a table of trackpy as CSV. What is not given is taken from NAME.camera.json beside
+        NAME.csv, as `swirl track` writes it."""
         import pandas
-        return cls(pandas.read_csv(file), **scale)
+        beside = pathlib.Path(file).with_suffix(".camera.json")
+        if beside.is_file():
+            scale = {**_camera(beside), **scale}
+        return cls(pandas.read_csv(file, float_precision="round_trip"), **scale)
+
+    @property
+    def remarks(self) -> list[str]:
+        """What was mended, and what does not quite fit the dish; empty if all is well."""
+        return self._frames.remarks.splitlines()
 
     def __repr__(self) -> str:
         return f"<swirl.Tracks: {len(self)} frames>"
+
+
+def _of_our_tracker(table: Any) -> bool:
+    """Its radii are those of the discs; other trackers call something else so."""
+    names = getattr(table, "columns", ())
+    return "seen" in names and "radius" in names
+
+
+def _camera(file: pathlib.Path) -> dict[str, Any]:
+    """What was found of the dish, as arguments of Tracks."""
+    try:
+        found = json.loads(file.read_text())["camera"]
+        return {argument: found[argument.replace("_", "-")]
+                for argument in ("omega", "container_radius", "amplitude", "camera_fps", "scale",
+                                 "centre", "phase", "clockwise")
+                if argument.replace("_", "-") in found}
+    except (ValueError, KeyError, TypeError):
+        raise _engine.Failure(f"'{file}' is not what `swirl track` writes beside its tracks; remove "
+                              "it, or track the film again.") from None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,4 +1,4 @@
-#include "swirl/app/track_fit.hpp"
+#include "swirl/run/track_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,72 @@ double degrees_in_picture(double phase, bool clockwise) {
     return seen - 360.0 * std::floor(seen / 360.0);
 }
 
+/// What was mended, a line each.
+std::string mended_text(const Tracks& tracks) {
+    const auto& [filled, renamed, dropped] = tracks.mended;
+    std::string text;
+    if (filled > 0)
+        text += fmt::format("{} positions missing for up to five frames were put back.\n", filled);
+    if (renamed > 0)
+        text += fmt::format(
+            "{} times a disc went on under another name, and was given its own back.\n", renamed);
+    if (dropped > 0)
+        text +=
+            fmt::format("{} positions of discs seen in a single frame were left out.\n", dropped);
+    return text;
+}
+
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
+
+/// What does not quite fit, a line each.
+std::string fit_text(const TrackFit& fit) {
+    std::string text;
+    if (!fit.phase_fits)
+        text += fmt::format("The discs fit the dish better with --phase {:.0f} than with {:.0f}.\n",
+                            fit.fitting_phase, fit.phase);
+    if (std::abs(fit.wall_gap) > loose_fit)
+        text += fmt::format(
+            "The discs come to {:.2g} radii of the wall in the median, not to 0: is "
+            "--container-radius right, and --scale?\n",
+            fit.wall_gap);
+    if (fit.pairs_known && std::abs(fit.closest_pair - 1.0) > 0.5 * loose_fit)
+        text += fmt::format(
+            "The discs come to {:.3g} radii of each other in the median, centre to centre, not to "
+            "2: is --scale right?\n",
+            2.0 * fit.closest_pair);
+    return text;
+}
+
+/// Throws Failure where more than this share of the frames contradicts what was said.
+void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
+    const auto frames = [](double part) { return fmt::format("{:.0f} %", 100.0 * part); };
+    if (fit.overlapping > share)
+        throw Failure(fmt::format(
+            "Discs lie in each other in {} of the frames, their centres {:.3g} radii apart where "
+            "2 is the least: --scale {} is too large; {:.3g} would let them touch. (--misfit "
+            "gives the share of frames that may say so.)",
+            frames(fit.overlapping), 2.0 * fit.closest_pair, scale.pixels_per_radius,
+            scale.pixels_per_radius * fit.closest_pair));
+    if (fit.outside > share)
+        throw Failure(fmt::format(
+            "Discs stick out of the dish in {} of the frames, by {:.2g} radii in the median: "
+            "--scale, --centre, --phase, --amplitude, --container-radius, --omega, --camera-fps "
+            "or --clockwise is wrong.{} (--misfit gives the share of frames that may say so.)",
+            frames(fit.outside), std::max(-fit.wall_gap, 0.0), fit.advice));
+    if (share >= 1.0) return;
+    if (fit.never_at_wall)
+        throw Failure(fmt::format(
+            "The discs hardly ever come near the wall, {:.2g} radii from it in the median, but a "
+            "swirl flings them there: --container-radius {} or --scale {} is too large. (--misfit "
+            "1 takes it as it is.)",
+            fit.wall_gap, scale.container_radius, scale.pixels_per_radius));
+    if (fit.never_touching)
+        throw Failure(fmt::format(
+            "No two discs touch, their centres are {:.3g} radii apart at least in the median: "
+            "--scale {} is too small; {:.3g} would let them touch. (--misfit 1 takes it as it is.)",
+            2.0 * fit.closest_pair, scale.pixels_per_radius,
+            scale.pixels_per_radius * fit.closest_pair));
+}
 
 }  // namespace
 
@@ -100,52 +165,17 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
     return fit;
 }
 
-std::string fit_text(const TrackFit& fit) {
-    std::string text;
-    if (!fit.phase_fits)
-        text += fmt::format("The discs fit the dish better with --phase {:.0f} than with {:.0f}.\n",
-                            fit.fitting_phase, fit.phase);
-    if (std::abs(fit.wall_gap) > loose_fit)
-        text += fmt::format(
-            "The discs come to {:.2g} radii of the wall in the median, not to 0: is "
-            "--container-radius right, and --scale?\n",
-            fit.wall_gap);
-    if (fit.pairs_known && std::abs(fit.closest_pair - 1.0) > 0.5 * loose_fit)
-        text += fmt::format(
-            "The discs come to {:.3g} radii of each other in the median, centre to centre, not to "
-            "2: is --scale right?\n",
-            2.0 * fit.closest_pair);
-    return text;
-}
-
-void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
-    const auto frames = [](double part) { return fmt::format("{:.0f} %", 100.0 * part); };
-    if (fit.overlapping > share)
-        throw Failure(fmt::format(
-            "Discs lie in each other in {} of the frames, their centres {:.3g} radii apart where "
-            "2 is the least: --scale {} is too large; {:.3g} would let them touch. (--misfit "
-            "gives the share of frames that may say so.)",
-            frames(fit.overlapping), 2.0 * fit.closest_pair, scale.pixels_per_radius,
-            scale.pixels_per_radius * fit.closest_pair));
-    if (fit.outside > share)
-        throw Failure(fmt::format(
-            "Discs stick out of the dish in {} of the frames, by {:.2g} radii in the median: "
-            "--scale, --centre, --phase, --amplitude, --container-radius, --omega, --camera-fps "
-            "or --clockwise is wrong.{} (--misfit gives the share of frames that may say so.)",
-            frames(fit.outside), std::max(-fit.wall_gap, 0.0), fit.advice));
-    if (share >= 1.0) return;
-    if (fit.never_at_wall)
-        throw Failure(fmt::format(
-            "The discs hardly ever come near the wall, {:.2g} radii from it in the median, but a "
-            "swirl flings them there: --container-radius {} or --scale {} is too large. (--misfit "
-            "1 takes it as it is.)",
-            fit.wall_gap, scale.container_radius, scale.pixels_per_radius));
-    if (fit.never_touching)
-        throw Failure(fmt::format(
-            "No two discs touch, their centres are {:.3g} radii apart at least in the median: "
-            "--scale {} is too small; {:.3g} would let them touch. (--misfit 1 takes it as it is.)",
-            2.0 * fit.closest_pair, scale.pixels_per_radius,
-            scale.pixels_per_radius * fit.closest_pair));
+FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit) {
+    FittedSeries fitted;
+    fitted.series = series_of(tracks, scale);
+    fitted.fit = fit_of(fitted.series, scale);
+    refuse_misfit(fitted.fit, scale, misfit);
+    fitted.remarks = mended_text(tracks) + fit_text(fitted.fit);
+    if (!fitted.series.same_discs())
+        fitted.remarks += fmt::format(
+            "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",
+            fitted.series.breaks.size(), fitted.series.frames);
+    return fitted;
 }
 
 }  // namespace swirl

@@ -8,6 +8,9 @@
 
 namespace swirl {
 
+/// The share of frames that may contradict what was said of the dish.
+inline constexpr double default_misfit = 0.05;
+
 /// Of a few hundred frames spread over the series: the shares of frames that say so.
 struct TrackFit {
     double outside = 0.0;      // a disc sticks out of the dish by more than a fifth of its radius
@@ -21,12 +24,16 @@ struct TrackFit {
     std::string advice;                       // of the phase, where it does not fit
 };
 
-/// What does not quite fit, a line each.
-std::string fit_text(const TrackFit& fit);
-
 TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale);
 
-/// Throws Failure where more than this share of the frames contradicts what was said.
-void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share);
+struct FittedSeries {
+    SnapshotSeries series;
+    TrackFit fit;
+    std::string remarks;  // what was mended and what does not quite fit, a line each
+};
+
+/// The tracks as frames of a dish. Throws Failure where more than the share `misfit` of the frames
+/// contradicts what was said of the dish, and says what is likely to be wrong.
+FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit);
 
 }  // namespace swirl

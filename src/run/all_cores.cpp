@@ -1,4 +1,4 @@
-#include "swirl/study/all_cores.hpp"
+#include "swirl/run/all_cores.hpp"
 
 #include <sched.h>
 
