@@ -16,6 +16,7 @@ Options:
   --port N                        serve it here [8720]
   --out FILE.html                 write one file that works by double click, without a network, instead
   --no-browser                    do not open a browser
+  --quiet                         do not say what was written
 
 Examples:
   swirl lab
@@ -24,7 +25,7 @@ Examples:
 TEXT
 }
 
-port=8720 out= browser=yes
+port=8720 out= browser=yes quiet=
 while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
@@ -36,7 +37,8 @@ while [ $# -gt 0 ]; do
         --port=*) port=${1#*=} && shift ;;
         --out=*) out=${1#*=} && shift ;;
         --no-browser) browser=no && shift ;;
-        *) wrong_call "There is no option '$1' of swirl lab; --port, --out and --no-browser are all." ;;
+        --quiet) quiet=yes && shift ;;
+        *) wrong_call "There is no option '$1' of swirl lab; --port, --out, --no-browser and --quiet are all." ;;
     esac
 done
 case $port in
@@ -79,7 +81,7 @@ if [ -n "$out" ]; then
     aside=$out.$$.partial
     cp "$page" "$aside" 2>/dev/null && mv "$aside" "$out" ||
         { rm -f "$aside"; give_up "'$out' cannot be written."; }
-    say "wrote $out"
+    [ -n "$quiet" ] || say "wrote $out"
     exit 0
 fi
 exec node "$home/web/serve.mjs" "$page" "$port" "$browser"

@@ -1,5 +1,7 @@
 // The static site: README and docs as pages, the laboratory, the commands' help, and the sources
-// that they point to.   node site.mjs ROOT OUT HELP_FOLDER [REPORT_FOLDER]
+// that they point to.   node site.mjs ROOT OUT HELP_FOLDER NOTEBOOK_FOLDER [REPORT_FOLDER]
+//
+// NOTEBOOK_FOLDER holds notebooks with what they print; one that is not there is shown without.
 //
 // A link of a document to a file of the repository becomes a link to a page of that file, so nothing
 // points out of the site but what names another. A link to what does not exist is an error.
@@ -8,7 +10,7 @@ import {basename, dirname, extname, join, posix, resolve} from "node:path";
 import markdownIt from "markdown-it";
 import anchor from "markdown-it-anchor";
 
-const [root, out, help, report] = process.argv.slice(2).map((path) => resolve(path));
+const [root, out, help, executed, report] = process.argv.slice(2).map((path) => resolve(path));
 const pages = new Set(); // files of the repository that have a page, relative to its root
 const waiting = []; // that still need one
 const markdown = markdownIt({html: true}).use(anchor, {
@@ -96,11 +98,26 @@ function rendered(file, text = readFileSync(join(root, file), "utf-8")) {
         .replace(/<table>/g, '<div class="wide"><table>').replace(/<\/table>/g, "</table></div>");
 }
 
-/** The cells of a notebook, which is kept without what they print. */
+const joined = (text) => [text].flat().join("");
+
+/** The richest of the forms in which a notebook holds what a cell printed. */
+function printed({output_type, text, data}) {
+    if (output_type === "stream") return `<pre>${escaped(joined(text))}</pre>`;
+    if (data["image/svg+xml"]) return `<figure>${joined(data["image/svg+xml"])}</figure>`;
+    if (data["image/png"])
+        return `<figure><img src="data:image/png;base64,${joined(data["image/png"]).trim()}"
+    alt="what the cell above draws"></figure>`;
+    if (data["text/html"]) return `<div class="wide">${joined(data["text/html"])}</div>`;
+    return `<pre>${escaped(joined(data["text/plain"]))}</pre>`;
+}
+
 function notebook(file) {
-    return JSON.parse(readFileSync(join(root, file), "utf-8")).cells.map(({cell_type, source}) =>
-        cell_type === "markdown" ? rendered(file, source.join(""))
-            : `<pre class="source"><code>${escaped(source.join(""))}</code></pre>`).join("\n");
+    const run = join(executed, basename(file));
+    const {cells} = JSON.parse(readFileSync(existsSync(run) ? run : join(root, file), "utf-8"));
+    return cells.map(({cell_type, source, outputs}) =>
+        cell_type === "markdown" ? rendered(file, joined(source))
+            : `<pre class="source"><code>${escaped(joined(source))}</code></pre>\n` +
+              outputs.map((output) => printed(output)).join("\n")).join("\n");
 }
 
 function pageOf(file) {

@@ -49,7 +49,7 @@ trap 'rm -rf "$aside"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 mkdir -p "$aside/.help" 2>/dev/null || give_up "'$out' cannot be written."
-"$home/web/lab.sh" --out "$aside/lab.html"
+"$home/web/lab.sh" --quiet --out "$aside/lab.html"
 program=${SWIRL-$home/swirl}
 "$program" --help >"$aside/.help/swirl.txt"
 for command in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\).*/\1/p' "$aside/.help/swirl.txt"); do
@@ -58,12 +58,21 @@ done
 for command in lab site; do
     "$home/web/$command.sh" --help >"$aside/.help/$command.txt"
 done
-node "$home/web/site.mjs" "$home" "$aside" "$aside/.help" ${report:+"$report"} >"$aside/.log" 2>&1 || {
+mkdir "$aside/.notebooks"
+python=${SWIRL_PYTHON-$home/bindings/python/python.sh}
+# The first call builds the module where that is needed, and tells of it.
+if ! install_packages notebooks || ! "$python" -c "import swirl, nbclient"; then
+    say "the notebooks are shown without what they print."
+elif ! "$python" "$home/web/notebooks.py" "$aside/.notebooks" "$home"/examples/*.ipynb 2>"$aside/.log"; then
+    tail -n 5 "$aside/.log" >&2
+    give_up "the notebooks of examples/ could not be run (see above)."
+fi
+node "$home/web/site.mjs" "$home" "$aside" "$aside/.help" "$aside/.notebooks" ${report:+"$report"} >"$aside/.log" 2>&1 || {
     tail -n 5 "$aside/.log" >&2
     give_up "the site could not be made (see above)."
 }
 pages=$(cat "$aside/.log")
-rm -rf "$aside/.help" "$aside/.log"
+rm -rf "$aside/.help" "$aside/.notebooks" "$aside/.log"
 touch "$aside/.swirl-site"
 if [ -e "$out" ]; then
     mv "$out" "$aside.old" && mv "$aside" "$out" && rm -rf "$aside.old"

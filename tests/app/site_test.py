@@ -14,6 +14,10 @@ from urllib.parse import unquote, urlsplit
 from program import SOURCE
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
+# The module of this build runs the notebooks.
+WITH_MODULE = {**os.environ, "SWIRL_PYTHON": "/usr/bin/python3",
+               "PYTHONPATH": os.path.join(os.environ["SWIRL_LIBRARIES"], "python")}
+WITHOUT_MODULE = {**os.environ, "SWIRL_PYTHON": "false"}
 CHROMIUM = shutil.which("chromium")
 
 BROWSER = """
@@ -61,7 +65,7 @@ class Site(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.site = os.path.join(cls.folder.name, "site")
-        done = subprocess.run([SITE, "--out", cls.site], capture_output=True, text=True)
+        done = subprocess.run([SITE, "--out", cls.site], capture_output=True, text=True, env=WITH_MODULE)
         if done.returncode:
             raise RuntimeError(done.stderr[-4000:])
         cls.pages = {}
@@ -110,6 +114,15 @@ class Site(unittest.TestCase):
         self.assertIn("swirl.run(discs=12", text)
         self.assertNotIn("cell_type", text)
 
+    def test_notebooks_show_what_they_print(self):
+        for name in sorted(os.listdir(os.path.join(SOURCE, "examples"))):
+            if not name.endswith(".ipynb"):
+                continue
+            with open(os.path.join(self.site, "examples", name + ".html"), encoding="utf-8") as opened:
+                text = opened.read()
+            self.assertRegex(text, r'<img src="data:image/png;base64,|<figure><svg', name)
+            self.assertNotIn("Traceback", text, name)
+
     def test_only_who_is_asked_to_speaks_to_others(self):
         for path in self.pages:
             with open(path, encoding="utf-8") as opened:
@@ -130,16 +143,23 @@ class Site(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.strip()), (0, ""), done.stderr)
 
     def test_a_site_is_replaced_and_nothing_else_is(self):
-        with open(os.path.join(self.site, "old.html"), "w", encoding="utf-8") as opened:
-            opened.write("of an older site")
-        subprocess.run([SITE, "--out", self.site], check=True, capture_output=True)
-        self.assertEqual(os.listdir(self.folder.name), ["site"])
-        self.assertFalse(os.path.exists(os.path.join(self.site, "old.html")))
-        mine = os.path.join(self.folder.name, "site", "docs")  # a folder with something in it
-        done = subprocess.run([SITE, "--out", mine], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("not empty and not a site", done.stderr)
-        self.assertTrue(os.listdir(mine))
+        with tempfile.TemporaryDirectory() as folder:
+            site = os.path.join(folder, "site")
+            shutil.copytree(self.site, site)
+            with open(os.path.join(site, "old.html"), "w", encoding="utf-8") as opened:
+                opened.write("of an older site")
+            # Notebooks that cannot be run are shown all the same.
+            done = subprocess.run([SITE, "--out", site], check=True, capture_output=True, text=True,
+                                  env=WITHOUT_MODULE)
+            self.assertIn("without what they print", done.stderr)
+            self.assertTrue(os.path.exists(os.path.join(site, "examples", "first_steps.ipynb.html")))
+            self.assertEqual(os.listdir(folder), ["site"])
+            self.assertFalse(os.path.exists(os.path.join(site, "old.html")))
+            mine = os.path.join(site, "docs")  # a folder with something in it
+            done = subprocess.run([SITE, "--out", mine], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("not empty and not a site", done.stderr)
+            self.assertTrue(os.listdir(mine))
 
     def test_wrong_calls(self):
         for wrong, said in (([], "needs --out"), (["--out"], "--out needs a value"),
