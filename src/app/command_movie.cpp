@@ -7,9 +7,9 @@
 
 #include "swirl/app/appearance_options.hpp"
 #include "swirl/app/commands.hpp"
-#include "swirl/app/footage_options.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
+#include "swirl/app/source_options.hpp"
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/film/movie.hpp"
 #include "swirl/run/failure.hpp"
@@ -18,7 +18,7 @@ namespace swirl {
 namespace {
 
 struct MovieCall {
-    std::shared_ptr<FootageTexts> footage;
+    std::shared_ptr<SourceTexts> source;
     std::shared_ptr<AppearanceTexts> appearance;
     std::string out, frames_folder;
     std::optional<double> seconds, swirls, start;
@@ -33,14 +33,14 @@ MovieConfig movie_config(const MovieCall& call) {
     config.frames_folder = call.frames_folder;
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
     config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
-    config.footage = footage(*call.footage);
+    config.sources = frame_sources(*call.source);
     config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
-    const Footage& first = config.footage.front();
+    const FrameSource& first = config.sources.front();
     // Over a camera's pictures: one after the other, none twice.
     config.pace = call.pace.value_or(
         first.open_backdrop ? config.frames_per_second / first.frames_per_swirl : 0.5);
     config.start =
-        call.start.value_or(first.from.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
+        call.start.value_or(first.from.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.swirls)
         throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
@@ -86,7 +86,7 @@ void make_and_report(const MovieCall& call) {
                         where, result.frames, double(result.frames) / config.frames_per_second,
                         config.frames_per_second, config.pace, short_duration(seconds()),
                         result.frames / seconds()));
-    if (!call.quiet) print_all(remark_on(config.footage, config.appearance));
+    if (!call.quiet) print_all(remark_on(config.sources, config.appearance));
     if (!result.complete)
         throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
                                       result.frames, config.frames, where));
@@ -124,7 +124,7 @@ void add_movie_command(Subcommand& subcommand) {
         ->group(group);
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
-    call->footage = add_footage_options(subcommand);
+    call->source = add_source_options(subcommand);
     subcommand.set_examples(
         {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
          "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
@@ -134,7 +134,7 @@ void add_movie_command(Subcommand& subcommand) {
          "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
          "dish.mp4"});
     subcommand.callback([call, &subcommand] {
-        take_film_config(subcommand, *call->footage, "movie", {{"seconds", "swirls"}});
+        take_film_config(subcommand, *call->source, "movie", {{"seconds", "swirls"}});
         make_and_report(*call);
     });
 }

@@ -3,8 +3,8 @@
 
 #include "swirl/app/appearance_options.hpp"
 #include "swirl/app/commands.hpp"
-#include "swirl/app/footage_options.hpp"
 #include "swirl/app/output.hpp"
+#include "swirl/app/source_options.hpp"
 #include "swirl/film/picture.hpp"
 #include "swirl/run/failure.hpp"
 
@@ -12,7 +12,7 @@ namespace swirl {
 namespace {
 
 struct PictureCall {
-    std::shared_ptr<FootageTexts> footage;
+    std::shared_ptr<SourceTexts> source;
     std::shared_ptr<AppearanceTexts> appearance;
     std::optional<double> at;
     int flashes = 1;
@@ -27,9 +27,9 @@ void draw_and_report(const PictureCall& call) {
         throw WrongCall("There is nowhere for the picture to go: give --out FILE.");
     config.out = call.out;
     config.appearance = appearance(*call.appearance, Size{1920, 1080});
-    config.footage = footage(*call.footage);
-    const std::optional<double> last = config.footage.front().to;
-    config.at = call.at.value_or(last.value_or(call.footage->slip ? 0.0 : double(default_warmup)));
+    config.sources = frame_sources(*call.source);
+    const std::optional<double> last = config.sources.front().to;
+    config.at = call.at.value_or(last.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     config.flashes = call.flashes;
     config.every = call.every;
     if (const auto wrong = problem(config)) throw WrongCall(*wrong);
@@ -37,7 +37,7 @@ void draw_and_report(const PictureCall& call) {
     if (!call.quiet)
         print_all(fmt::format("{}: swirl {:g}, {}x{} pixels.\n", call.out, config.at,
                               config.appearance.size.width, config.appearance.size.height) +
-                  remark_on(config.footage, config.appearance));
+                  remark_on(config.sources, config.appearance));
 }
 
 void add_picture_command(Subcommand& subcommand) {
@@ -62,13 +62,13 @@ void add_picture_command(Subcommand& subcommand) {
         ->group(group);
     subcommand.add_flag("--quiet", call->quiet, "no report")->group(group);
     call->appearance = add_appearance_options(subcommand);
-    call->footage = add_footage_options(subcommand);
+    call->source = add_source_options(subcommand);
     subcommand.set_examples(
         {"swirl picture --discs 48 --frame m --color pinned --theme light --out 48.pdf",
          "swirl picture --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
          "swirl picture run.h5 --at 12.5 --trails --out instant.svg"});
     subcommand.callback([call, &subcommand] {
-        take_film_config(subcommand, *call->footage, "picture");
+        take_film_config(subcommand, *call->source, "picture");
         draw_and_report(*call);
     });
 }

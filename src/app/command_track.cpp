@@ -162,16 +162,16 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
 void make_overlay(const TrackedFilm& film, const TrackCall& call) {
     MovieConfig config;
     config.out = call.overlay;
-    config.footage = {tracked(film.tracks, film.scale(),
+    config.sources = {tracked(film.tracks, film.scale(),
                               escaped(std::filesystem::path(call.film).filename().string()),
                               call.film)};
-    const Footage& footage = config.footage.front();
+    const FrameSource& source = config.sources.front();
     config.appearance.size = {960, 960};
     config.appearance.coloring = Coloring::id;
     config.appearance.trails = true;
     config.frames_per_second = movie_format(call.overlay) == MovieFormat::gif ? 25 : 60;
-    config.pace = config.frames_per_second / footage.frames_per_swirl;
-    config.start = footage.from.value_or(0.0);
+    config.pace = config.frames_per_second / source.frames_per_swirl;
+    config.start = source.from.value_or(0.0);
     config.frames = static_cast<int>(film.pictures);
     if (const auto wrong = problem(config)) throw WrongCall(*wrong);
     ProgressLine line(call.overlay, call.quiet);

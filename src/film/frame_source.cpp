@@ -132,10 +132,10 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
     return labels;
 }
 
-Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
-    Footage footage;
+FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
+    FrameSource source;
     const ContainerPath path = make_path(config);
-    footage.open = [config, stop]() -> Reel {
+    source.open = [config, stop]() -> Reel {
         const auto refuse_stopped = [stop] {
             if (stop && stop->load(std::memory_order_relaxed))
                 throw Interrupted("Stopped before the moment that was to be shown.");
@@ -163,32 +163,32 @@ Footage simulated(const RunConfig& config, const std::atomic<bool>* stop) {
             return simulation->snapshot();
         };
     };
-    footage.path = outline(path);
-    footage.container_radius = config.container_radius;
-    footage.amplitude = config.amplitude;
-    footage.period = config.period;
-    footage.caption = caption_of(config);
-    footage.parameters = parameter_labels(config);
-    footage.knows_slip = config.floor;
-    return footage;
+    source.path = outline(path);
+    source.container_radius = config.container_radius;
+    source.amplitude = config.amplitude;
+    source.period = config.period;
+    source.caption = caption_of(config);
+    source.parameters = parameter_labels(config);
+    source.knows_slip = config.floor;
+    return source;
 }
 
-Footage rolling(const RollingBall& ball, double amplitude, double period) {
-    Footage footage;
-    footage.open = [=]() -> Reel {
+FrameSource rolling(const RollingBall& ball, double amplitude, double period) {
+    FrameSource source;
+    source.open = [=]() -> Reel {
         return [=](double swirls) { return snapshot_at(ball, amplitude, period, swirls * period); };
     };
-    footage.path = outline(circular_path(amplitude, period));
-    footage.container_radius = ball.container_radius;
-    footage.amplitude = amplitude;
-    footage.period = period;
-    footage.caption = ball.slip == 0.0   ? "one ball that slips"
-                      : ball.slip == 1.0 ? "one ball that rolls"
-                                         : "one ball that rolls and slips";
-    footage.parameters = {"$s$ = " + plain(ball.slip),
-                          "$γ$ = $s$ $R$/$R_{ball}$ = " + plain(rounded(ball.gamma())),
-                          "$ϖ$/$Ω$ = 1 − $γ$ = " + plain(rounded(ball.rotation()))};
-    return footage;
+    source.path = outline(circular_path(amplitude, period));
+    source.container_radius = ball.container_radius;
+    source.amplitude = amplitude;
+    source.period = period;
+    source.caption = ball.slip == 0.0   ? "one ball that slips"
+                     : ball.slip == 1.0 ? "one ball that rolls"
+                                        : "one ball that rolls and slips";
+    source.parameters = {"$s$ = " + plain(ball.slip),
+                         "$γ$ = $s$ $R$/$R_{ball}$ = " + plain(rounded(ball.gamma())),
+                         "$ϖ$/$Ω$ = 1 − $γ$ = " + plain(rounded(ball.rotation()))};
+    return source;
 }
 
 namespace {
@@ -253,35 +253,35 @@ class Projector {
 
 }  // namespace
 
-Footage recorded(const SnapshotSeries& series, const std::string& caption) {
+FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
     if (series.frames == 0) throw Failure("There is not one frame in " + caption + ".");
-    Footage footage;
+    FrameSource source;
     const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
-    footage.open = [series]() -> Reel {
+    source.open = [series]() -> Reel {
         auto projector = std::make_shared<Projector>(series);
         return [projector](double swirls) { return projector->at(swirls); };
     };
-    footage.container_radius = first.container_radius;
-    footage.amplitude = std::max(series.reach - first.container_radius, 0.0);
-    footage.period = first.period;
-    if (footage.amplitude > 0.0) footage.path = outline(circular_path(footage.amplitude, 1.0));
-    footage.caption = caption;
-    footage.parameters = {fmt::format("$N$ = {}", first.size()),
-                          "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
-                          "$A$ = " + plain(rounded(footage.amplitude)) + " $r$",
-                          fmt::format("{} recorded frames", series.frames)};
-    footage.from = swirls_of(first);
-    footage.to = swirls_of(last);
+    source.container_radius = first.container_radius;
+    source.amplitude = std::max(series.reach - first.container_radius, 0.0);
+    source.period = first.period;
+    if (source.amplitude > 0.0) source.path = outline(circular_path(source.amplitude, 1.0));
+    source.caption = caption;
+    source.parameters = {fmt::format("$N$ = {}", first.size()),
+                         "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
+                         "$A$ = " + plain(rounded(source.amplitude)) + " $r$",
+                         fmt::format("{} recorded frames", series.frames)};
+    source.from = swirls_of(first);
+    source.to = swirls_of(last);
     const auto known = [](const std::vector<double>& values) {
         return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
     };
-    if (*footage.to > *footage.from)
-        footage.frames_per_swirl =
-            static_cast<double>(series.frames - 1) / (*footage.to - *footage.from);
-    footage.knows_spin = known(first.spin);
-    footage.knows_orientation = known(first.angle);
-    footage.knows_slip = first.are_spheres() && first.on_floor;
-    return footage;
+    if (*source.to > *source.from)
+        source.frames_per_swirl =
+            static_cast<double>(series.frames - 1) / (*source.to - *source.from);
+    source.knows_spin = known(first.spin);
+    source.knows_orientation = known(first.angle);
+    source.knows_slip = first.are_spheres() && first.on_floor;
+    return source;
 }
 
 namespace {
@@ -326,21 +326,21 @@ Backdrop placed(const TrackScale& scale, bool y_down) {
 
 }  // namespace
 
-Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                const std::string& pictures, std::int64_t first_picture) {
+FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
+                    const std::string& pictures, std::int64_t first_picture) {
     const auto table = std::make_shared<const FrameTable>(tracks, scale);
     const Backdrop place = placed(scale, tracks.y_down);
     const SnapshotSeries series = series_of(std::move(tracks), scale);
-    Footage footage = recorded(series, caption);
-    footage.frames_per_swirl = scale.frames_per_time * scale.period;
-    if (series.same_discs()) footage.open_between = footage.open;
+    FrameSource source = recorded(series, caption);
+    source.frames_per_swirl = scale.frames_per_time * scale.period;
+    if (series.same_discs()) source.open_between = source.open;
     if (!series.same_discs() || !pictures.empty())
-        footage.open = [series, table]() -> Reel {
+        source.open = [series, table]() -> Reel {
             return [series, table](double swirls) { return series.frame(table->nearest(swirls)); };
         };
     if (!series.same_discs())
-        footage.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
-    if (pictures.empty()) return footage;
+        source.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
+    if (pictures.empty()) return source;
 
     const Film film(pictures);
     for (const std::int64_t number : {table->numbers.front(), table->numbers.back()})
@@ -348,7 +348,7 @@ Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& capti
             throw Failure(fmt::format(
                 "There is no picture '{}', which frame {} of the tracks would be drawn over.",
                 film.name(number + first_picture), number));
-    footage.open_backdrop = [=]() -> BackdropReel {
+    source.open_backdrop = [=]() -> BackdropReel {
         const auto reel = std::make_shared<Film>(pictures);
         return [=](double swirls) {
             Backdrop backdrop = place;
@@ -357,22 +357,22 @@ Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& capti
             return backdrop;
         };
     };
-    return footage;
+    return source;
 }
 
-Footage recorded(const std::string& file) try {
+FrameSource recorded(const std::string& file) try {
     auto reader = std::make_shared<TrajectoryReader>(file);
     if (reader->frames() == 0) throw Failure("There is not one frame in " + file + ".");
     const std::string name = std::filesystem::path(file).filename().string();
-    Footage footage = recorded(series_of(reader), escaped(name));
+    FrameSource source = recorded(series_of(reader), escaped(name));
     // What the file says of its run is what a film of the run itself would say.
     if (const auto config = config_in(reader->provenance("parameters"))) {
-        footage.caption = caption_of(*config);
-        const std::string frames = footage.parameters.back();
-        footage.parameters = parameter_labels(*config);
-        footage.parameters.push_back(frames);
+        source.caption = caption_of(*config);
+        const std::string frames = source.parameters.back();
+        source.parameters = parameter_labels(*config);
+        source.parameters.push_back(frames);
     }
-    return footage;
+    return source;
 } catch (const FileError& error) {
     throw Failure(error.what());
 }

@@ -24,7 +24,7 @@ using Reel = std::function<Snapshot(double swirls)>;
 /// One pass over what a camera saw.
 using BackdropReel = std::function<Backdrop(double swirls)>;
 
-struct Footage {
+struct FrameSource {
     /// Starts a pass; the times asked of one reel must not decrease.
     std::function<Reel()> open;
     std::vector<Vec2> path;  // of C in the lab frame; empty if not known
@@ -48,22 +48,22 @@ struct Footage {
 };
 
 /// Exact states at exact times.
-Footage simulated(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
+FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
 
 /// The paper's minimal model (physics/rolling_ball.hpp) in the paper's container or another one.
-Footage rolling(const RollingBall& ball, double amplitude, double period);
+FrameSource rolling(const RollingBall& ball, double amplitude, double period);
 
 /// Frames that were recorded, by us or by a camera. Between two of them discs move in straight
 /// lines. Swirls count from the beginning of the run. Throws Failure if there is not one frame.
-Footage recorded(const SnapshotSeries& series, const std::string& caption);
+FrameSource recorded(const SnapshotSeries& series, const std::string& caption);
 /// A trajectory file of ours; throws Failure.
-Footage recorded(const std::string& file);
+FrameSource recorded(const std::string& file);
 
 /// Tracks of a camera or of another program. Where discs come and go, or over a camera's pictures,
 /// the nearest frame is shown as it is. `pictures` is a name as for draw/film.hpp, in which frame 0
 /// has the number `first_picture`; empty: none. Throws Failure.
-Footage tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                const std::string& pictures = "", std::int64_t first_picture = 0);
+FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
+                    const std::string& pictures = "", std::int64_t first_picture = 0);
 
 /// "$N$ = 48", "$μ_{d}$ = 1", … in the order in which the paper names them.
 std::vector<std::string> parameter_labels(const RunConfig& config);

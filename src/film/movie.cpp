@@ -56,12 +56,12 @@ struct Survey {
     std::vector<double> spins, speeds, slips;
     bool single_disc = true;  // in all that was looked at
 
-    Curve look(const Footage& footage, Frame frame, double start, double end) {
-        const Reel reel = footage.open();
-        const double omega = 2.0 * pi / footage.period;
+    Curve look(const FrameSource& source, Frame frame, double start, double end) {
+        const Reel reel = source.open();
+        const double omega = 2.0 * pi / source.period;
         Curve curve;
         // One swirl earlier, where there is one, so that the running mean is there at once.
-        const double begin = std::max(footage.from.value_or(0.0), start - 1.0);
+        const double begin = std::max(source.from.value_or(0.0), start - 1.0);
         double sum = 0.0;
         for (int k = 0;; ++k) {
             const double swirls = begin + static_cast<double>(k) / plot_samples;
@@ -94,13 +94,13 @@ struct Survey {
 /// One dish on its way through the movie: the moment now, and those just past.
 class Camera {
   public:
-    Camera(const Footage& footage, const Appearance& appearance, double start)
-        : reel_(footage.open()),
-          ids_(footage.ids),
-          from_(footage.from.value_or(0.0)),
+    Camera(const FrameSource& source, const Appearance& appearance, double start)
+        : reel_(source.open()),
+          ids_(source.ids),
+          from_(source.from.value_or(0.0)),
           length_(appearance.trails ? appearance.trail_length : 0.0) {
-        if (appearance.coloring == Coloring::pinned) watch_.emplace(footage, start);
-        if (footage.open_backdrop) backdrops_ = footage.open_backdrop();
+        if (appearance.coloring == Coloring::pinned) watch_.emplace(source, start);
+        if (source.open_backdrop) backdrops_ = source.open_backdrop();
     }
 
     void advance_to(double swirls) {
@@ -144,8 +144,8 @@ class Camera {
 /// What one frame needs; shared with the painters, which only read it.
 struct Instant {
     double swirls = 0.0;
-    std::vector<Moment> now;                // per footage
-    std::vector<std::vector<Moment>> past;  // per footage
+    std::vector<Moment> now;                // per source
+    std::vector<std::vector<Moment>> past;  // per source
     std::vector<std::vector<std::uint8_t>> pinned;
     std::vector<std::optional<Backdrop>> backdrop;
 };
@@ -165,18 +165,18 @@ class Easel {
         std::copy(still_.begin(), still_.end(), pixels.begin());
         cairo_surface_mark_dirty(cairo_get_target(canvas_.cairo()));
 
-        std::vector<std::vector<const Snapshot*>> past(config.footage.size());
-        std::vector<std::vector<std::span<const std::int64_t>>> past_ids(config.footage.size());
+        std::vector<std::vector<const Snapshot*>> past(config.sources.size());
+        std::vector<std::vector<std::span<const std::int64_t>>> past_ids(config.sources.size());
         std::vector<SceneContent> contents;
-        for (std::size_t k = 0; k < config.footage.size(); ++k) {
+        for (std::size_t k = 0; k < config.sources.size(); ++k) {
             for (const Moment& moment : instant.past[k]) {
                 past[k].push_back(&moment->snapshot);
-                if (config.footage[k].ids) past_ids[k].push_back(moment->ids);
+                if (config.sources[k].ids) past_ids[k].push_back(moment->ids);
             }
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f) {
                 contents.push_back(
                     {.now = instant.now[k]->snapshot,
-                     .path = config.footage[k].path,
+                     .path = config.sources[k].path,
                      .pinned = instant.pinned[k],
                      .past = past[k],
                      .backdrop = instant.backdrop[k] ? &*instant.backdrop[k] : nullptr,
@@ -211,17 +211,17 @@ double time_of_frame(const MovieConfig& config, int frame) {
 
 }  // namespace
 
-PinnedWatch::PinnedWatch(const Footage& footage, double first)
-    : reel_(footage.open_between ? footage.open_between() : footage.open()), to_(footage.to) {
+PinnedWatch::PinnedWatch(const FrameSource& source, double first)
+    : reel_(source.open_between ? source.open_between() : source.open()), to_(source.to) {
     // One swirl earlier, where there is one: a disc counts as pinned after eight frames at the
     // wall.
-    const double begin = std::max(footage.from.value_or(0.0), first - 1.0);
+    const double begin = std::max(source.from.value_or(0.0), first - 1.0);
     next_ = static_cast<std::int64_t>(std::ceil(begin * frames_per_swirl));
 }
 
-std::optional<std::string> problem(const std::vector<Footage>& footage,
+std::optional<std::string> problem(const std::vector<FrameSource>& sources,
                                    const Appearance& appearance) {
-    for (const Footage& dish : footage) {
+    for (const FrameSource& dish : sources) {
         if (appearance.coloring == Coloring::spin && !dish.knows_spin)
             return fmt::format("{} tells no spins, so the discs cannot be coloured by them.",
                                dish.caption);
@@ -260,7 +260,7 @@ std::optional<std::string> problem(const MovieConfig& config) {
             "The name '{}' does not tell what kind of movie is wanted: it must end in .mp4, .webm "
             "or .gif.",
             config.out);
-    if (auto wrong = problem(config.footage, config.appearance)) return wrong;
+    if (auto wrong = problem(config.sources, config.appearance)) return wrong;
     // Pictures alone take any size and rate; their sides may be odd.
     const Size size = config.appearance.size;
     if (format) {
@@ -278,15 +278,15 @@ std::optional<std::string> problem(const MovieConfig& config) {
         return fmt::format("A movie cannot start at swirl {}: it must be 0 or later.",
                            config.start);
     const double end = time_of_frame(config, config.frames - 1);
-    for (const Footage& footage : config.footage) {
-        if (footage.from && config.start < *footage.from - 1e-9)
+    for (const FrameSource& source : config.sources) {
+        if (source.from && config.start < *source.from - 1e-9)
             return fmt::format("The recording starts at swirl {:.3f}, after the start at {:.3f}.",
-                               *footage.from, config.start);
-        if (footage.to && end > *footage.to + 1e-6)
+                               *source.from, config.start);
+        if (source.to && end > *source.to + 1e-6)
             return fmt::format(
                 "The recording ends at swirl {:.3f}, before the movie does at {:.3f}: a shorter "
                 "--seconds or a lower --pace would be right.",
-                *footage.to, end);
+                *source.to, end);
     }
     // The palette of a GIF belongs to the whole movie, so ffmpeg keeps every frame until the end.
     const double gif_bytes =
@@ -299,8 +299,8 @@ std::optional<std::string> problem(const MovieConfig& config) {
     return std::nullopt;
 }
 
-Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearance, double start,
-                 double end, std::vector<Curve>& curves) {
+Sheet make_sheet(const std::vector<FrameSource>& sources, const Appearance& appearance,
+                 double start, double end, std::vector<Curve>& curves) {
     SheetSpec spec;
     spec.size = appearance.size;
     spec.style.theme = appearance.theme;
@@ -317,15 +317,15 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
             std::clamp(2 + static_cast<int>(std::ceil(-std::log10(end - start))), 2, 12);
     if (appearance.texts) {
         spec.title = escaped(appearance.title);
-        if (spec.title.empty() && footage.size() == 1) spec.title = footage[0].caption;
-        if (footage.size() == 1) spec.parameters = footage[0].parameters;
+        if (spec.title.empty() && sources.size() == 1) spec.title = sources[0].caption;
+        if (sources.size() == 1) spec.parameters = sources[0].parameters;
     }
-    for (const Footage& dish : footage) {
+    for (const FrameSource& dish : sources) {
         for (Frame frame : appearance.frames) {
             const std::string name = frame == Frame::lab ? "lab frame" : "M-frame";
             Panel panel{frame, "", dish.container_radius, dish.amplitude,
                         appearance.turned && frame == Frame::lab};
-            if (appearance.texts && footage.size() > 1)
+            if (appearance.texts && sources.size() > 1)
                 panel.caption =
                     appearance.frames.size() > 1 ? dish.caption + ", " + name : dish.caption;
             else if (appearance.texts)
@@ -333,10 +333,10 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
             spec.panels.push_back(panel);
         }
     }
-    if (footage.size() > 1 && appearance.texts) {
+    if (sources.size() > 1 && appearance.texts) {
         // What all dishes share; the rest stands in their captions.
-        for (const std::string& label : footage[0].parameters)
-            if (std::all_of(footage.begin(), footage.end(), [&](const Footage& other) {
+        for (const std::string& label : sources[0].parameters)
+            if (std::all_of(sources.begin(), sources.end(), [&](const FrameSource& other) {
                     return std::find(other.parameters.begin(), other.parameters.end(), label) !=
                            other.parameters.end();
                 }))
@@ -347,10 +347,10 @@ Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearan
                         appearance.coloring == Coloring::slip;
     Survey survey;
     if (appearance.plot || appearance.turned || scaled) {
-        for (std::size_t k = 0; k < footage.size(); ++k) {
-            Curve curve = survey.look(footage[k], appearance.frames.front(), start, end);
+        for (std::size_t k = 0; k < sources.size(); ++k) {
+            Curve curve = survey.look(sources[k], appearance.frames.front(), start, end);
             curve.color = k == 0 ? appearance.theme.curve : appearance.theme.pinned;
-            if (footage.size() > 1) curve.label = footage[k].caption;
+            if (sources.size() > 1) curve.label = sources[k].caption;
             curves.push_back(std::move(curve));
         }
         spec.style.full_spin = scale_end(std::move(survey.spins));
@@ -387,7 +387,7 @@ double turns_until(const Curve& curve, double start, double now) {
 MovieResult make_movie(const MovieConfig& config, const MovieControl& control) try {
     const auto stopped = [&] { return control.stop && control.stop->load(); };
     std::vector<Curve> curves;
-    const Sheet sheet = make_sheet(config.footage, config.appearance, config.start,
+    const Sheet sheet = make_sheet(config.sources, config.appearance, config.start,
                                    time_of_frame(config, config.frames - 1), curves);
     const std::optional<MovieFormat> format = movie_format(config.out);
     std::unique_ptr<MovieWriter> movie;
@@ -406,8 +406,8 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
             ++delivered;
         });
         std::vector<Camera> cameras;
-        for (const Footage& footage : config.footage)
-            cameras.emplace_back(footage, config.appearance, config.start);
+        for (const FrameSource& source : config.sources)
+            cameras.emplace_back(source, config.appearance, config.start);
         int frame = 0;
         for (; frame < config.frames && !stopped(); ++frame) {
             auto instant = std::make_shared<Instant>();

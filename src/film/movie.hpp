@@ -38,7 +38,7 @@ struct Appearance {
 };
 
 struct MovieConfig {
-    std::vector<Footage> footage;  // side by side
+    std::vector<FrameSource> sources;  // side by side
     Appearance appearance;
     double start = 0.0;  // swirls
     double pace = 0.5;   // swirls per second
@@ -60,7 +60,7 @@ struct MovieResult {
 };
 
 /// Why these dishes cannot be shown so, as a full sentence; nothing if they can.
-std::optional<std::string> problem(const std::vector<Footage>& footage,
+std::optional<std::string> problem(const std::vector<FrameSource>& sources,
                                    const Appearance& appearance);
 /// Why this cannot be filmed, as a full sentence; nothing if it can.
 std::optional<std::string> problem(const MovieConfig& config);
@@ -73,7 +73,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control = 
 class PinnedWatch {
   public:
     /// `first`: the first moment that will be asked for.
-    PinnedWatch(const Footage& footage, double first);
+    PinnedWatch(const FrameSource& source, double first);
     /// At moments that do not decrease.
     const std::vector<std::uint8_t>& at(double swirls);
 
@@ -89,8 +89,8 @@ class PinnedWatch {
 
 /// The page for these dishes, with scales and plot fitted to the swirls from `start` to `end`.
 /// `curves` receives, per dish, what plot and arcs show.
-Sheet make_sheet(const std::vector<Footage>& footage, const Appearance& appearance, double start,
-                 double end, std::vector<Curve>& curves);
+Sheet make_sheet(const std::vector<FrameSource>& sources, const Appearance& appearance,
+                 double start, double end, std::vector<Curve>& curves);
 
 /// Turns of the cluster from `start` to `now`: the integral of ϖ/Ω over the swirls.
 double turns_until(const Curve& curve, double start, double now);

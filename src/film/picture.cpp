@@ -23,29 +23,29 @@ struct Exposure {
     std::vector<std::span<const std::int64_t>> past_id_spans;
 };
 
-Exposure expose(const Footage& footage, const PictureConfig& config) {
+Exposure expose(const FrameSource& source, const PictureConfig& config) {
     Exposure exposure;
-    const double from = footage.from.value_or(0.0);
-    const Reel reel = footage.open();
+    const double from = source.from.value_or(0.0);
+    const Reel reel = source.open();
     for (int k = config.flashes - 1; k > 0; --k)
         exposure.ghosts.push_back(reel(config.at - k * config.every));
     if (config.appearance.trails) {
         // A reel of its own: trails may begin before the last flash.
-        const Reel trail = footage.open();
+        const Reel trail = source.open();
         constexpr int points = 96;  // per swirl
         const double begin = std::max(from, config.at - config.appearance.trail_length);
         for (auto k = static_cast<std::int64_t>(std::ceil(begin * points));
              static_cast<double>(k) / points < config.at; ++k) {
             const double then = static_cast<double>(k) / points;
             exposure.past.push_back(trail(then));
-            if (footage.ids) exposure.past_ids.push_back(footage.ids(then));
+            if (source.ids) exposure.past_ids.push_back(source.ids(then));
         }
     }
     exposure.now = reel(config.at);
-    if (footage.ids) exposure.ids = footage.ids(config.at);
-    if (footage.open_backdrop) exposure.backdrop = footage.open_backdrop()(config.at);
+    if (source.ids) exposure.ids = source.ids(config.at);
+    if (source.open_backdrop) exposure.backdrop = source.open_backdrop()(config.at);
     if (config.appearance.coloring == Coloring::pinned)
-        exposure.pinned = PinnedWatch(footage, config.at).at(config.at);
+        exposure.pinned = PinnedWatch(source, config.at).at(config.at);
     return exposure;
 }
 
@@ -64,7 +64,7 @@ std::optional<std::string> problem(const PictureConfig& config) {
             "The name '{}' does not tell what kind of picture is wanted: it must end in .png, .svg "
             "or .pdf.",
             config.out);
-    if (auto wrong = problem(config.footage, config.appearance)) return wrong;
+    if (auto wrong = problem(config.sources, config.appearance)) return wrong;
     if (config.flashes < 1 || config.flashes > 1000)
         return fmt::format("A stroboscope of {} flashes cannot be drawn: 1 to 1000 can.",
                            config.flashes);
@@ -75,22 +75,22 @@ std::optional<std::string> problem(const PictureConfig& config) {
     if (!(first >= 0.0) || !std::isfinite(config.at))
         return fmt::format("The first instant would be at swirl {:g}: it must be 0 or later.",
                            first);
-    for (const Footage& footage : config.footage) {
-        if (footage.from && (first < *footage.from - 1e-9 || config.at > *footage.to + 1e-9))
+    for (const FrameSource& source : config.sources) {
+        if (source.from && (first < *source.from - 1e-9 || config.at > *source.to + 1e-9))
             return fmt::format(
                 "The recording holds the swirls from {:.3f} to {:.3f}, not all from {:.3f} to "
                 "{:.3f}.",
-                *footage.from, *footage.to, first, config.at);
+                *source.from, *source.to, first, config.at);
     }
     return std::nullopt;
 }
 
 void make_picture(const PictureConfig& config) try {
     std::vector<Curve> curves;
-    const double begin = std::max(config.footage.front().from.value_or(0.0), config.at - 10.0);
-    const Sheet sheet = make_sheet(config.footage, config.appearance, begin, config.at, curves);
+    const double begin = std::max(config.sources.front().from.value_or(0.0), config.at - 10.0);
+    const Sheet sheet = make_sheet(config.sources, config.appearance, begin, config.at, curves);
     std::vector<Exposure> exposures;
-    for (const Footage& footage : config.footage) exposures.push_back(expose(footage, config));
+    for (const FrameSource& source : config.sources) exposures.push_back(expose(source, config));
 
     std::vector<SceneContent> contents;
     for (std::size_t k = 0; k < exposures.size(); ++k) {
@@ -100,7 +100,7 @@ void make_picture(const PictureConfig& config) try {
         for (const auto& ids : e.past_ids) e.past_id_spans.push_back(ids);
         for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
             contents.push_back({.now = e.now,
-                                .path = config.footage[k].path,
+                                .path = config.sources[k].path,
                                 .pinned = e.pinned,
                                 .past = e.past_pointers,
                                 .ghosts = e.ghost_pointers,

@@ -11,7 +11,7 @@
 namespace swirl {
 
 struct PictureConfig {
-    std::vector<Footage> footage;  // side by side
+    std::vector<FrameSource> sources;  // side by side
     Appearance appearance;
     double at = 20.0;    // swirls
     int flashes = 1;     // of the stroboscope; the last one is at `at`

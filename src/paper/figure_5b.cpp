@@ -78,7 +78,7 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
 
 /// With μ_d = 0 nothing but the wall changes a disc's spin, which takes of the order of 100 swirls:
 /// what the paper averages over is a transient. Here 300 swirls are left out (150 when quick).
-FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
+static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
     std::vector<Point> points;
@@ -103,6 +103,12 @@ FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
         return finish("5b-steady", points, results, out);
     };
     return plan;
+}
+
+std::vector<PaperFigure> figures_5b() {
+    return {
+        {"5b", "rotation against N, for five frictions", plan_figure_5b},
+        {"5b-steady", "beyond the paper: Figure 5b in the steady state", plan_figure_5b_steady}};
 }
 
 }  // namespace swirl

@@ -76,7 +76,7 @@ PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
 
 }  // namespace
 
-FigurePlan plan_figure_ball(const PaperSettings& settings) {
+static FigurePlan plan_figure_ball(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_ball.py";
     std::vector<Ball> balls;
@@ -110,6 +110,10 @@ FigurePlan plan_figure_ball(const PaperSettings& settings) {
         return outcome;
     };
     return plan;
+}
+
+std::vector<PaperFigure> figures_of_the_ball() {
+    return {{"ball", "the minimal model, simulated: γ of one large disc", plan_figure_ball}};
 }
 
 }  // namespace swirl

@@ -101,7 +101,7 @@ std::string farthest_apart(const Friction& friction, std::span<const Json> resul
 
 }  // namespace
 
-FigurePlan plan_figure_averages(const PaperSettings& settings) {
+static FigurePlan plan_figure_averages(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_5b(settings);  // the same runs
     const auto table_of_5b = plan.finish;
     plan.script = "figure_averages.py";
@@ -160,7 +160,7 @@ Json transient(const RunConfig& config, const RunControl& control) {
 
 }  // namespace
 
-FigurePlan plan_figure_transient(const PaperSettings& settings) {
+static FigurePlan plan_figure_transient(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_transient.py";
     const std::vector<std::int64_t> numbers =
@@ -216,7 +216,7 @@ FigurePlan plan_figure_transient(const PaperSettings& settings) {
 
 // --- the crossing against the friction ------------------------------------------------------
 
-FigurePlan plan_figure_friction(const PaperSettings& settings) {
+static FigurePlan plan_figure_friction(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_friction.py";
     const std::vector<double> frictions =
@@ -271,7 +271,7 @@ FigurePlan plan_figure_friction(const PaperSettings& settings) {
 
 // --- inertia, restitution, path -------------------------------------------------------------
 
-FigurePlan plan_figure_inertia(const PaperSettings& settings) {
+static FigurePlan plan_figure_inertia(const PaperSettings& settings) {
     std::vector<Curve> curves;
     for (const double inertia : {0.5, 1.0, 10.0})
         curves.push_back({fmt::format("{}", inertia), inertia,
@@ -279,14 +279,14 @@ FigurePlan plan_figure_inertia(const PaperSettings& settings) {
     return plan_curves(settings, "inertia", "inertia", curves);
 }
 
-FigurePlan plan_figure_restitution(const PaperSettings& settings) {
+static FigurePlan plan_figure_restitution(const PaperSettings& settings) {
     std::vector<Curve> curves;
     for (const double e : {1.0, 0.99, 0.9})
         curves.push_back({fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
     return plan_curves(settings, "restitution", "restitution", curves);
 }
 
-FigurePlan plan_figure_tangential(const PaperSettings& settings) {
+static FigurePlan plan_figure_tangential(const PaperSettings& settings) {
     std::vector<Curve> curves;
     for (const double beta : {0.0, 0.5, 1.0})
         curves.push_back({fmt::format("{}", beta), beta, [beta](RunConfig& c) {
@@ -296,7 +296,7 @@ FigurePlan plan_figure_tangential(const PaperSettings& settings) {
     return plan_curves(settings, "tangential", "tangential_restitution", curves);
 }
 
-FigurePlan plan_figure_polygon(const PaperSettings& settings) {
+static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_polygon.py";
     const std::vector<int> sides = settings.quick
@@ -371,7 +371,7 @@ Json energy_series(const RunConfig& config, const RunControl& control) {
 
 }  // namespace
 
-FigurePlan plan_figure_energy(const PaperSettings& settings) {
+static FigurePlan plan_figure_energy(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_energy.py";
     const std::int64_t discs = 28, swirls = settings.swirls(settings.quick ? 100 : 400, 10);
@@ -437,7 +437,7 @@ std::string lowest_of_the_map(const std::vector<std::pair<double, double>>& poin
 
 }  // namespace
 
-FigurePlan plan_figure_map(const PaperSettings& settings) {
+static FigurePlan plan_figure_map(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_map.py";
     const std::vector<double> frictions =
@@ -471,6 +471,22 @@ FigurePlan plan_figure_map(const PaperSettings& settings) {
         return outcome;
     };
     return plan;
+}
+
+std::vector<PaperFigure> figures_beyond() {
+    return {
+        {"averages", "beyond the paper: by event and by time", plan_figure_averages},
+        {"transient", "beyond the paper: spin and rotation from rest, μ_d = 0",
+         plan_figure_transient},
+        {"friction", "beyond the paper: the crossing N_c against μ", plan_figure_friction},
+        {"inertia", "beyond the paper: moment of inertia ½, 1, 10", plan_figure_inertia},
+        {"restitution", "beyond the paper: restitution e = 1, 0.99, 0.9", plan_figure_restitution},
+        {"tangential", "beyond the paper: tangential restitution, solid discs",
+         plan_figure_tangential},
+        {"polygon", "beyond the paper: the polygon's sides, and the true circle",
+         plan_figure_polygon},
+        {"energy", "beyond the paper: energy without any friction", plan_figure_energy},
+        {"map", "beyond the paper: both frictions at N = 48", plan_figure_map}};
 }
 
 }  // namespace swirl

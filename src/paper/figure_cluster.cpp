@@ -124,7 +124,7 @@ std::string first_and_last(const std::string& what, const Friction& friction,
 
 }  // namespace
 
-FigurePlan plan_figure_1b(const PaperSettings& settings) {
+static FigurePlan plan_figure_1b(const PaperSettings& settings) {
     return plan_against_n(
         settings, "1b", {high_friction},
         {"slip.cluster_perimeter", "slip.pancake", "centre.x=centre_x", "centre.y=centre_y",
@@ -144,7 +144,7 @@ FigurePlan plan_figure_1b(const PaperSettings& settings) {
         });
 }
 
-FigurePlan plan_figure_4a(const PaperSettings& settings) {
+static FigurePlan plan_figure_4a(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4a", {smooth, rough},
         {"slip.cluster", "slip.pinned_region", "slip.pinned_at_wall"},
@@ -161,7 +161,7 @@ FigurePlan plan_figure_4a(const PaperSettings& settings) {
         });
 }
 
-FigurePlan plan_figure_4b(const PaperSettings& settings) {
+static FigurePlan plan_figure_4b(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4b", {high_friction},
         {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.spin_correlation",
@@ -184,7 +184,7 @@ FigurePlan plan_figure_4b(const PaperSettings& settings) {
 
 /// With both frictions, and with one of them absent: how much the discs move in the M-frame, at a
 /// low and at a high N.
-FigurePlan plan_figure_states(const PaperSettings& settings) {
+static FigurePlan plan_figure_states(const PaperSettings& settings) {
     return plan_against_n(
         settings, "states", {high_friction, no_wall_friction, no_disc_friction},
         {"temperature.granular", "temperature.of_the_spin", "centre.coriolis", "order.all=psi6",
@@ -199,7 +199,7 @@ FigurePlan plan_figure_states(const PaperSettings& settings) {
         {rotating, counterrotating});
 }
 
-FigurePlan plan_figure_4c(const PaperSettings& settings) {
+static FigurePlan plan_figure_4c(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4c", {smooth, rough}, {},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
@@ -312,7 +312,21 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
 
 }  // namespace
 
-FigurePlan plan_figure_3a(const PaperSettings& settings) { return plan_profiles(settings, "3a"); }
-FigurePlan plan_figure_3b(const PaperSettings& settings) { return plan_profiles(settings, "3b"); }
+static FigurePlan plan_figure_3a(const PaperSettings& settings) {
+    return plan_profiles(settings, "3a");
+}
+static FigurePlan plan_figure_3b(const PaperSettings& settings) {
+    return plan_profiles(settings, "3b");
+}
+
+std::vector<PaperFigure> figures_of_the_cluster() {
+    return {{"1b", "rotation against N, and the pancake line", plan_figure_1b},
+            {"3a", "angular velocity against the angular position", plan_figure_3a},
+            {"3b", "the same, divided by that of the wall", plan_figure_3b},
+            {"4a", "slip parameter of the pinned discs, smooth and rough", plan_figure_4a},
+            {"4b", "spin of the pinned discs at the wall, and frustration", plan_figure_4b},
+            {"4c", "rotation against N, smooth and rough", plan_figure_4c},
+            {"states", "without one of the frictions: motion in the M-frame", plan_figure_states}};
+}
 
 }  // namespace swirl

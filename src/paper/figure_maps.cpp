@@ -83,19 +83,26 @@ FigurePlan plan_maps(const PaperSettings& settings, const std::string& name,
 
 }  // namespace
 
-FigurePlan plan_figure_2b(const PaperSettings& settings) {
+static FigurePlan plan_figure_2b(const PaperSettings& settings) {
     return plan_both(settings, "2b", rotating);
 }
-FigurePlan plan_figure_2c(const PaperSettings& settings) {
+static FigurePlan plan_figure_2c(const PaperSettings& settings) {
     return plan_both(settings, "2c", counterrotating);
 }
-FigurePlan plan_figure_5c(const PaperSettings& settings) {
+static FigurePlan plan_figure_5c(const PaperSettings& settings) {
     return plan_maps(settings, "5c", "density",
                      {"x", "y", "by_event", "by_event_error", "by_time", "by_time_error"});
 }
-FigurePlan plan_figure_5d(const PaperSettings& settings) {
+static FigurePlan plan_figure_5d(const PaperSettings& settings) {
     return plan_maps(settings, "5d", "flow",
                      {"x", "y", "visits", "u_x", "u_x_error", "u_y", "u_y_error"});
+}
+
+std::vector<PaperFigure> figures_of_maps() {
+    return {{"2b", "density and flow of a rotating dish, N = 28", plan_figure_2b},
+            {"2c", "density and flow of a counterrotating dish, N = 48", plan_figure_2c},
+            {"5c", "density, N = 28 and 48", plan_figure_5c},
+            {"5d", "flow relative to the container, N = 28 and 48", plan_figure_5d}};
 }
 
 }  // namespace swirl

@@ -40,7 +40,7 @@ RunConfig paper_run(std::int64_t discs, std::uint64_t seed) {
 
 PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
     PictureConfig config;
-    config.footage = {simulated(paper_run(48, seed))};
+    config.sources = {simulated(paper_run(48, seed))};
     config.appearance.frames = {frame};
     config.appearance.theme = light_theme();
     config.appearance.size = {1000, 1000};
@@ -71,13 +71,13 @@ void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
 
 }  // namespace
 
-FigurePlan plan_figure_1c(const PaperSettings& settings) {
+static FigurePlan plan_figure_1c(const PaperSettings& settings) {
     return picture_plan(
         "figure_1c", "Figure 1c: drawn; the forces are those on one of 28 discs at swirl 20.13.",
         [seed = settings.seed](const std::string& file) { draw_figure_1c(seed, file); });
 }
 
-FigurePlan plan_figure_2a(const PaperSettings& settings) {
+static FigurePlan plan_figure_2a(const PaperSettings& settings) {
     return picture_plan("figure_2a",
                         "Figure 2a: 48 discs in the M-frame at swirl 50.3, pinned and loose.",
                         [seed = settings.seed](const std::string& file) {
@@ -90,13 +90,19 @@ FigurePlan plan_figure_2a(const PaperSettings& settings) {
                         });
 }
 
-FigurePlan plan_figure_5a(const PaperSettings& settings) {
+static FigurePlan plan_figure_5a(const PaperSettings& settings) {
     return picture_plan("figure_5a", "Figure 5a: 48 discs in the lab frame at swirl 50.3.",
                         [seed = settings.seed](const std::string& file) {
                             PictureConfig config = light_picture(seed, Frame::lab, file);
                             config.appearance.title = "The simulated discs";
                             make_picture(config);
                         });
+}
+
+std::vector<PaperFigure> figures_of_pictures() {
+    return {{"1c", "the M-frame and its forces", plan_figure_1c},
+            {"2a", "discs pinned and loose, in the M-frame", plan_figure_2a},
+            {"5a", "the simulated discs", plan_figure_5a}};
 }
 
 }  // namespace swirl

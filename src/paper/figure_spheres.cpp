@@ -178,7 +178,7 @@ std::string first_and_last(const std::vector<Point>& points, const std::vector<J
 
 }  // namespace
 
-FigurePlan plan_figure_spheres(const PaperSettings& settings) {
+static FigurePlan plan_figure_spheres(const PaperSettings& settings) {
     std::vector<Variant> variants;
     for (const double mu : settings.quick ? std::vector<double>{0.15, 0.2, 0.5}
                                           : std::vector<double>{0.1, 0.15, 0.2, 0.25, 0.3, 0.5})
@@ -187,7 +187,7 @@ FigurePlan plan_figure_spheres(const PaperSettings& settings) {
 }
 
 /// The same runs; the table is that of the changes of sign.
-FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
+static FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_spheres(settings);
     const auto curves = plan.finish;
     plan.script = "figure_spheres_sense.py";
@@ -204,7 +204,7 @@ FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
     return plan;
 }
 
-FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
+static FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
     const double mu = experiment_friction;
     const std::vector<Variant> variants{
         friction(mu),
@@ -222,7 +222,7 @@ FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
     return plan_variants(settings, "spheres_ingredients", variants, fewer_numbers(settings));
 }
 
-FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
+static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_spheres_pinned.py";
     std::vector<std::int64_t> numbers;
@@ -266,6 +266,17 @@ FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
         return outcome;
     };
     return plan;
+}
+
+std::vector<PaperFigure> figures_of_spheres() {
+    return {
+        {"spheres", "spheres that roll: rotation against N, six frictions", plan_figure_spheres},
+        {"spheres_sense", "spheres that roll: where the sense of rotation changes",
+         plan_figure_spheres_sense},
+        {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
+         plan_figure_spheres_ingredients},
+        {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
+         plan_figure_spheres_pinned}};
 }
 
 }  // namespace swirl

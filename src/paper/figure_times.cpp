@@ -37,7 +37,7 @@ Json smallest_time(const RunConfig& config, const RunControl& control) {
 
 }  // namespace
 
-FigurePlan plan_figure_times(const PaperSettings& settings) {
+static FigurePlan plan_figure_times(const PaperSettings& settings) {
     FigurePlan plan;
     const std::vector<double> frictions{1.0, 0.0};
     for (const double mu : frictions)
@@ -73,6 +73,10 @@ FigurePlan plan_figure_times(const PaperSettings& settings) {
         return outcome;
     };
     return plan;
+}
+
+std::vector<PaperFigure> figures_of_times() {
+    return {{"times", "the smallest times between collisions", plan_figure_times}};
 }
 
 }  // namespace swirl

@@ -116,7 +116,7 @@ Video video_of(const System& system, int version, Frame frame,
         video.model = RollingBall{.slip = version == 0 ? 1.0 : 0.0};
         video.caption = version == 0 ? "No slip, s = 1" : "Slip, s = 0";
         video.name = "minimal-model-" + place + (version == 0 ? "-no-slip" : "-slip");
-        config.footage = {rolling(*video.model, paper_amplitude, paper_period)};
+        config.sources = {rolling(*video.model, paper_amplitude, paper_period)};
         config.start = 0.0;
     } else {
         const RunConfig run =
@@ -124,7 +124,7 @@ Video video_of(const System& system, int version, Frame frame,
         video.caption = fmt::format("N = {}", run.discs);
         video.name = "numerical-" + place + "-" + lower(system.title) +
                      (version == 0 ? "-rotating" : "-counterrotating");
-        config.footage = {simulated(run)};
+        config.sources = {simulated(run)};
         config.start = static_cast<double>(default_warmup);
         video.settings["run"] = config_json(run);
     }
@@ -136,10 +136,10 @@ Video video_of(const System& system, int version, Frame frame,
     config.appearance.coloring = lab ? system.lab_coloring : system.m_coloring;
     if (!model)
         config.appearance.full_speed =
-            config.footage[0].container_radius * 2.0 * pi / config.footage[0].period;
+            config.sources[0].container_radius * 2.0 * pi / config.sources[0].period;
     config.appearance.size = settings.quick ? Size{360, 360} : Size{900, 900};
     config.appearance.title =
-        fmt::format("{}, {}", system.title, model ? config.footage[0].caption : video.caption);
+        fmt::format("{}, {}", system.title, model ? config.sources[0].caption : video.caption);
     config.out = (settings.out / (video.name + ".mp4")).string();
     video.settings["quick"] = settings.quick;
     return video;
@@ -177,15 +177,15 @@ std::optional<double> finished_before(const PaperParts& parts, const Video& vide
 double rotation_in(const Video& video) {
     if (video.model) return video.model->rotation();
     const MovieConfig& movie = video.config;
-    const Footage& footage = movie.footage.front();
+    const FrameSource& source = movie.sources.front();
     const double start = movie.start, swirls = movie.frames * movie.pace / movie.frames_per_second;
     constexpr int samples = 64;  // per swirl
-    const Reel reel = footage.open();
+    const Reel reel = source.open();
     const auto count = static_cast<int>(std::lround(swirls * samples));
     double sum = 0.0;
     for (int k = 0; k < count; ++k)
         sum += cluster_rotation(reel(start + (k + 0.5) / samples)).individual;
-    return sum / count * footage.period / (2.0 * pi);
+    return sum / count * source.period / (2.0 * pi);
 }
 
 std::string signed_number(double value) {

@@ -223,7 +223,7 @@ MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
         in_order.push_back(several_seeds(seeds));
         if (!point.name.empty()) in_order.back()["point"] = point.name;
     }
-    MadeFigure made{figure.name, figure.description, {}};
+    MadeFigure made{std::string(figure.name), std::string(figure.description), {}};
     const std::vector<std::string> remarks = remarks_on(plan, in_order, runs);
     try {
         made.outcome = plan.finish(in_order, out);

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "swirl/run/run.hpp"
@@ -79,12 +80,12 @@ struct FigurePlan {
 };
 
 struct PaperFigure {
-    const char* name;         // "5b"
-    const char* description;  // one line
+    std::string_view name;         // "5b"
+    std::string_view description;  // one line
     FigurePlan (*plan)(const PaperSettings& settings);
 };
 
-/// All figures there are, in the order of the paper (paper_figures.cpp).
+/// All figures there are, in the order of the report.
 const std::vector<PaperFigure>& paper_figures();
 /// Throws WrongCall, naming those there are.
 const PaperFigure& paper_figure(const std::string& name);

@@ -36,7 +36,7 @@ void expect_same_places(const Snapshot& a, const Snapshot& b, double tolerance) 
 class Recording : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_ = fs::temp_directory_path() / ("swirl-footage-" + std::to_string(::getpid()));
+        folder_ = fs::temp_directory_path() / ("swirl-source-" + std::to_string(::getpid()));
         fs::create_directories(folder_);
         const Reel reel = simulated(small_run()).open();
         for (int k = 0; k <= 40; ++k) frames_.push_back(reel(1.0 + k / 20.0));
@@ -51,7 +51,7 @@ class Recording : public ::testing::Test {
     std::vector<Snapshot> frames_;
 };
 
-TEST(Footage, IsTheStateOfTheEngineAtExactlyThatTime) {
+TEST(FrameSource, IsTheStateOfTheEngineAtExactlyThatTime) {
     const RunConfig config = small_run();
     const Reel reel = simulated(config).open();
     Simulation simulation(make_initial_state(config));
@@ -67,14 +67,14 @@ TEST(Footage, IsTheStateOfTheEngineAtExactlyThatTime) {
     }
 }
 
-TEST(Footage, EveryReelStartsAtTheBeginning) {
-    const Footage footage = simulated(small_run());
-    const Reel first = footage.open();
+TEST(FrameSource, EveryReelStartsAtTheBeginning) {
+    const FrameSource source = simulated(small_run());
+    const Reel first = source.open();
     first(3.0);
-    EXPECT_EQ(footage.open()(0.5).x, footage.open()(0.5).x);
+    EXPECT_EQ(source.open()(0.5).x, source.open()(0.5).x);
 }
 
-TEST(Footage, TheRollingBallTurnsAsItsSlipSays) {
+TEST(FrameSource, TheRollingBallTurnsAsItsSlipSays) {
     for (const double slip : {0.0, 0.5, 1.0}) {
         RollingBall ball;
         ball.slip = slip;
@@ -85,12 +85,12 @@ TEST(Footage, TheRollingBallTurnsAsItsSlipSays) {
 }
 
 TEST_F(Recording, PlaysTheFramesThatWereRecorded) {
-    const Footage footage = recorded(path("run.h5"));
-    EXPECT_NEAR(*footage.from, 1.0, 1e-12);
-    EXPECT_NEAR(*footage.to, 3.0, 1e-12);
-    EXPECT_NEAR(footage.amplitude, paper_amplitude,
+    const FrameSource source = recorded(path("run.h5"));
+    EXPECT_NEAR(*source.from, 1.0, 1e-12);
+    EXPECT_NEAR(*source.to, 3.0, 1e-12);
+    EXPECT_NEAR(source.amplitude, paper_amplitude,
                 0.01);  // the polygon's corners may fall between
-    const Reel reel = footage.open();
+    const Reel reel = source.open();
     for (int k = 0; k <= 40; ++k) expect_same_places(reel(1.0 + k / 20.0), frames_[k], 1e-12);
 }
 
@@ -104,7 +104,7 @@ TEST_F(Recording, IsTitledWithWhatItsFileSaysOfTheRun) {
         writer.finish();
         return recorded(path(name));
     };
-    const Footage told = write("told.h5", config_text(config));
+    const FrameSource told = write("told.h5", config_text(config));
     EXPECT_EQ(told.caption, "12 discs");
     std::vector<std::string> labels = parameter_labels(config);
     labels.emplace_back("41 recorded frames");
@@ -113,7 +113,7 @@ TEST_F(Recording, IsTitledWithWhatItsFileSaysOfTheRun) {
     EXPECT_EQ(write("nonsense.h5", "nonsense").caption, "nonsense.h5");
 }
 
-TEST(Footage, TheBallsCaptionSaysHowItMoves) {
+TEST(FrameSource, TheBallsCaptionSaysHowItMoves) {
     RollingBall ball;
     for (const auto& [slip, caption] :
          {std::pair(0.0, "one ball that slips"), std::pair(0.5, "one ball that rolls and slips"),
@@ -136,7 +136,7 @@ TEST_F(Recording, BetweenTwoFramesDiscsMoveInStraightLines) {
 
 TEST_F(Recording, IsFilmedFrameByFrame) {
     MovieConfig config;
-    config.footage = {recorded(path("run.h5"))};
+    config.sources = {recorded(path("run.h5"))};
     config.start = 1.0;
     config.pace = 1.0;
     config.frames_per_second = 20;
@@ -179,10 +179,10 @@ TEST(PinnedWatch, SaysWhatTheMeasurementSaysSevenFramesLater) {
 TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
     // In the lab the wall's points do not turn: a disc that keeps its place in the dish rides
     // along.
-    Footage footage;
-    footage.period = 10.0;
-    footage.container_radius = 8.6;
-    footage.open = [] {
+    FrameSource source;
+    source.period = 10.0;
+    source.container_radius = 8.6;
+    source.open = [] {
         return [](double swirls) {
             Snapshot s;
             s.period = 10.0;
@@ -202,7 +202,7 @@ TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
             return s;
         };
     };
-    PinnedWatch watch(footage, 1.0);
+    PinnedWatch watch(source, 1.0);
     EXPECT_EQ(watch.at(1.5), (std::vector<std::uint8_t>{1, 0}));
 }
 
@@ -245,35 +245,35 @@ TrackScale some_scale() {
     return scale;
 }
 
-TEST(TrackedFootage, IsShownFromItsFirstFrameToItsLast) {
-    const Footage footage = tracked(some_tracks(true), some_scale(), "tracks");
-    EXPECT_NEAR(*footage.from, 10.0 / 8.0, 1e-12);
-    EXPECT_NEAR(*footage.to, 14.0 / 8.0, 1e-12);
-    EXPECT_NEAR(footage.frames_per_swirl, 8.0, 1e-12);
-    EXPECT_FALSE(footage.knows_spin);
-    EXPECT_FALSE(footage.knows_orientation);
-    EXPECT_FALSE(footage.ids);
+TEST(TrackedSource, IsShownFromItsFirstFrameToItsLast) {
+    const FrameSource source = tracked(some_tracks(true), some_scale(), "tracks");
+    EXPECT_NEAR(*source.from, 10.0 / 8.0, 1e-12);
+    EXPECT_NEAR(*source.to, 14.0 / 8.0, 1e-12);
+    EXPECT_NEAR(source.frames_per_swirl, 8.0, 1e-12);
+    EXPECT_FALSE(source.knows_spin);
+    EXPECT_FALSE(source.knows_orientation);
+    EXPECT_FALSE(source.ids);
     // The same discs all the time: between two frames they move in straight lines.
-    EXPECT_NEAR(footage.open()(11.5 / 8.0).position(0).x, 1.5, 1e-12);
+    EXPECT_NEAR(source.open()(11.5 / 8.0).position(0).x, 1.5, 1e-12);
 }
 
-TEST(TrackedFootage, WhereDiscsComeAndGoTheNearestFrameIsShownWithTheirNames) {
-    const Footage footage = tracked(some_tracks(false), some_scale(), "tracks");
-    const Reel reel = footage.open();
+TEST(TrackedSource, WhereDiscsComeAndGoTheNearestFrameIsShownWithTheirNames) {
+    const FrameSource source = tracked(some_tracks(false), some_scale(), "tracks");
+    const Reel reel = source.open();
     EXPECT_NEAR(reel(11.4 / 8.0).position(0).x, 1.0, 1e-12);
     EXPECT_NEAR(reel(11.6 / 8.0).position(0).x, 2.0, 1e-12);
-    EXPECT_EQ(footage.ids(11.6 / 8.0), (std::vector<std::int64_t>{3, 8}));
+    EXPECT_EQ(source.ids(11.6 / 8.0), (std::vector<std::int64_t>{3, 8}));
     EXPECT_EQ(reel(13.0 / 8.0).size(), 1u);
-    EXPECT_EQ(footage.ids(13.0 / 8.0), (std::vector<std::int64_t>{8}));
+    EXPECT_EQ(source.ids(13.0 / 8.0), (std::vector<std::int64_t>{8}));
     Appearance appearance;
-    EXPECT_FALSE(problem({footage}, appearance));
+    EXPECT_FALSE(problem({source}, appearance));
     appearance.coloring = Coloring::pinned;
-    EXPECT_TRUE(problem({footage}, appearance));
+    EXPECT_TRUE(problem({source}, appearance));
     appearance.coloring = Coloring::spin;
-    EXPECT_TRUE(problem({footage}, appearance));
+    EXPECT_TRUE(problem({source}, appearance));
 }
 
-TEST(TrackedFootage, PicturesThatAreNotThereAreNamedBeforehand) {
+TEST(TrackedSource, PicturesThatAreNotThereAreNamedBeforehand) {
     try {
         tracked(some_tracks(true), some_scale(), "tracks", "/no/such/%03d.png", 5);
         FAIL() << "there were pictures";
@@ -285,7 +285,7 @@ TEST(TrackedFootage, PicturesThatAreNotThereAreNamedBeforehand) {
 
 TEST_F(Recording, AStroboscopicPictureNeedsItsFirstInstant) {
     PictureConfig config;
-    config.footage = {recorded(path("run.h5"))};
+    config.sources = {recorded(path("run.h5"))};
     config.out = path("x.png");
     config.appearance.size = {64, 64};
     config.at = 3.0;

@@ -15,7 +15,7 @@
 
 namespace swirl {
 
-struct FootageTexts {
+struct SourceTexts {
     std::shared_ptr<ParameterTexts> parameters;
     std::string file;  // a recording; of a call also a configuration
     TrackTexts camera;
@@ -26,17 +26,17 @@ struct FootageTexts {
     double ball_radius = 0.5 * paper_container_radius;
 };
 
-std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand);
+std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand);
 
 /// Where FILE is a configuration (.toml), takes what it says of the options that were not given;
 /// it may name a recording as `file`.
-void take_film_config(Subcommand& subcommand, FootageTexts& texts, const std::string& command,
+void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
                       const std::vector<std::vector<std::string>>& instead = {});
 
 /// One dish or two. Throws WrongCall or Failure.
-std::vector<Footage> footage(const FootageTexts& texts);
+std::vector<FrameSource> frame_sources(const SourceTexts& texts);
 
 /// What a recording does not tell well enough for what was shown, in lines for the report.
-std::string remark_on(const std::vector<Footage>& footage, const Appearance& appearance);
+std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance);
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-#include "swirl/app/footage_options.hpp"
+#include "swirl/app/source_options.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 namespace swirl {
 namespace {
 
-RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
+RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
     if (!(*texts.slip >= 0.0 && *texts.slip <= 1.0))
         throw WrongCall(fmt::format(
             "--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).", *texts.slip));
@@ -32,7 +32,7 @@ RollingBall ball_of(const FootageTexts& texts, const RunConfig& container) {
 }
 
 /// A run, or a recording of ours, is in no need of translation.
-void refuse_camera(const FootageTexts& texts) {
+void refuse_camera(const SourceTexts& texts) {
     const TrackTexts& camera = texts.camera;
     for (const auto& [name, given] :
          {std::pair("camera-fps", !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
@@ -47,7 +47,7 @@ void refuse_camera(const FootageTexts& texts) {
 }
 
 /// The container of a camera's tracks has the options of a run's; all others belong to runs alone.
-Footage tracked_in(const FootageTexts& texts) {
+FrameSource tracked_in(const SourceTexts& texts) {
     TrackTexts camera = texts.camera;
     ParameterTexts given = *texts.parameters;
     const auto take = [&](const char* name) {
@@ -74,8 +74,8 @@ Footage tracked_in(const FootageTexts& texts) {
 
 }  // namespace
 
-std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand) {
-    auto texts = std::make_shared<FootageTexts>();
+std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
+    auto texts = std::make_shared<SourceTexts>();
     const auto group = "What is shown";
     subcommand
         .add_option(
@@ -116,7 +116,7 @@ std::shared_ptr<FootageTexts> add_footage_options(Subcommand& subcommand) {
     return texts;
 }
 
-void take_film_config(Subcommand& subcommand, FootageTexts& texts, const std::string& command,
+void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
                       const std::vector<std::vector<std::string>>& instead) {
     if (!is_config_file(texts.file)) return;
     const std::string config = std::exchange(texts.file, "");
@@ -126,7 +126,7 @@ void take_film_config(Subcommand& subcommand, FootageTexts& texts, const std::st
     take_config_file(subcommand, config, *texts.parameters, Lists::refused, command, instead);
 }
 
-std::vector<Footage> footage(const FootageTexts& texts) {
+std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
     const bool of_a_camera = !texts.file.empty() && !is_trajectory(texts.file);
     if (!of_a_camera) refuse_camera(texts);
     if (of_a_camera && (texts.beside || texts.slip))
@@ -145,7 +145,7 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     if (texts.slip && texts.beside)
         throw WrongCall("--rolling-ball and --beside show different things: give one.");
     if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
-    std::vector<Footage> dishes{simulated(config, &stop_signal())};
+    std::vector<FrameSource> dishes{simulated(config, &stop_signal())};
     if (texts.beside) {
         RunConfig other = config;
         other.discs = *texts.beside;
@@ -155,9 +155,9 @@ std::vector<Footage> footage(const FootageTexts& texts) {
     return dishes;
 }
 
-std::string remark_on(const std::vector<Footage>& footage, const Appearance& appearance) {
+std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance) {
     std::string remarks;
-    for (const Footage& dish : footage) {
+    for (const FrameSource& dish : sources) {
         if (!dish.knows_orientation)
             remarks += "The recording tells no orientation of the discs, so they have no hands.\n";
         const double frames = dish.frames_per_swirl;
