@@ -67,7 +67,7 @@ build_page() {
         cmake -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja &&
             cmake --build "$home/build/wasm" &&
             mkdir -p "$home/web/generated" &&
-            gzip -9 -n -c "$home/build/wasm/swirl.wasm" >"$home/web/generated/swirl.wasm.gz" &&
+            zopfli -c "$home/build/wasm/swirl.wasm" >"$home/web/generated/swirl.wasm.gz" &&
             cd "$home/web" && npm install --no-audit --no-fund --no-save && npm run build
     } >"$log" 2>&1; then
         tail -n 30 "$log" >&2

@@ -6,27 +6,24 @@
 // end with a sentence, the page's `refuse` gets it. That function throws, on the page's side, so
 // what stands on our stack is lost: after it the page takes a new instance.
 //
-// Only this file knows about the page; engine, measurements and parameters are the same files as
+// Only this folder knows about the page; engine, measurements and parameters are the same files as
 // everywhere.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
-#include "swirl/measure/cluster_rotation.hpp"
+#include "dish.hpp"
+#include "json.hpp"
 #include "swirl/measure/crossing.hpp"
 #include "swirl/measure/m_frame.hpp"
-#include "swirl/measure/observation.hpp"
-#include "swirl/measure/sample_times.hpp"
-#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 
@@ -49,18 +46,6 @@ std::string buffer;
 std::uint32_t answer(std::string text) {
     buffer = std::move(text);
     return static_cast<std::uint32_t>(buffer.size());
-}
-
-/// As JSON has it; what is not known is null.
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : "null"; }
-
-std::string quoted(std::string_view text) {
-    std::string json = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') json += '\\';
-        json += c;
-    }
-    return json + '"';
 }
 
 /// "name=value" on every line.
@@ -101,127 +86,6 @@ Asked asked_for(std::string_view lines) {
     return {resolve(given), std::move(measured)};
 }
 
-/// One dish under observation. An event is found first, by executing it: until then the state of
-/// the snapshot holds, and can be looked at in between; then it is passed.
-class Dish {
-  public:
-    Dish(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
-        : config_(config),
-          path_(begin.path),
-          simulation_(begin),
-          snapshot_(simulation_.snapshot()),
-          seen_(snapshot_),
-          rotation_times_(rotation_samples, config.period),
-          observation_times_(samples_per_period, config.period),
-          observation_(config.container_radius, config.period, std::move(measured)) {}
-
-    const Event& event() const { return event_; }
-    const Simulation& simulation() const { return simulation_; }
-    const RunConfig& config() const { return config_; }
-    const ClusterRotation& in_warmup() const { return in_warmup_; }
-    const ClusterRotation& rotation() const { return rotation_; }
-    const Observation& observation() const { return observation_; }
-    std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
-
-    void step() {
-        if (!found_) find();
-        pass();
-    }
-
-    /// All events up to a moment, but no more than `most`; says whether it has come to that moment.
-    bool advance_to(double time, std::uint32_t most) {
-        for (;;) {
-            if (!found_) find();
-            if (time_of(event_) > time) return true;
-            if (most-- == 0) return false;
-            pass();
-        }
-    }
-
-    /// The dish at a moment between the last event and the next.
-    const Snapshot& seen_at(double time) {
-        seen_ = snapshot_;
-        const double clock = time - static_cast<double>(seen_.swirls) * config_.period;
-        // The samples may have moved the snapshot on towards the next event.
-        seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
-        const Leg& leg = path_.leg_at(seen_.clock);
-        seen_.container_centre = leg.position_at(seen_.clock);
-        seen_.container_velocity = leg.velocity_at(seen_.clock);
-        return seen_;
-    }
-    /// Of the last event that was passed.
-    double time() const {
-        return static_cast<double>(snapshot_.swirls) * config_.period + passed_clock_;
-    }
-
-    /// What another dish begins with whose discs are where they are at this moment, as seen from
-    /// the container, which is put where that dish's path begins. Velocities stay as they are: to
-    /// the discs it is a corner.
-    InitialState going_on(double time, const RunConfig& config, const ContainerPath& path) {
-        InitialState state = without_discs(config, path);
-        const Snapshot now = seen_at(time).up_to_date();
-        const Leg& leg = path.legs.front();
-        for (std::size_t i = 0; i < now.size(); ++i) {
-            Disc disc = now.disc(i);
-            disc.position = disc.position + (leg.start - now.container_centre);
-            disc.time = 0.0;
-            state.discs.push_back(disc);
-        }
-        return state;
-    }
-
-  private:
-    static constexpr int rotation_samples = 64;  // per swirl, as in every run
-
-    double time_of(const Event& event) const {
-        return static_cast<double>(event.swirls) * config_.period + event.clock;
-    }
-    /// Spheres brought up to date, as a run shows them: an observer takes it that nobody is
-    /// accelerated.
-    const Snapshot& observed() {
-        if (!snapshot_.are_spheres()) return snapshot_;
-        snapshot_.up_to_date(dated_);
-        return dated_;
-    }
-    bool counts() const { return snapshot_.swirls >= warmup(); }
-    ClusterRotation& rotation_now() { return counts() ? rotation_ : in_warmup_; }
-
-    void find() {
-        event_ = simulation_.step();
-        found_ = true;
-        while (rotation_times_.next(snapshot_, path_, event_.clock))
-            rotation_now().sample_by_time(snapshot_);
-        if (!observes()) return;
-        while (observation_times_.next(snapshot_, path_, event_.clock))
-            observation_.sample(observed());
-    }
-    void pass() {
-        found_ = false;
-        ClusterRotation& rotation = rotation_now();
-        const bool watched = observes();
-        simulation_.refresh(snapshot_, event_);
-        passed_clock_ = snapshot_.clock;
-        rotation.follow(snapshot_, event_);
-        rotation.sample(snapshot_);
-        if (watched) observation_.sample(event_, observed());
-        if (snapshot_.swirls == event_.swirls) return;
-        rotation.close_block();
-        if (watched) observation_.close_block();
-    }
-    bool observes() const { return counts() && !observation_.empty(); }
-
-    const RunConfig config_;
-    const ContainerPath path_;
-    Simulation simulation_;
-    Snapshot snapshot_, seen_, dated_;
-    Event event_{};
-    bool found_ = false;
-    double passed_clock_ = 0.0;  // of the last event that was passed
-    SampleTimes rotation_times_, observation_times_;
-    ClusterRotation in_warmup_, rotation_;
-    Observation observation_;
-};
-
 std::unique_ptr<Dish> dish;
 std::vector<double> numbers;
 std::vector<MeasurementReport> reports;
@@ -246,38 +110,54 @@ bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
     return texts_of(a) == texts_of(b);
 }
 
-/// Straight to a point, and there it waits to be told where next. At rest at once: that is a
-/// corner, as all others.
-ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
-    constexpr double long_enough = 1e6;  // periods of a container without any
-    return {long_enough,
-            {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},
-             {duration, long_enough, to, {0.0, 0.0}, 0.0}}};
+/// Of a parameter.
+struct ValueJson {
+    std::string operator()(std::monostate) const { return "null"; }
+    std::string operator()(const Mixture& m) const {
+        return JsonObject()
+            .add("count", double(m.count))
+            .add("radius", m.radius)
+            .add("mass", m.mass)
+            .text();
+    }
+    std::string operator()(const std::string& word) const { return quoted(word); }
+    std::string operator()(const auto& value) const { return fmt::format("{}", value); }
+};
+
+/// Of the points between disc i and this one, the farthest to which the disc can be moved, others
+/// and the wall in the way; the point itself if there is room for the disc.
+Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& point) {
+    constexpr double gap = 1e-9;  // the rounding of a contact that is worked out
+    const Disc& disc = state.discs[i];
+    const Vec2 from = disc.position, way = point - from;
+    const Vec2 centre = state.path.legs.front().start;
+    const double room = (state.container_radius - disc.radius) * (1.0 - gap);
+    const auto fits = [&](const Vec2& p) {
+        if (dot(p - centre, p - centre) > room * room) return false;
+        for (std::size_t j = 0; j < state.discs.size(); ++j) {
+            const Vec2 d = p - state.discs[j].position;
+            const double reach = (disc.radius + state.discs[j].radius) * (1.0 + gap);
+            if (j != i && dot(d, d) < reach * reach) return false;
+        }
+        return true;
+    };
+    if (fits(point)) return point;
+    // Halving finds one of the places where it is stopped, which is all that is wanted.
+    double there = 0.0, blocked = 1.0;
+    for (int step = 0; step < 40; ++step) {
+        const double middle = 0.5 * (there + blocked);
+        (fits(from + middle * way) ? there : blocked) = middle;
+    }
+    return from + there * way;
 }
 
-std::string row_json(const Parameter& p) {
+std::string parameter_json(const Parameter& p) {
     return fmt::format(
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
         R"("lowest":{},"highest":{},"given":{}}})",
         quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
         quoted(p.group), quoted(default_of(p)), number(p.lowest), number(p.highest),
         p.can_be_given());
-}
-
-std::string estimate_json(const Estimate& e) {
-    return fmt::format(R"({{"mean":{},"error":{},"blocks":{}}})", number(e.mean), number(e.error),
-                       e.blocks);
-}
-
-std::string table_json(const ReportTable& table) {
-    std::string json;
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        json += fmt::format("{}{}:[", c ? "," : "{", quoted(table.columns[c].name));
-        for (std::size_t r = 0; r < table.rows(); ++r)
-            json += (r ? "," : "") + number(table.at(r, c));
-        json += ']';
-    }
-    return json + '}';
 }
 
 }  // namespace
@@ -295,7 +175,8 @@ EXPORTED(text) const char* text() { return buffer.data(); }
 /// The table of parameters, JSON.
 EXPORTED(parameters) std::uint32_t parameters() {
     std::string json = "[";
-    for (const Parameter& p : run_parameters) json += (json.size() > 1 ? "," : "") + row_json(p);
+    for (const Parameter& p : run_parameters)
+        json += (json.size() > 1 ? "," : "") + parameter_json(p);
     return answer(json + "]");
 }
 
@@ -314,6 +195,37 @@ EXPORTED(change) std::uint32_t change(double time) {
     const InitialState state = dish->going_on(time, config, make_path(config));
     dish = std::make_unique<Dish>(config, state, measured);
     return 1;
+}
+
+/// Time runs backwards from this moment on: all velocities and spins turned round, and the path,
+/// too. 0: not without loss, since the dish has friction, a floor, or discs that do not bounce back
+/// fully.
+EXPORTED(reverse) std::uint32_t reverse(double time) {
+    const RunConfig& config = dish->config();
+    if (config.mu_disc != 0.0 || config.mu_wall != 0.0 || config.restitution != 1.0 || config.floor)
+        return 0;
+    const double clock = dish->seen_at(time).clock;
+    const ContainerPath back = path_from(backwards(dish->path()), dish->path().period - clock);
+    InitialState state = dish->going_on(time, config, back);
+    for (Disc& disc : state.discs) {
+        disc.velocity = -1.0 * disc.velocity;
+        disc.spin = -disc.spin;
+    }
+    dish = std::make_unique<Dish>(config, state, dish->measured());
+    return 1;
+}
+
+/// Disc i is put as near to (x, y) as there is room on the way, and moves with the dish there; all
+/// others go on as they are.
+EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
+    const ContainerPath later = path_from(dish->path(), dish->seen_at(time).clock);
+    InitialState state = dish->going_on(time, dish->config(), later);
+    if (i >= state.discs.size()) return;
+    Disc& disc = state.discs[i];
+    disc.position = nearest_with_room(state, i, {x, y});
+    disc.velocity = later.legs.front().velocity;
+    disc.spin = 0.0;
+    dish = std::make_unique<Dish>(dish->config(), state, dish->measured());
 }
 
 /// By hand: from this moment on the container goes straight to (x, y), which takes the duration
@@ -432,24 +344,36 @@ EXPORTED(crossing) std::uint32_t crossing() {
                               number(c.error), number(c.lower), number(c.upper)));
 }
 
-/// What was asked for with "measure", as `swirl run --json` has it under "measured".
-EXPORTED(measured) std::uint32_t measured() {
-    std::string json;
-    for (const auto& [name, report] : dish->observation().report()) {
-        json += fmt::format("{}{}:{{\"rows\":{{", json.empty() ? "{" : ",", quoted(name));
-        bool first = true;
-        for (const ReportRow& row : report.rows) {
-            json += fmt::format("{}{}:{}", first ? "" : ",", quoted(row.name),
-                                estimate_json(row.estimate));
-            first = false;
-        }
-        json += "},\"tables\":{";
-        first = true;
-        for (const ReportTable& table : report.tables) {
-            json += fmt::format("{}{}:{}", first ? "" : ",", quoted(table.name), table_json(table));
-            first = false;
-        }
-        json += "}}";
+/// The result as `swirl run --json` writes it, as far as a page knows it.
+EXPORTED(result) std::uint32_t result() {
+    RunConfig config = dish->config();
+    const EventCounts& counts = dish->simulation().events();
+    config.events = counts.total();
+    JsonObject given, events, rotation, measured;
+    for (const Parameter& p : run_parameters) {
+        if (!p.is_written()) continue;
+        const ParameterValue value = value_of(p, config);
+        if (p.said_only_if_set && std::holds_alternative<std::monostate>(value)) continue;
+        given.add(p.name, std::visit(ValueJson(), value));
     }
-    return answer(json.empty() ? "{}" : json + '}');
+    events.add("total", double(counts.total()))
+        .add("disc_disc", double(counts.disc_disc))
+        .add("disc_wall", double(counts.disc_wall))
+        .add("path_vertex", double(counts.path_vertex))
+        .add("elastic_by_tc_model", double(counts.elastic_by_tc));
+    if (counts.begins_to_roll > 0) events.add("begins_to_roll", double(counts.begins_to_roll));
+    dish->rotation().estimates().report(
+        [&](const ReportRow& row) { rotation.add(row.name, estimate_json(row.estimate)); });
+    for (const auto& [name, report] : dish->observation().report())
+        measured.add(name, report_json(report));
+    return answer(
+        JsonObject()
+            .add("config", given.text())
+            .add("complete", "true")
+            .add("events", events.text())
+            .add("periods", dish->periods())
+            .add("rotation", rotation.text())
+            .add("state_hash", quoted(fmt::format("{:016x}", dish->simulation().state_hash())))
+            .add("measured", measured.text())
+            .text());
 }

@@ -66,7 +66,7 @@ engineOf(process.argv[1]).then((make) => {
                 answers, frame: answers.length ? [...frame] : [],
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
-                measured: JSON.parse(engine.answer(engine.out.measured())),
+                result: JSON.parse(engine.answer(engine.out.result())),
                 asked: engine.asked});
         } catch (error) {
             said.push({refused: error.message});
@@ -112,11 +112,11 @@ class Laboratory(unittest.TestCase):
                                         str(EVENTS), "--measure", "slip", "--json", "-",
                                         "--quiet").stdout)
                 self.assertEqual(there["hash"], here["state_hash"])
-                for average in ("by_event", "by_time"):
-                    self.assertEqual(there["rotation"][average]["mean"],
-                                     here["rotation"][average]["mean"], average)
-                self.assertEqual(there["measured"]["slip"]["rows"]["cluster"]["mean"],
-                                 here["measured"]["slip"]["cluster"]["mean"])
+                result = there["result"]
+                self.assertEqual(set(result), {"config", "complete", "events", "periods", "rotation",
+                                               "state_hash", "measured"})
+                for key, value in result.items():
+                    self.assertEqual(value, here[key], key)
 
     def discs(self, given, steps):
         """What the last step, an advance to some time, shows of every disc: x, y, angle, spin, v."""
@@ -167,6 +167,51 @@ class Laboratory(unittest.TestCase):
             steps[1] = change(**more)
             self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
 
+    def test_time_backwards_brings_everybody_back(self):
+        period = 11.866071
+        for path in ("polygon", "circle"):
+            given = {"mu": "0", "path": path}
+            begin, _ = self.discs(given, [["advance_to", 0, 10 ** 6]])
+            there, _ = self.discs(given, [["advance_to", 0.3 * period, 10 ** 6]])
+            self.assertGreater(max(math.dist(a[:2], b[:2]) for a, b in zip(begin, there)), 1)
+            back, answers = self.discs(given, [
+                ["advance_to", 0.3 * period, 10 ** 6], ["reverse", 0.3 * period],
+                ["advance_to", 0.3 * period, 10 ** 6]])
+            self.assertEqual(answers, [1, 1, 1])
+            for one, other in zip(back, begin, strict=True):
+                for a, b in zip(one[:2], other[:2]):
+                    # A rounding grows tenfold at each of the few collisions, twice over.
+                    self.assertAlmostEqual(a, b, delta=1e-7, msg=path)
+        for lossy in ({}, {"mu_disc": "0", "mu_wall": "1"}, {"mu": "0", "restitution": "0.9"},
+                      {"body": "sphere", "floor": "sliding", "mu": "0"}):
+            _, answers = self.discs(lossy, [["reverse", 0.0], ["advance_to", 0, 10]])
+            self.assertEqual(answers[0], 0, lossy)
+
+    def test_a_dragged_disc_is_where_there_is_room(self):
+        now = 4.0
+        before, _ = self.discs({}, [["advance_to", now, 10 ** 6]])
+        dish = self.discs_of_container(now)
+        free = next([x, y] for x, y in ((dish[0] + 6.0 * math.cos(k), dish[1] + 6.0 * math.sin(k))
+                                        for k in range(7))
+                    if all(math.dist(disc[:2], (x, y)) > 2.01 for disc in before[1:]))
+        moved, _ = self.discs({}, [["advance_to", now, 10 ** 6], ["drag", now, 0, *free],
+                                   ["advance_to", 0, 10 ** 6]])
+        self.assert_same_discs([moved[0][:2], *[disc[:2] for disc in moved[1:]]],
+                               [free, *[disc[:2] for disc in before[1:]]])
+        # Into another disc, and out of the dish: as far as it goes.
+        for target, touches in ((before[1][:2], lambda disc: math.dist(disc[:2], before[1][:2]) - 2),
+                                ([40.0, 0.0], lambda disc: 7.6 - math.dist(disc[:2], dish))):
+            moved, _ = self.discs({}, [["advance_to", now, 10 ** 6], ["drag", now, 0, *target],
+                                       ["advance_to", 0, 10 ** 6]])
+            others = min(math.dist(moved[0][:2], disc[:2]) for disc in moved[1:])
+            self.assertGreaterEqual(others, 2)
+            self.assertLess(min(touches(moved[0]), others - 2), 1e-6)
+
+    def discs_of_container(self, now):
+        said = self.engine([{"given": {"discs": "5", "seed": "3"}, "events": 0,
+                             "steps": [["advance_to", now, 10 ** 6]]}])["said"][0]
+        return said["frame"][3:5]
+
     def test_the_page_knows_every_parameter_of_the_command_line(self):
         help_text = swirl("run", "--help").stdout
         for row in self.engine([])["parameters"]:
@@ -186,12 +231,27 @@ class Laboratory(unittest.TestCase):
     def test_the_page_in_a_browser(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
-        wanted = json.loads(swirl("run", "--discs", "28", "--mu", "0.5", "--seed", "3", "--events",
-                                  "20000", "--json", "-", "--quiet").stdout)["state_hash"]
-        done = subprocess.run(
-            ["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page, CHROMIUM, wanted],
-            capture_output=True, text=True, timeout=150)
+        dish = ["--discs", "28", "--mu", "0.5", "--seed", "3"]
+        run = json.loads(swirl("run", *dish, "--events", "20000", "--json", "-", "--quiet").stdout)
+        picture, folder = os.path.join(self.folder.name, "dish.svg"), self.folder.name
+        swirl("picture", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
+                               CHROMIUM, run["state_hash"], picture, folder],
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
+            self.assertEqual(json.load(opened)["config"]["discs"], 28)
+        if shutil.which("ffprobe"):
+            asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                    "stream=nb_read_frames", "-of", "csv=p=0",
+                                    os.path.join(folder, "swirl.webm")],
+                                   check=True, capture_output=True, text=True)
+            self.assertGreater(int(asked.stdout), 5)
+
+    def test_what_the_page_works_out_by_itself(self):
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_one_file_asks_nothing_of_anybody(self):
         with open(self.page, encoding="utf-8") as opened:

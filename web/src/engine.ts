@@ -47,6 +47,9 @@ interface Exports {
     rotation(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
+    reverse(time: number): number;
+    drag(time: number, i: number, x: number, y: number): void;
+    result(): number;
     report(): void;
     column(): number;
     values(): number;
@@ -120,6 +123,18 @@ export class Engine {
     /** From a moment on the container goes straight to a point; the engine's time begins anew. */
     steer(time: number, x: number, y: number, duration: number): void {
         this.out.steer(time, x, y, duration);
+    }
+    /** Time runs backwards from a moment on; false if this dish does not allow that. Times begin anew. */
+    reverse(time: number): boolean {
+        return this.out.reverse(time) === 1;
+    }
+    /** A disc is put as near to a point as there is room. Times begin anew. */
+    drag(time: number, disc: number, x: number, y: number): void {
+        this.out.drag(time, disc, x, y);
+    }
+    /** As `swirl run --json` writes it. */
+    result(): string {
+        return this.answer(this.out.result());
     }
     /** Of what is measured, as it is now; column() reads it. */
     report(): void {

@@ -6,9 +6,11 @@ import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
 import type {Parameter, Rotation} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
+import {Beside} from "./beside";
 import {MapsPanel} from "./maps";
 import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
-import {draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
+import {Recording} from "./recording";
+import {discAt, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
 import {lesson, presets, texts} from "./texts";
 
@@ -42,6 +44,9 @@ let hasHistory = false; // no command line makes this dish
 let byHand = false;
 let pointer: [number, number] | undefined; // where the container is to go, by hand
 let turned = 0; // of the pack, in turns
+let dragged: number | undefined; // the disc that is held
+let backwards = false;
+let beside: Beside | undefined;
 
 const worker = new EngineWorker();
 const tell = (message: ToWorker): void => worker.postMessage(message);
@@ -56,18 +61,46 @@ function layOutViews(): void {
         const canvas = element("canvas");
         canvas.setAttribute("role", "img");
         canvases[each] = canvas;
-        if (each === "lab") {
-            const follow = (event: PointerEvent): void => {
-                if (byHand && last)
-                    pointer = pointedAt(canvas, last.frame, room(), event.clientX, event.clientY);
-            };
-            canvas.addEventListener("pointermove", follow);
-            canvas.addEventListener("pointerdown", follow);
-        }
+        if (each === "lab") takePointer(canvas);
         return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
     }));
     for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete canvases[each];
+    if (beside) byId("views").append(beside.figure);
+    recording.stop();
     redraw();
+}
+
+/** By hand it leads the dish, else the disc that it is put on. */
+function takePointer(canvas: HTMLCanvasElement): void {
+    canvas.title = texts.dragHow;
+    const point = (event: PointerEvent): [number, number] =>
+        pointedAt(canvas, last!.frame, room(), event.clientX, event.clientY);
+    canvas.addEventListener("pointerdown", (event) => {
+        if (!last) return;
+        if (byHand) pointer = point(event);
+        else dragged = discAt(last.frame, ...point(event));
+        if (dragged !== undefined) canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+        if (!last) return;
+        if (byHand) pointer = point(event);
+        if (dragged === undefined || waiting) return;
+        waiting = true;
+        startAnew();
+        const [x, y] = point(event);
+        tell({kind: "drag", disc: dragged, x, y});
+    });
+    for (const end of ["pointerup", "pointercancel"] as const)
+        canvas.addEventListener(end, () => { dragged = undefined; });
+}
+
+/** The same discs, but no command line makes what they do from here on: averages begin anew. */
+function startAnew(): void {
+    hasHistory = true;
+    history = [];
+    blocks = [];
+    turned = 0;
+    plot.setData([[], [], []]);
 }
 
 /** How far from S the container may come; by hand, twice as far as it is swirled. */
@@ -83,6 +116,7 @@ function redraw(): void {
         draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
                                   event: last.event, dark: dark(),
                                   room: room(), turned});
+        beside?.redraw();
         const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
         if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
     }
@@ -156,6 +190,8 @@ function begin(events = 0): void {
     waiting = true;
     hasHistory = false;
     setByHand(false);
+    setBackwards(false);
+    recording.stop();
     turned = 0;
     plot.setData([[], [], []]);
     byId("headline").textContent = "…";
@@ -273,6 +309,35 @@ function setByHand(on: boolean): void {
     document.body.classList.toggle("by-hand", on);
 }
 
+const backwardsButton = button(texts.backwards, () => tell({kind: "reverse"}), "backwards");
+backwardsButton.title = texts.backwardsHow;
+function setBackwards(on: boolean): void {
+    backwards = on;
+    backwardsButton.textContent = on ? texts.forwards : texts.backwards;
+    backwardsButton.setAttribute("aria-pressed", String(on));
+}
+function allowBackwards(): void {
+    const {mu_disc, mu_wall, restitution, floor} = configuration;
+    backwardsButton.disabled = !(Number(mu_disc) === 0 && Number(mu_wall) === 0 &&
+                                 Number(restitution) === 1 && (floor ?? "none") === "none");
+}
+
+const recording = new Recording(() => canvases.lab ?? canvases.m);
+
+const besideButton = button(texts.beside, () => {
+    const given = asked();
+    const name = [`${configuration["discs"]} ${texts.discs}`,
+                  ...Object.entries(given).filter(([key]) => key !== "discs")
+                      .map(([key, value]) => `${key} ${value}`)].join(", ");
+    beside = new Beside(new EngineWorker(), engine, given, name, () => {
+        beside = undefined;
+        besideButton.disabled = false;
+        layOutViews();
+    });
+    besideButton.disabled = true;
+    layOutViews();
+}, "keep-beside");
+
 function choice<Value extends string>(name: string, options: Record<Value, string>, value: Value,
                                       set: (value: Value) => void): HTMLElement {
     const select = element("select", {id: `choose-${name}`}, ...Object.entries<string>(options).map(
@@ -308,8 +373,9 @@ function layOutBar(): void {
         choice(texts.color, texts.colors, coloring, (value) => { coloring = value; redraw(); }),
         element("label", {}, trailBox, ` ${texts.trails}`),
         element("label", {title: texts.keepHow}, keepBox, ` ${texts.keep}`),
-        handButton,
+        handButton, backwardsButton, besideButton,
         element("label", {}, `${texts.speed} `, speed),
+        recording.panel,
         button(texts.picture, () => {
             const canvas = canvases.lab ?? canvases.m;
             if (canvas) save("swirl.png", {href: canvas.toDataURL("image/png")});
@@ -317,7 +383,8 @@ function layOutBar(): void {
         button(texts.table, () => {
             const text = blocks.map((block, k) => `${k + 1},${block ?? ""}\n`).join("");
             save("rotation.csv", {text: `swirl,varpi\n${text}`, type: "text/csv"});
-        }, "save-table"));
+        }, "save-table"),
+        button(texts.result, () => tell({kind: "result"}), "save-result"));
     setPlaying(playing);
 }
 
@@ -386,6 +453,7 @@ function received(frame: Frame): void {
     const hadRun = last === undefined && runTo > 0;
     last = frame;
     redraw();
+    recording.add(frame.frame);
     if (frame.rotation) showRotation(frame.rotation);
     byId("event-count").textContent = String(frame.events);
     byId("state-hash").textContent = frame.hash;
@@ -433,6 +501,7 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             break;
         case "begun":
             configuration = data.configuration;
+            allowBackwards();
             break;
         case "changed":
             if (!data.kept) {
@@ -440,10 +509,17 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
                 break;
             }
             configuration = data.configuration;
-            hasHistory = true;
-            history = [];
-            blocks = [];
-            plot.setData([[], [], []]);
+            startAnew();
+            allowBackwards();
+            break;
+        case "reversed":
+            if (!data.done) break;
+            startAnew();
+            setBackwards(!backwards);
+            break;
+        case "result":
+            save("result.json", {text: JSON.stringify(JSON.parse(data.text), null, 2) + "\n",
+                                 type: "application/json"});
             break;
         case "maps":
             maps.show(data);
@@ -463,12 +539,17 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
 
 function animate(now: number): void {
     requestAnimationFrame(animate);
-    if (!playing || waiting || !last) return;
+    if (dragged !== undefined) lastTick = 0;
+    if (!playing || waiting || !last || dragged !== undefined) return;
     // After a pause, or a while in the background, time goes on from here.
     const elapsed = lastTick > 0 ? Math.min(now - lastTick, 100) : 0;
     lastTick = now;
     const swirls = elapsed / 1000 * swirlsPerSecond;
     waiting = true;
+    if (beside) {
+        beside.coloring = coloring;
+        beside.tick(swirls);
+    }
     if (byHand && pointer) steerTo(pointer, last.frame, swirls);
     else tell({kind: "tick", swirls});
 }

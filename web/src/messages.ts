@@ -11,6 +11,11 @@ export type ToWorker =
     | {kind: "change"; given: Record<string, string>}
     /** By hand: the container goes straight to a point, for so long a time. Answered by a frame. */
     | {kind: "steer"; x: number; y: number; duration: number}
+    /** Time runs backwards from now on, where the dish allows that. */
+    | {kind: "reverse"}
+    /** A disc is taken as near to a point as there is room. Answered by a frame. */
+    | {kind: "drag"; disc: number; x: number; y: number}
+    | {kind: "result"}
     | {kind: "maps"}
     /** A run from beginning to end, of so many swirls after the warm-up. */
     | {kind: "point"; given: Record<string, string>; swirls: number}
@@ -43,6 +48,9 @@ export type FromWorker =
     | {kind: "unsupported"}
     /** Whether the discs have gone on with what was changed; if not, it is another dish. */
     | {kind: "changed"; kept: boolean; configuration: Record<string, string>}
+    | {kind: "reversed"; done: boolean}
+    /** JSON, as the command line writes it. */
+    | {kind: "result"; text: string}
     | Maps
     | {kind: "point"; rotation: Estimate}
     | {kind: "crossing"; curve: string; crossing: Crossing | null}

@@ -49,6 +49,15 @@ export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: numb
             (box.top + box.height / 2 - clientY) * scale];
 }
 
+/** The disc at a point of the laboratory. */
+export function discAt(f: Float64Array, x: number, y: number): number | undefined {
+    for (let i = 0; i < f[10]!; ++i) {
+        const k = frameHead + frameDisc * i;
+        if (Math.hypot(f[k]! - x, f[k + 1]! - y) <= f[k + 6]!) return i;
+    }
+    return undefined;
+}
+
 /** By how much the pack has turned about its centre of mass from one frame to a later one, in turns:
  *  the rigid rotation that moves the discs most nearly as they moved. */
 export function turnBetween(a: Float64Array, b: Float64Array): number {
@@ -99,7 +108,8 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     const scale = size / (2 * reachOf(frame, look));
     const ink = look.dark ? "#e8e6e3" : "#23272b";
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, size, size);
+    context.fillStyle = look.dark ? "#15181a" : "#fbfaf8"; // a film has it, too
+    context.fillRect(0, 0, size, size);
     context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
     const hair = 1.2 * ratio / scale;
 

@@ -101,6 +101,21 @@ function steer(x: number, y: number, duration: number): void {
     show();
 }
 
+function reverse(): void {
+    if (!engine) return;
+    const done = engine.reverse(now);
+    if (done) now = 0;
+    say({kind: "reversed", done});
+    show();
+}
+
+function drag(disc: number, x: number, y: number): void {
+    if (!engine) return;
+    engine.drag(now, disc, x, y);
+    now = 0;
+    show();
+}
+
 function maps(): void {
     if (!engine) return;
     engine.report();
@@ -148,6 +163,15 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 break;
             case "steer":
                 steer(data.x, data.y, data.duration);
+                break;
+            case "reverse":
+                reverse();
+                break;
+            case "drag":
+                drag(data.disc, data.x, data.y);
+                break;
+            case "result":
+                if (engine) say({kind: "result", text: engine.result()});
                 break;
             case "maps":
                 maps();

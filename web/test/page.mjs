@@ -1,10 +1,12 @@
-// The one file in a real browser: node page.mjs FILE.html CHROMIUM HASH. Ends with 1 and a sentence
-// for whatever is not as it should be.
+// The one file in a real browser: node page.mjs FILE.html CHROMIUM HASH PICTURE.svg [FOLDER], where the
+// picture is `swirl picture --bare` of the dish that has this hash, and FOLDER gets what is downloaded. Ends with 1 and a sentence for whatever is not as it should be.
 import assert from "node:assert/strict";
+import {readFileSync, writeFileSync} from "node:fs";
+import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
 
-const [file, executablePath, wantedHash] = process.argv.slice(2);
+const [file, executablePath, wantedHash, picture, folder] = process.argv.slice(2);
 const address = pathToFileURL(file).href;
 const browser = await chromium.launch({executablePath, args: [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -16,6 +18,24 @@ page.on("console", (message) => message.type() === "error" && complaints.push(me
 page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) requests.push(request.url());
 });
+// Where the page draws circles, in pixels of the canvas.
+await page.addInitScript(() => {
+    globalThis.drawnCircles = [];
+    const arc = CanvasRenderingContext2D.prototype.arc;
+    CanvasRenderingContext2D.prototype.arc = function (x, y, r, ...angles) {
+        const {a, d, e, f} = this.getTransform();
+        globalThis.drawnCircles.push([a * x + e, d * y + f, a * r]);
+        return arc.call(this, x, y, r, ...angles);
+    };
+});
+/** Nothing that keeps anybody from using it: axe-core's rules of WCAG 2.1, levels A and AA. */
+const barriers = async (where) => {
+    await page.addScriptTag({path: createRequire(import.meta.url).resolve("axe-core/axe.min.js")});
+    const {violations, passes} = await page.evaluate(() => globalThis.axe.run(
+        {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}));
+    assert.ok(passes.length > 15, `${where}: only ${passes.length} rules were tried`);
+    assert.deepEqual(violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], where);
+};
 const text = (id) => page.textContent(`#${id}`);
 const open = async (query) => {
     await page.goto(address + query);
@@ -29,9 +49,37 @@ assert.equal(await text("state-hash"), wantedHash);
 assert.equal(await text("event-count"), "20000");
 assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --events 20000");
 
+// It draws every disc where `swirl picture` draws it, to half a pixel: places in radii of a disc from
+// the middle of the dish, which has the widest circle.
+const circlesOf = (list) => {
+    const [cx, cy, widest] = list.reduce((a, b) => (b[2] > a[2] ? b : a));
+    const small = list.filter(([, , r]) => r > 0.08 * widest && r < 0.2 * widest);
+    const radius = Math.max(...small.map(([, , r]) => r));
+    return {radius, discs: small.map(([x, y]) => [(x - cx) / radius, (y - cy) / radius])};
+};
+const ofPage = circlesOf(await page.evaluate(() => { // of the last time that it drew
+    const circles = globalThis.drawnCircles;
+    return circles.slice(circles.findLastIndex(([, , r]) => r === Math.max(...circles.map((c) => c[2]))));
+}));
+const ofPicture = circlesOf([...readFileSync(picture, "utf-8").matchAll(/ d="M ([^"]*)"/g)]
+    .map(([, path]) => path.split(/[^-\d.]+/).filter(Boolean).map(Number))
+    .filter((numbers) => numbers.length >= 26) // round: four curves
+    .map((numbers) => {
+        const xs = numbers.filter((_, k) => k % 2 === 0), ys = numbers.filter((_, k) => k % 2 === 1);
+        return [0.5 * (Math.min(...xs) + Math.max(...xs)), 0.5 * (Math.min(...ys) + Math.max(...ys)),
+                0.5 * (Math.max(...xs) - Math.min(...xs))];
+    }));
+assert.equal(new Set(ofPage.discs.map(String)).size, 28);
+for (const [x, y] of ofPage.discs) {
+    const nearest = Math.min(...ofPicture.discs.map(([u, v]) => Math.hypot(u - x, v - y)));
+    assert.ok(nearest * ofPage.radius < 0.5, `a disc is drawn ${nearest * ofPage.radius} pixels off`);
+}
+
 // One event more, drawn with its impulse.
 await page.click("#step");
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
+
+await barriers("a dish");
 
 // It moves, and time goes on.
 await open("?discs=48");
@@ -104,6 +152,56 @@ assert.match(await text("headline"), /^Move the dish/);
 await page.click("#by-hand");
 await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headline").textContent));
 
+// Time backwards: only where nothing is lost.
+await open("?discs=8");
+assert.equal(await page.isDisabled("#backwards"), true);
+await open("?discs=8&mu=0");
+await page.click("#backwards");
+await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
+assert.match(await text("command"), /^none/);
+await page.click("#backwards");
+await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time backwards");
+
+// A disc that is dragged goes where the pointer goes.
+await open("?discs=1&events=20");
+const table1 = await page.locator("#views canvas").boundingBox();
+const centroid = () => page.evaluate(() => { // of what is drawn in the disc's colour
+    const canvas = document.querySelector("#views canvas");
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let n = 0, x = 0, y = 0;
+    for (let k = 0; k < data.length / 4; ++k) {
+        if (data[4 * k] !== 0 || data[4 * k + 1] !== 114 || data[4 * k + 2] !== 178) continue;
+        n += 1;
+        x += k % canvas.width;
+        y += Math.floor(k / canvas.width);
+    }
+    return [(x / n + 0.5) / canvas.width, (y / n + 0.5) / canvas.height];
+});
+await page.selectOption("#choose-Colour", "id");
+const held = await centroid();
+await page.mouse.move(table1.x + held[0] * table1.width, table1.y + held[1] * table1.height);
+await page.mouse.down();
+await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height, {steps: 10});
+await page.waitForTimeout(300);
+await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height);
+await page.waitForTimeout(300);
+const put = await centroid();
+await page.mouse.up();
+// The hand of the disc and its rim are not of its colour: to a hundredth of the picture.
+assert.ok(Math.hypot(put[0] - 0.5, put[1] - 0.45) < 0.01, `dragged to ${put}`);
+await page.selectOption("#choose-Colour", "spin");
+
+// A second dish, which stays as it was asked for.
+await open("?discs=12");
+await page.click("#keep-beside");
+await page.fill("#parameter-discs", "20");
+await page.waitForFunction(() => /^12 discs: ϖ/.test(
+    document.querySelector("#beside figcaption")?.textContent ?? ""), null, {timeout: 60_000});
+await page.waitForFunction(() => document.getElementById("command").textContent.includes("--discs 20 "));
+await barriers("two dishes");
+await page.click("#beside-ends");
+assert.equal(await page.locator("#beside").count(), 0);
+
 // The paper's figure by oneself, in small.
 await page.click("#study summary");
 for (const [wrong, said] of [["5:x", /must be numbers or ranges/], ["", /must be numbers/]]) {
@@ -118,6 +216,7 @@ await page.click("#study-start");
 await page.waitForFunction(() => document.querySelectorAll("#study-findings li").length === 2, null,
                            {timeout: 60_000});
 assert.match(await text("study-said"), /^6 of 6 runs/);
+await barriers("the study");
 const study = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
 const table = (await (await study[0].createReadStream()).toArray()).join("").trim().split("\n");
 assert.equal(table.length, 7);
@@ -134,21 +233,35 @@ await open("");
 await page.focus("#lesson-start");
 await page.keyboard.press("Enter");
 for (let step = 1; step <= 6; ++step) {
+    if (step === 3) await barriers("the lesson");
     assert.match(await text("lesson"), new RegExp(`^${step}\\. `));
     await page.locator("#lesson button").last().focus();
     await page.keyboard.press("Enter");
 }
 assert.equal(await page.locator("#lesson-start").count(), 1);
 
+// A recording is a film and the positions.
+await page.waitForSelector('canvas[aria-label^="28 discs"]');
+await page.click("#record");
+await page.waitForTimeout(1500);
+await page.click("#record");
+await page.waitForSelector("#save-film", {timeout: 90_000}); // a busy machine is slow to end a film
+
 // Downloads.
+const saved = {};
 for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
-                                      ["#save-table", "rotation.csv", "swirl,varpi\n"]]) {
+                                      ["#save-table", "rotation.csv", "swirl,varpi\n"],
+                                      ["#save-film", "swirl.webm", "\x1a\x45\xdf\xa3"],
+                                      ["#save-positions", "swirl.xyz", "28\nProperties=species"],
+                                      ["#save-result", "result.json", "{\n"]]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
     assert.equal(download.suggestedFilename(), name);
     const chunks = [];
     for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-    assert.ok(Buffer.concat(chunks).toString("latin1").startsWith(begins), name);
+    saved[name] = Buffer.concat(chunks);
+    assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
+if (folder) for (const [name, bytes] of Object.entries(saved)) writeFileSync(`${folder}/${name}`, bytes);
 
 // A narrow screen has nothing that sticks out.
 await page.setViewportSize({width: 360, height: 740});

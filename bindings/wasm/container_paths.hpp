@@ -1,0 +1,44 @@
+// Paths that a page makes of others: by hand, from a moment on, and back.
+#pragma once
+
+#include <algorithm>
+
+#include "swirl/physics/container_path.hpp"
+
+namespace swirl {
+
+/// Straight to a point, and there it waits to be told where next. At rest at once: that is a
+/// corner, as all others.
+inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
+    constexpr double long_enough = 1e6;  // periods of a container without any
+    return {long_enough,
+            {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},
+             {duration, long_enough, to, {0.0, 0.0}, 0.0}}};
+}
+
+/// The same path, counted from a moment of its swirl.
+inline ContainerPath path_from(const ContainerPath& path, double clock) {
+    ContainerPath later{path.period, {}};
+    const auto add = [&](const Leg& leg, double begin, double end, double shift) {
+        if (begin < end)
+            later.legs.push_back({begin + shift, end + shift, leg.position_at(begin),
+                                  leg.velocity_at(begin), leg.turning});
+    };
+    for (const Leg& leg : path.legs) add(leg, std::max(leg.begin, clock), leg.end, -clock);
+    for (const Leg& leg : path.legs)
+        add(leg, leg.begin, std::min(leg.end, clock), path.period - clock);
+    later.legs.back().end = path.period;
+    return later;
+}
+
+/// From its end to its beginning.
+inline ContainerPath backwards(const ContainerPath& path) {
+    ContainerPath back{path.period, {}};
+    for (auto leg = path.legs.rbegin(); leg != path.legs.rend(); ++leg)
+        back.legs.push_back({path.period - leg->end, path.period - leg->begin,
+                             leg->position_at(leg->end), -1.0 * leg->velocity_at(leg->end),
+                             -leg->turning});
+    return back;
+}
+
+}  // namespace swirl

@@ -1,0 +1,150 @@
+// One dish under observation, as the page shows it: between its events too, and taken up again with
+// another path, other contacts, or a disc somewhere else.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "container_paths.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/observation.hpp"
+#include "swirl/measure/sample_times.hpp"
+#include "swirl/run/config.hpp"
+#include "swirl/simulation/simulation.hpp"
+
+namespace swirl {
+
+/// One dish under observation. An event is found first, by executing it: until then the state of
+/// the snapshot holds, and can be looked at in between; then it is passed.
+class Dish {
+  public:
+    Dish(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
+        : config_(config),
+          path_(begin.path),
+          simulation_(begin),
+          snapshot_(simulation_.snapshot()),
+          seen_(snapshot_),
+          rotation_times_(rotation_samples, config.period),
+          observation_times_(samples_per_period, config.period),
+          measured_(std::move(measured)),
+          observation_(config.container_radius, config.period, measured_) {}
+
+    const Event& event() const { return event_; }
+    const Simulation& simulation() const { return simulation_; }
+    const RunConfig& config() const { return config_; }
+    const ContainerPath& path() const { return path_; }
+    /// The names that are measured.
+    const std::vector<std::string>& measured() const { return measured_; }
+    const ClusterRotation& in_warmup() const { return in_warmup_; }
+    const ClusterRotation& rotation() const { return rotation_; }
+    const Observation& observation() const { return observation_; }
+    std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
+
+    void step() {
+        if (!found_) find();
+        pass();
+    }
+
+    /// All events up to a moment, but no more than `most`; says whether it has come to that moment.
+    bool advance_to(double time, std::uint32_t most) {
+        for (;;) {
+            if (!found_) find();
+            if (time_of(event_) > time) return true;
+            if (most-- == 0) return false;
+            pass();
+        }
+    }
+
+    /// The dish at a moment between the last event and the next.
+    const Snapshot& seen_at(double time) {
+        seen_ = snapshot_;
+        const double clock = time - static_cast<double>(seen_.swirls) * config_.period;
+        // The samples may have moved the snapshot on towards the next event.
+        seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
+        const Leg& leg = path_.leg_at(seen_.clock);
+        seen_.container_centre = leg.position_at(seen_.clock);
+        seen_.container_velocity = leg.velocity_at(seen_.clock);
+        return seen_;
+    }
+    /// Of the last event that was passed.
+    double time() const {
+        return static_cast<double>(snapshot_.swirls) * config_.period + passed_clock_;
+    }
+
+    double periods() const {
+        return static_cast<double>(snapshot_.swirls) + passed_clock_ / config_.period;
+    }
+
+    /// What another dish begins with whose discs are where they are at this moment, as seen from
+    /// the container, which is put where that dish's path begins. Velocities stay as they are: to
+    /// the discs it is a corner.
+    InitialState going_on(double time, const RunConfig& config, const ContainerPath& path) {
+        InitialState state = without_discs(config, path);
+        const Snapshot now = seen_at(time).up_to_date();
+        const Leg& leg = path.legs.front();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            Disc disc = now.disc(i);
+            disc.position = disc.position + (leg.start - now.container_centre);
+            disc.time = 0.0;
+            state.discs.push_back(disc);
+        }
+        return state;
+    }
+
+  private:
+    static constexpr int rotation_samples = 64;  // per swirl, as in every run
+
+    double time_of(const Event& event) const {
+        return static_cast<double>(event.swirls) * config_.period + event.clock;
+    }
+    /// Spheres brought up to date, as a run shows them: an observer takes it that nobody is
+    /// accelerated.
+    const Snapshot& observed() {
+        if (!snapshot_.are_spheres()) return snapshot_;
+        snapshot_.up_to_date(dated_);
+        return dated_;
+    }
+    bool counts() const { return snapshot_.swirls >= warmup(); }
+    ClusterRotation& rotation_now() { return counts() ? rotation_ : in_warmup_; }
+
+    void find() {
+        event_ = simulation_.step();
+        found_ = true;
+        while (rotation_times_.next(snapshot_, path_, event_.clock))
+            rotation_now().sample_by_time(snapshot_);
+        if (!observes()) return;
+        while (observation_times_.next(snapshot_, path_, event_.clock))
+            observation_.sample(observed());
+    }
+    void pass() {
+        found_ = false;
+        ClusterRotation& rotation = rotation_now();
+        const bool watched = observes();
+        simulation_.refresh(snapshot_, event_);
+        passed_clock_ = snapshot_.clock;
+        rotation.follow(snapshot_, event_);
+        rotation.sample(snapshot_);
+        if (watched) observation_.sample(event_, observed());
+        if (snapshot_.swirls == event_.swirls) return;
+        rotation.close_block();
+        if (watched) observation_.close_block();
+    }
+    bool observes() const { return counts() && !observation_.empty(); }
+
+    const RunConfig config_;
+    const ContainerPath path_;
+    Simulation simulation_;
+    Snapshot snapshot_, seen_, dated_;
+    Event event_{};
+    bool found_ = false;
+    double passed_clock_ = 0.0;  // of the last event that was passed
+    SampleTimes rotation_times_, observation_times_;
+    ClusterRotation in_warmup_, rotation_;
+    std::vector<std::string> measured_;
+    Observation observation_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,82 @@
+// JSON for the page, in the words of the command line's (run/json.hpp), whose library is too large
+// for a page.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "swirl/measure/report.hpp"
+#include "swirl/measure/statistics.hpp"
+
+namespace swirl {
+
+/// As JSON has it; what is not known is null.
+inline std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : "null"; }
+
+inline std::string quoted(std::string_view text) {
+    std::string json = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') json += '\\';
+        json += c;
+    }
+    return json + '"';
+}
+
+/// Members in the order in which they are added; the values are JSON already.
+class JsonObject {
+  public:
+    JsonObject& add(std::string_view name, std::string_view value) {
+        text_ += fmt::format("{}{}:{}", text_.empty() ? "" : ",", quoted(name), value);
+        return *this;
+    }
+    JsonObject& add(std::string_view name, double value) { return add(name, number(value)); }
+    std::string text() const { return '{' + text_ + '}'; }
+
+  private:
+    std::string text_;
+};
+
+inline std::string estimate_json(const Estimate& e) {
+    return JsonObject()
+        .add("mean", e.mean)
+        .add("error", e.error)
+        .add("effective_samples", e.effective_samples)
+        .add("blocks", double(e.blocks))
+        .text();
+}
+
+inline std::string row_json(const ReportRow& row) {
+    if (!row.has_error) return number(row.estimate.mean);
+    std::string json = estimate_json(row.estimate);
+    json.pop_back();
+    for (const ReportDetail& detail : row.details)
+        json += fmt::format(",{}:{}", quoted(detail.name), number(detail.value));
+    return json + '}';
+}
+
+/// Its columns, added to those of whoever has it.
+inline void add_table(JsonObject& json, const ReportTable& table) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        std::string column;
+        for (std::size_t r = 0; r < table.rows(); ++r)
+            column += (r ? "," : "") + number(table.at(r, c));
+        json.add(table.columns[c].name, '[' + column + ']');
+    }
+}
+
+inline std::string report_json(const Report& report) {
+    JsonObject json;
+    for (const ReportRow& row : report.rows) json.add(row.name, row_json(row));
+    for (const ReportTable& table : report.tables) {
+        JsonObject columns;
+        JsonObject& into = *table.name == '\0' ? json : columns;
+        add_table(into, table);
+        if (&into == &columns) json.add(table.name, columns.text());
+    }
+    return json.text();
+}
+
+}  // namespace swirl
