@@ -59,7 +59,8 @@ function address(file, from) {
 
 function write(place, title, body) {
     const up = posix.relative(posix.dirname(place), ".") || ".";
-    const links = [["index.html", "swirl"], ["lab.html", "Laboratory"], ["commands.html", "Commands"],
+    const links = [["index.html", "swirl"], ["lab.html", "Laboratory"], ["gallery.html", "Gallery"],
+                   ["commands.html", "Commands"],
                    ...documents.map((name) => [`docs/${name}.html`, titles[name] ?? name]),
                    ...(report ? [["report/report.html", "Report"]] : [])];
     const navigation = links.map(([to, text]) => `<a href="${up}/${to}"${
@@ -148,12 +149,28 @@ function pageOf(file) {
     }
 }
 
+/** What was made of web/gallery.txt, with the sentence and the command. */
+function gallery() {
+    const shown = readFileSync(join(root, "web/gallery.txt"), "utf-8").split("\n")
+        .filter((line) => line && !line.startsWith("#")).map((line) => line.split(" | "))
+        .map(([caption, command]) => ({caption, command, name: command.match(/--out (\S+)/)[1]}))
+        .filter(({name}) => existsSync(join(out, "gallery", name)));
+    write("gallery.html", "Gallery", "<h1>Gallery</h1>\n" + shown.map(({caption, command, name}) => {
+        const picture = name.endsWith(".mp4")
+            ? `<video src="gallery/${name}" controls loop muted playsinline preload="metadata"></video>`
+            : `<img src="gallery/${name}" alt="${escaped(caption)}" loading="lazy">`;
+        return `<figure>\n${picture}\n<figcaption>${escaped(caption)}\n` +
+            `<pre><code>./${escaped(command)}</code></pre></figcaption>\n</figure>`;
+    }).join("\n"));
+}
+
 mkdirSync(out, {recursive: true});
 cpSync(join(root, "web/site.css"), join(out, "site.css"));
 if (report) cpSync(report, join(out, "report"), {recursive: true});
 need("README.md");
 for (const name of documents) need(`docs/${name}.md`);
 while (waiting.length > 0) pageOf(waiting.shift());
+gallery();
 
 const commands = readdirSync(help).filter((name) => name.endsWith(".txt")).map((name) => basename(name, ".txt"))
     .sort((a, b) => (a === "swirl" ? -1 : b === "swirl" ? 1 : a < b ? -1 : 1));

@@ -58,6 +58,17 @@ done
 for command in lab site; do
     "$home/web/$command.sh" --help >"$aside/.help/$command.txt"
 done
+mkdir "$aside/gallery"
+install_packages pictures movies || true # what cannot be made without them is not shown
+# shellcheck disable=SC2016
+sed -n 's/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
+    cd "$aside/gallery"
+    while read -r made; do
+        # The file is ours, and its commands have quoted nothing.
+        # shellcheck disable=SC2086
+        "$program" $made --quiet 2>/dev/null || say "without a picture in the gallery: swirl $made"
+    done
+)
 mkdir "$aside/.notebooks"
 python=${SWIRL_PYTHON-$home/bindings/python/python.sh}
 # The first call builds the module where that is needed, and tells of it.

@@ -105,6 +105,18 @@ class Site(unittest.TestCase):
             self.assertIn(f"<h2 id=\"{command}\">swirl {command}</h2>", text)
         self.assertIn("--mu-disc NUMBER", text)
 
+    def test_the_gallery_shows_what_its_commands_make(self):
+        with open(os.path.join(SOURCE, "web", "gallery.txt"), encoding="utf-8") as opened:
+            commands = [line.split(" | ")[1].strip() for line in opened if not line.startswith("#")]
+        with open(os.path.join(self.site, "gallery.html"), encoding="utf-8") as opened:
+            text = opened.read()
+        self.assertGreater(len(commands), 5)
+        for command in commands:
+            if " movie " in command and not shutil.which("ffmpeg"):
+                continue
+            self.assertIn(command, text)
+            self.assertIn(f'src="gallery/{command.split()[-1]}"', text)
+
     def test_notebooks_are_read_as_documents(self):
         path = os.path.join(self.site, "examples", "first_steps.ipynb.html")
         self.assertIn(path, self.pages)
@@ -137,7 +149,7 @@ class Site(unittest.TestCase):
             opened.write(BROWSER)
         self.addCleanup(os.remove, script)
         documents = [path for path in sorted(self.pages)
-                     if re.search(r"/(index|commands)\.html$|/docs/", path)]
+                     if re.search(r"/(index|commands|gallery)\.html$|/docs/", path)]
         done = subprocess.run(["node", script, CHROMIUM, *documents], capture_output=True, text=True,
                               timeout=150)
         self.assertEqual((done.returncode, done.stdout.strip()), (0, ""), done.stderr)
