@@ -14,27 +14,27 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-/// Three arrows along the wall, clockwise: which way it turns in the M-frame.
-void draw_turning(const Canvas& canvas, const View& view, double radius, double line,
-                  const Color& color) {
+/// An arrow along a circle about the view's centre, from an angle on; counter-clockwise as seen, if
+/// `turn` is positive.
+void draw_bent_arrow(const Canvas& canvas, const View& view, double radius, double begin,
+                     double turn, double line, const Color& color) {
     cairo_t* cairo = canvas.cairo();
     const double along = view.pixels_per_unit * radius;
-    for (int k = 0; k < 3; ++k) {
-        const double begin = full_turn * (k / 3.0 - 1.0 / 12.0), end = begin + full_turn / 6.5;
-        cairo_new_sub_path(cairo);
-        cairo_arc(cairo, view.centre.x, view.centre.y, along, begin, end);
-        cairo_set_line_width(cairo, line);
-        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-        canvas.set(color);
-        cairo_stroke(cairo);
-        // On the page, where y points down, growing angles run clockwise.
-        const double head = 5.0 * line / along;
-        const auto on_arc = [&](double angle) {
-            return Vec2{view.centre.x + along * std::cos(angle),
-                        view.centre.y + along * std::sin(angle)};
-        };
-        draw_arrow(canvas, on_arc(end - 0.1 * head), on_arc(end + head), line, color);
-    }
+    const auto on_arc = [&](double angle) {  // y of the page points down
+        return Vec2{view.centre.x + along * std::cos(angle),
+                    view.centre.y - along * std::sin(angle)};
+    };
+    cairo_new_sub_path(cairo);
+    if (turn > 0.0)
+        cairo_arc_negative(cairo, view.centre.x, view.centre.y, along, -begin, -(begin + turn));
+    else
+        cairo_arc(cairo, view.centre.x, view.centre.y, along, -begin, -(begin + turn));
+    cairo_set_line_width(cairo, line);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    canvas.set(color);
+    cairo_stroke(cairo);
+    const double head = std::copysign(5.0 * line / along, turn), end = begin + turn;
+    draw_arrow(canvas, on_arc(end - 0.1 * head), on_arc(end + head), line, color);
 }
 
 void draw_centrifugal_field(const Canvas& canvas, const View& view, const Theme& theme,
@@ -62,24 +62,31 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     canvas.fill_page(theme.page);
     const double width = canvas.size().width, height = canvas.size().height;
     const double type = 0.062 * std::min(height, width / 3.1), gap = 0.02 * width;
-    const double side = std::min(width / 3.0 - gap, height - 3.2 * type);
+    const double side = std::min(width / 3.0 - gap, height - 4.2 * type);
     const Vec2 centre = now.container_centre;
     const double amplitude = std::sqrt(dot(centre, centre)), radius = now.container_radius;
     Snapshot empty = now;
     empty.resize(0);
     SceneStyle style;
     style.theme = theme;
+    style.point_type = 1.6;
     const auto square = [&](int k) {
-        return Rectangle{width * (k + 0.5) / 3.0 - 0.5 * side, 2.0 * type, side,
-                         height - 2.2 * type};
+        return Rectangle{width * (k + 0.5) / 3.0 - 0.5 * side, 3.0 * type, side,
+                         height - 3.2 * type};
     };
     View views[3] = {fitting_view(square(0), Frame::lab, radius, amplitude),
                      fitting_view(square(1), Frame::m, radius, amplitude),
                      fitting_view(square(2), Frame::m, radius, amplitude)};
     const double scale = std::min(views[0].pixels_per_unit, views[1].pixels_per_unit);
     const char* const titles[3] = {"lab frame", "M-frame", "forces in the M-frame"};
+    // What to look at, in a line.
+    const char* const says[3] = {"$C$ runs round $S$, the dish does not turn",
+                                 "the wall turns clockwise, with $−Ω$",
+                                 "$F_{cent}$ away from $S$, $F_{Cor}$ to the right of $v$"};
     for (int k = 0; k < 3; ++k) {
         views[k].pixels_per_unit = scale;
+        draw_label(canvas, says[k], {width * (k + 0.5) / 3.0, 2.2 * type},
+                   {.size = 0.66 * type, .color = theme.faint_ink, .align = Align::center});
         draw_label(canvas, titles[k], {width * (k + 0.5) / 3.0, 1.2 * type},
                    {.size = type, .color = theme.ink, .align = Align::center});
     }
@@ -103,10 +110,18 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     canvas.set(theme.faint_ink);
     cairo_stroke(cairo);
     cairo_set_dash(cairo, nullptr, 0, 0.0);
+    // Of M, a quarter of a turn ahead of where it is.
+    draw_bent_arrow(canvas, views[0], radius * (1.0 + wall_thickness) + amplitude,
+                    std::atan2(centre.y, centre.x) + full_turn / 8.0, full_turn / 9.0, 2.4 * line,
+                    theme.faint_ink);
+    draw_bent_arrow(canvas, views[0], amplitude, std::atan2(centre.y, centre.x) + full_turn / 8.0,
+                    full_turn / 4.0, 2.0 * line, theme.ink);
 
     draw_dish(canvas, views[1], style, empty);
     draw_points(canvas, views[1], style, {.now = empty});
-    draw_turning(canvas, views[1], 0.9 * radius, 2.4 * line, theme.ink);
+    for (int k = 0; k < 3; ++k)
+        draw_bent_arrow(canvas, views[1], 0.9 * radius, full_turn * (k / 3.0 + 1.0 / 12.0),
+                        -full_turn / 6.5, 2.4 * line, theme.ink);
 
     draw_dish(canvas, views[2], style, empty);
     if (disc < now.size() && now.period > 0.0) {

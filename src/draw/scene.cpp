@@ -419,7 +419,7 @@ void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style
     if (!style.points) return;
 
     // Also in a small dish large enough to be read, as long as it does not hide the discs.
-    const double type = std::max(0.062 * unit, std::min(13.0, 0.16 * unit));
+    const double type = style.point_type * std::max(0.062 * unit, std::min(13.0, 0.16 * unit));
     const bool labelled = type >= 8.0;
     const LabelStyle label{.size = type, .color = theme.ink, .bold = true, .halo = theme.floor};
     const Vec2 s = view.on_page(at.position({0.0, 0.0}));

@@ -39,6 +39,7 @@ struct SceneStyle {
     double full_speed = 1.0;  // speed, or slip, at the end of the colour scale
     bool orientation = true;  // marks on the discs
     bool points = true;       // S, C, M
+    double point_type = 1.0;  // how large their letters are; 1 is as in a movie
     bool path = true;         // of C
     bool forces = false;      // centrifugal and Coriolis, per disc; M-frame only
     bool angles = false;      // θ at the wall; M-frame only

@@ -57,7 +57,7 @@ void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
     std::size_t chosen = 0;
     double nearest = never;
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec2 away = at.position(s.position(i)) - Vec2{4.6, -1.6};
+        const Vec2 away = at.position(s.position(i)) - Vec2{5.4, -2.2};
         if (dot(away, away) >= nearest) continue;
         nearest = dot(away, away);
         chosen = i;
@@ -85,7 +85,7 @@ static FigurePlan plan_figure_2a(const PaperSettings& settings) {
                             config.appearance.coloring = Coloring::pinned;
                             config.appearance.angles = true;
                             config.appearance.slice = 0.75 * pi;
-                            config.appearance.title = "Pinned and loose discs in the M-frame";
+                            config.appearance.title = "Pinned and loose discs";
                             make_picture(config);
                         });
 }
