@@ -262,3 +262,42 @@ def table_from_arguments(name):
     if not os.path.exists(sys.argv[1]):
         sys.exit(f"There is no table '{sys.argv[1]}'; `swirl paper` writes it.")
     return sys.argv[1]
+
+
+def rotation_map(drawing, axes, rows, columns, label, fontsize=7):
+    """ϖ/Ω over two parameters, as colour and as number; `columns` are those along x and y."""
+    across, up = (sorted({row[column] for row in rows}) for column in columns)
+    values = [[float("nan")] * len(across) for _ in up]
+    for row in rows:
+        values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["by_time"]
+    colors = plt.get_cmap("PuOr_r").copy()
+    colors.set_bad("0.85")
+    # Counterrotation is weak beside rotation: linear up to 0.02, logarithmic beyond.
+    span = matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
+    shown = axes.imshow(values, origin="lower", cmap=colors, norm=span)
+    for y, line in enumerate(values):
+        for x, value in enumerate(line):
+            if value == value:
+                number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
+                axes.text(x, y, number, ha="center", va="center", fontsize=fontsize,
+                          color="white" if abs(value) > 0.3 else "black")
+    notes = []
+    drifting = not_steady(rows)
+    for row in drifting:
+        corner = (across.index(row[columns[0]]) - 0.44, up.index(row[columns[1]]) - 0.44)
+        axes.add_patch(plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
+    if drifting:
+        notes.append("dotted: not shown to be steady")
+    if any(value != value for line in values for value in line):
+        notes.append("grey: no result")
+    if notes:
+        note(drawing, "; ".join(notes))
+    axes.set_xticks(range(len(across)), [f"{s:g}" for s in across])
+    axes.set_yticks(range(len(up)), [f"{s:g}" for s in up])
+    for side in axes.spines.values():
+        side.set_visible(False)
+    axes.tick_params(length=0)
+    bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
+    bar.set_ticks([-1, -0.1, 0, 0.1, 1], labels=["−1", "−0.1", "0", "0.1", "1"])
+    bar.minorticks_off()
+    bar.set_label(label)

@@ -87,7 +87,7 @@ void make_paper(PaperCall& call) {
     for (const MadeFigure& figure : result.figures) {
         for (const std::string& finding : figure.outcome.findings)
             text += result.figures.size() == 1 ? finding + "\n"
-                                               : fmt::format("{:<13}{}\n", figure.name, finding);
+                                               : fmt::format("{:<20}{}\n", figure.name, finding);
         files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
     }
     if (call.figures.empty())
@@ -112,7 +112,7 @@ void make_paper(PaperCall& call) {
 std::string figure_list() {
     std::string text = "Figures:";
     for (const PaperFigure& figure : paper_figures())
-        text += fmt::format("\n  {:<12} {}", figure.name, figure.description);
+        text += fmt::format("\n  {:<19} {}", figure.name, figure.description);
     return text;
 }
 

@@ -268,6 +268,65 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
     return plan;
 }
 
+static FigurePlan plan_figure_spheres_restitution(const PaperSettings& settings) {
+    std::vector<Variant> variants;
+    for (const double e : settings.quick ? std::vector<double>{1.0, 0.9, 0.7}
+                                         : std::vector<double>{1.0, 0.95, 0.9, 0.8, 0.7, 0.5})
+        variants.push_back({fmt::format("{}", e), fmt::format("e = {}", e), experiment_friction,
+                            [e](RunConfig& c) { c.restitution = e; }});
+    std::vector<std::int64_t> numbers{30, 36, 48};
+    if (!settings.quick) numbers = fewer_numbers(settings);
+    return plan_variants(settings, "spheres_restitution", variants, numbers);
+}
+
+/// At the number where smooth spheres of the experiment changed their sense.
+static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
+    constexpr std::int64_t spheres = 36;
+    FigurePlan plan;
+    plan.script = "figure_spheres_map.py";
+    std::vector<double> frictions{0.1, 0.2, 0.5}, floors{0.03, 0.3, 1.0};
+    if (!settings.quick) {
+        frictions = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0};
+        floors = {0.01, 0.03, 0.1, 0.3, 1.0};
+    }
+    std::vector<RunConfig> points;
+    for (const double mu : frictions)
+        for (const double floor_friction : floors) {
+            RunConfig config = experiment(settings, spheres);
+            config.mu_disc = config.mu_wall = mu;
+            config.floor_friction = floor_friction;
+            points.push_back(config);
+            plan.points.push_back(
+                varied_point(settings,
+                             fmt::format("spheres_map_{}_f{}_N{}_{}", mu, floor_friction, spheres,
+                                         length_of(config)),
+                             config));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined({"mu", "floor_friction", "mu_f_g", "discs"}, rotation_columns()));
+        FigureOutcome outcome;
+        std::size_t against = 0;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const RunConfig& c = points[k];
+            std::vector<Table::Cell> row{c.mu_disc, c.floor_friction, c.floor_friction * c.gravity,
+                                         spheres};
+            add_rotation(row, results[k]);
+            table.add(std::move(row));
+            const RotationPoint p = rotation_point(0.0, results[k], "by_time");
+            if (p.mean < -3.0 * p.error) ++against;
+        }
+        outcome.findings.push_back(
+            fmt::format("spheres, frictions of the contacts and of the floor: {} spheres certainly "
+                        "counterrotate "
+                        "at {} of {} pairs.",
+                        spheres, against, points.size()));
+        outcome.files.push_back(out / "figure_spheres_map.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
 std::vector<PaperFigure> figures_of_spheres() {
     return {
         {"spheres", "spheres that roll: rotation against N, six frictions", plan_figure_spheres},
@@ -276,7 +335,11 @@ std::vector<PaperFigure> figures_of_spheres() {
         {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
          plan_figure_spheres_ingredients},
         {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
-         plan_figure_spheres_pinned}};
+         plan_figure_spheres_pinned},
+        {"spheres_restitution", "spheres that roll: rotation against N, restitutions",
+         plan_figure_spheres_restitution},
+        {"spheres_map", "spheres that roll: 36 of them, frictions of contacts and floor",
+         plan_figure_spheres_map}};
 }
 
 }  // namespace swirl
