@@ -32,7 +32,25 @@ class Dish {
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_) {}
 
-    const Event& event() const { return event_; }
+    /// The last one that was passed.
+    const Event& event() const { return passed_; }
+    /// The one to come. Nothing is executed for it: hash and counts stay those of the last one.
+    Event next_event() const {
+        if (found_) return event_;
+        InitialState state = without_discs(config_, path_);
+        for (std::uint32_t i = 0; i < snapshot_.size(); ++i)
+            state.discs.push_back(simulation_.disc(i));
+        return Simulation(state, simulation_.progress()).step();
+    }
+    /// An event that was found is passed, so that averages, counts and state are of the same moment.
+    void settle() {
+        if (found_) pass();
+    }
+    /// Of each disc, by the paper's criterion, some frames ago; none in the first frames.
+    bool is_pinned(std::size_t i) const {
+        const PinnedLoose& found = pinned_.pinned_loose();
+        return found.knows() && found.pinned()[i] != 0;
+    }
     const Simulation& simulation() const { return simulation_; }
     const RunConfig& config() const { return config_; }
     const ContainerPath& path() const { return path_; }
@@ -115,12 +133,16 @@ class Dish {
         found_ = true;
         while (rotation_times_.next(snapshot_, path_, event_.clock))
             rotation_now().sample_by_time(snapshot_);
-        if (!observes()) return;
-        while (observation_times_.next(snapshot_, path_, event_.clock))
-            observation_.sample(observed());
+        const bool watched = observes();
+        while (observation_times_.next(snapshot_, path_, event_.clock)) {
+            const Snapshot& now = observed();
+            pinned_.sample(now);
+            if (watched) observation_.sample(now);
+        }
     }
     void pass() {
         found_ = false;
+        passed_ = event_;
         ClusterRotation& rotation = rotation_now();
         const bool watched = observes();
         simulation_.refresh(snapshot_, event_);
@@ -138,7 +160,8 @@ class Dish {
     const ContainerPath path_;
     Simulation simulation_;
     Snapshot snapshot_, seen_, dated_;
-    Event event_{};
+    Event event_{}, passed_{};
+    PinnedFrames pinned_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed
     SampleTimes rotation_times_, observation_times_;

@@ -257,7 +257,7 @@ EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t most) {
 
 /// The dish at a moment (between the last event and the next): time, swirls, clock, container's
 /// centre and velocity (4), its radius, the direction from S to C (2), N; then of every disc x, y,
-/// angle, spin, vx, vy, radius. In the lab frame.
+/// angle, spin, vx, vy, radius, 1 if it is pinned. In the lab frame.
 EXPORTED(frame) const double* frame(double time) {
     const Snapshot& s = dish->seen_at(time);
     const MFrame m = m_frame(s);
@@ -266,24 +266,27 @@ EXPORTED(frame) const double* frame(double time) {
                     m.down.y, double(s.size())});
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec2 at = s.position(i);
-        numbers.insert(numbers.end(),
-                       {at.x, at.y, s.orientation(i), s.spin[i], s.vx[i], s.vy[i], s.radius[i]});
+        numbers.insert(numbers.end(), {at.x, at.y, s.orientation(i), s.spin[i], s.vx[i], s.vy[i],
+                                       s.radius[i], dish->is_pinned(i) ? 1.0 : 0.0});
     }
     return numbers.data();
 }
 
-/// Of the last event passed: time, kind (0 disc and disc, 1 disc and wall, 2 corner of the path),
-/// i, j, normal (2), impulse along it and along the tangent, sticks.
-EXPORTED(event) const double* event() {
-    const Event& e = dish->event();
-    const double kind = e.kind == EventKind::disc_disc   ? 0.0
-                        : e.kind == EventKind::disc_wall ? 1.0
-                                                         : 2.0;
-    numbers.assign({double(e.swirls) * dish->config().period + e.clock, kind, double(e.i),
-                    double(e.j), e.normal.x, e.normal.y, e.impulse.normal, e.impulse.tangential,
-                    double(e.impulse.sticks)});
+namespace {
+/// Time, kind (0 disc and disc, 1 disc and wall, 2 corner of the path, 3 begins to roll), i, j,
+/// normal (2), impulse along it and along the tangent, sticks.
+const double* numbers_of(const Event& e) {
+    numbers.assign({double(e.swirls) * dish->config().period + e.clock,
+                    double(static_cast<int>(e.kind)), double(e.i), double(e.j), e.normal.x,
+                    e.normal.y, e.impulse.normal, e.impulse.tangential, double(e.impulse.sticks)});
     return numbers.data();
 }
+}  // namespace
+
+/// The last one that was passed.
+EXPORTED(event) const double* event() { return numbers_of(dish->event()); }
+/// The one to come.
+EXPORTED(next_event) const double* next_event() { return numbers_of(dish->next_event()); }
 
 EXPORTED(time) double passed_time() { return dish->time(); }
 EXPORTED(events) double events() {
@@ -346,6 +349,7 @@ EXPORTED(crossing) std::uint32_t crossing() {
 
 /// The result as `swirl run --json` writes it, as far as a page knows it.
 EXPORTED(result) std::uint32_t result() {
+    dish->settle();
     RunConfig config = dish->config();
     const EventCounts& counts = dish->simulation().events();
     config.events = counts.total();

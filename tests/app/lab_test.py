@@ -61,7 +61,7 @@ engineOf(process.argv[1]).then((make) => {
                 answers.push(engine.out[name](...values));
             }
             const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
-            const frame = new Float64Array(engine.out.memory.buffer, seen, 11 + 7 * given.discs);
+            const frame = new Float64Array(engine.out.memory.buffer, seen, 11 + 8 * given.discs);
             said.push({
                 answers, frame: answers.length ? [...frame] : [],
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
@@ -118,13 +118,22 @@ class Laboratory(unittest.TestCase):
                 for key, value in result.items():
                     self.assertEqual(value, here[key], key)
 
+    def test_the_event_to_come_is_the_one_that_comes_and_changes_nothing(self):
+        given = {"discs": "28", "seed": "2"}
+        plain, asked = self.engine([
+            {"given": given, "events": 301, "steps": []},
+            {"given": given, "events": 300, "steps": [["next_event"], ["run_events", 1]]}])["said"]
+        self.assertEqual(plain["hash"], asked["hash"])
+        for key in ("events", "rotation", "state_hash"):
+            self.assertEqual(plain["result"][key], asked["result"][key])
+
     def discs(self, given, steps):
         """What the last step, an advance to some time, shows of every disc: x, y, angle, spin, v."""
         said = self.engine([{"given": {"discs": "5", "seed": "3", **given}, "events": 0,
                              "steps": steps}])["said"][0]
         self.assertNotIn("refused", said)
         frame, discs = said["frame"][11:], []
-        for begin in range(0, len(frame), 7):
+        for begin in range(0, len(frame), 8):
             discs.append(frame[begin:begin + 6])
         return discs, said["answers"]
 

@@ -40,7 +40,8 @@ export class Beside {
     redraw(): void {
         if (this.frame)
             draw(this.canvas, this.frame, {view: "lab", coloring: this.coloring, trails: [],
-                                           event: undefined, dark: dark(), room: this.room, turned: 0});
+                                           event: undefined, next: undefined, omega: 0,
+                                           dark: dark(), room: this.room, turned: 0});
     }
 
     private tell(message: ToWorker): void {

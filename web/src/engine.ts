@@ -41,6 +41,7 @@ interface Exports {
     advance_to(time: number, most: number): number;
     frame(time: number): number;
     event(): number;
+    next_event(): number;
     time(): number;
     events(): number;
     state_hash(): bigint;
@@ -67,7 +68,7 @@ export interface Crossing {
 
 /** What a frame begins with, and what follows for every disc. */
 export const frameHead = 11;
-export const frameDisc = 7;
+export const frameDisc = 8;
 
 /** What the C library would ask of a system; a page has none, and 52 is its word for that. */
 const noSystem = new Proxy({}, {get: () => () => 52});
@@ -175,6 +176,9 @@ export class Engine {
     }
     event(): Float64Array {
         return new Float64Array(this.out.memory.buffer, this.out.event(), 9).slice();
+    }
+    nextEvent(): Float64Array {
+        return new Float64Array(this.out.memory.buffer, this.out.next_event(), 9).slice();
     }
     get time(): number {
         return this.out.time();

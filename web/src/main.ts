@@ -33,6 +33,7 @@ let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
 let view: "lab" | "m" | "both" = "lab";
 let coloring: Coloring = "spin";
 let trails = false;
+let forces = false;
 let swirlsPerSecond = 1;
 let step = -1; // of the lesson
 let last: Frame | undefined;
@@ -114,7 +115,8 @@ function redraw(): void {
     if (!last) return;
     for (const [each, canvas] of Object.entries(canvases) as [View, HTMLCanvasElement][]) {
         draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
-                                  event: last.event, dark: dark(),
+                                  event: last.event, next: last.next, dark: dark(),
+                                  omega: forces && !byHand ? 2 * Math.PI / Number(configuration["period"]) : 0,
                                   room: room(), turned});
         beside?.redraw();
         const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
@@ -354,6 +356,8 @@ function layOutBar(): void {
     speed.addEventListener("input", () => { swirlsPerSecond = 10 ** Number(speed.value); });
     const trailBox = element("input", {type: "checkbox", id: "trails"});
     trailBox.addEventListener("change", () => { trails = trailBox.checked; redraw(); });
+    const forcesBox = element("input", {type: "checkbox", id: "forces"});
+    forcesBox.addEventListener("change", () => { forces = forcesBox.checked; redraw(); });
     const keepBox = element("input", {type: "checkbox", id: "keep"});
     keepBox.addEventListener("change", () => { keepDiscs = keepBox.checked; });
     const preset = element("select", {id: "choose-preset"}, element("option", {textContent: "…"}),
@@ -372,6 +376,7 @@ function layOutBar(): void {
         choice(texts.view, texts.views, view, (value) => { view = value; layOutViews(); }),
         choice(texts.color, texts.colors, coloring, (value) => { coloring = value; redraw(); }),
         element("label", {}, trailBox, ` ${texts.trails}`),
+        element("label", {title: texts.forcesHow}, forcesBox, ` ${texts.forces}`),
         element("label", {title: texts.keepHow}, keepBox, ` ${texts.keep}`),
         handButton, backwardsButton, besideButton,
         element("label", {}, `${texts.speed} `, speed),

@@ -34,8 +34,9 @@ export interface Frame {
     frame: Float64Array;
     events: number;
     hash: string;
-    /** The last event, where there was a single step. */
+    /** The last event and the next one, where there was a single step. */
     event?: Float64Array;
+    next?: Float64Array;
     /** Now and then. */
     rotation?: Rotation;
 }

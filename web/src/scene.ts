@@ -3,13 +3,15 @@
 import {frameDisc, frameHead} from "./engine";
 
 export type View = "lab" | "m";
-export type Coloring = "spin" | "speed" | "id";
+export type Coloring = "spin" | "speed" | "pinned" | "id";
 
 export interface Look {
     view: View;
     coloring: Coloring;
     trails: Float64Array[]; // earlier frames, the oldest first
     event: Float64Array | undefined;
+    next: Float64Array | undefined; // who meets next
+    omega: number; // of the swirl; above 0: forces are drawn, in the M-frame
     dark: boolean;
     room: number; // how far from S the container may come, for the laboratory's scale
     turned: number; // of the pack, in turns with the swirl; drawn as an arc in the laboratory
@@ -92,6 +94,7 @@ const names = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
 
 function color(f: Float64Array, k: number, i: number, coloring: Coloring): string {
     if (coloring === "id") return names[i % names.length]!;
+    if (coloring === "pinned") return f[k + 7] === 1 ? "#d55e00" : "#56b4e9";
     if (coloring === "spin") return diverging(1.5 * f[k + 3]!); // full colour at 1.3 Ω of the paper's dish
     const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the dish
     return diverging(Math.hypot(vx, vy) - 1);
@@ -150,6 +153,8 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
         context.lineTo(x + r * Math.cos(angle), y + r * Math.sin(angle));
         context.stroke();
     }
+    if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
+    drawNext(context, f, frame, look, hair);
     drawEvent(context, f, frame, look, hair);
     drawMarks(context, frame, look, ink, hair);
 }
@@ -198,7 +203,7 @@ function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Lo
 function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
                    hair: number): void {
     const e = look.event;
-    if (!e || e[1] === 2) return;
+    if (!e || e[1]! >= 2) return; // without an impulse
     const wall = e[1] === 1;
     const k = frameHead + frameDisc * e[wall ? 2 : 3]!;
     const [nx, ny] = [e[4]!, e[5]!];
@@ -207,9 +212,14 @@ function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Fr
     const [x, y] = [f[k]!, f[k + 1]!];
     const [ax, ay] = shown(frame, look.view, x, y);
     const [bx, by] = shown(frame, look.view, x + 3 * jx, y + 3 * jy);
+    drawArrow(context, [ax, ay], [bx, by], "#b00020", 2 * hair);
+}
+
+function drawArrow(context: CanvasRenderingContext2D, [ax, ay]: [number, number],
+                   [bx, by]: [number, number], color: string, width: number): void {
     const length = Math.hypot(bx - ax, by - ay), tip = Math.min(0.5, 0.4 * length);
-    context.strokeStyle = context.fillStyle = "#b00020";
-    context.lineWidth = 2 * hair;
+    context.strokeStyle = context.fillStyle = color;
+    context.lineWidth = width;
     context.beginPath();
     context.moveTo(ax, ay);
     context.lineTo(bx, by);
@@ -221,6 +231,43 @@ function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Fr
     context.lineTo(bx - tip * ux + 0.5 * tip * uy, by - tip * uy - 0.5 * tip * ux);
     context.lineTo(bx - tip * ux - 0.5 * tip * uy, by - tip * uy + 0.5 * tip * ux);
     context.fill();
+}
+
+/** Of every disc in the M-frame, both on one scale: the largest centrifugal force in the dish is two
+ *  radii long. */
+function drawForces(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, omega: number,
+                    hair: number): void {
+    const amplitude = Math.hypot(...frame.centre), [sx, sy] = shown(frame, "m", 0, 0);
+    for (let i = 0; i < frame.discs; ++i) {
+        const k = frameHead + frameDisc * i, [x, y] = [f[k]!, f[k + 1]!];
+        const at = shown(frame, "m", x, y);
+        // Of the lab's velocity that part which is not the turning about S.
+        const [vx, vy] = [f[k + 4]! + omega * y, f[k + 5]! - omega * x];
+        const [ex, ey] = frame.down;
+        const [wx, wy] = [-vx * ey + vy * ex, -(vx * ex + vy * ey)];
+        const scale = 2 * f[k + 6]! / (omega * omega * (frame.radius + amplitude));
+        const centrifugal = scale * omega * omega, coriolis = 2 * scale * omega;
+        drawArrow(context, at, [at[0] + centrifugal * (at[0] - sx), at[1] + centrifugal * (at[1] - sy)],
+                  "#8a5a00", 2 * hair);
+        drawArrow(context, at, [at[0] + coriolis * wy, at[1] - coriolis * wx], "#a0307a", 2 * hair);
+    }
+}
+
+/** A ring round the two that meet next, or the one that meets the wall. */
+function drawNext(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+                  hair: number): void {
+    const e = look.next;
+    if (!e || e[1] === 2) return; // all of them
+    context.strokeStyle = "#b00020";
+    context.lineWidth = 2 * hair;
+    context.setLineDash([4 * hair, 3 * hair]);
+    for (const i of e[1] === 0 ? [e[2]!, e[3]!] : [e[2]!]) {
+        const k = frameHead + frameDisc * i;
+        context.beginPath();
+        context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! + 3 * hair, 0, 2 * Math.PI);
+        context.stroke();
+    }
+    context.setLineDash([]);
 }
 
 /** S, the centre of the swirl, C, the dish's, and M, the wall's farthest point from S. */

@@ -29,7 +29,7 @@ function show(single = false): void {
     if (!engine) return;
     const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
                           hash: engine.stateHash};
-    if (single) frame.event = engine.event();
+    if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
     if (single || performance.now() - lastAverages > betweenAverages) {
         frame.rotation = engine.rotation();
         lastAverages = performance.now();

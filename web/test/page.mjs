@@ -51,16 +51,17 @@ assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --
 
 // It draws every disc where `swirl picture` draws it, to half a pixel: places in radii of a disc from
 // the middle of the dish, which has the widest circle.
-const circlesOf = (list) => {
+const circlesOf = (list, radiusOf) => {
     const [cx, cy, widest] = list.reduce((a, b) => (b[2] > a[2] ? b : a));
     const small = list.filter(([, , r]) => r > 0.08 * widest && r < 0.2 * widest);
-    const radius = Math.max(...small.map(([, , r]) => r));
-    return {radius, discs: small.map(([x, y]) => [(x - cx) / radius, (y - cy) / radius])};
+    const radius = radiusOf(widest, small.map(([, , r]) => r));
+    return {radius, discs: small.filter(([, , r]) => Math.abs(r - radius) < 0.1)
+        .map(([x, y]) => [(x - cx) / radius, (y - cy) / radius])};
 };
 const ofPage = circlesOf(await page.evaluate(() => { // of the last time that it drew
     const circles = globalThis.drawnCircles;
     return circles.slice(circles.findLastIndex(([, , r]) => r === Math.max(...circles.map((c) => c[2]))));
-}));
+}), (dish) => dish / 8.6); // the picture's widest circle is the wall's outer edge
 const ofPicture = circlesOf([...readFileSync(picture, "utf-8").matchAll(/ d="M ([^"]*)"/g)]
     .map(([, path]) => path.split(/[^-\d.]+/).filter(Boolean).map(Number))
     .filter((numbers) => numbers.length >= 26) // round: four curves
@@ -68,7 +69,7 @@ const ofPicture = circlesOf([...readFileSync(picture, "utf-8").matchAll(/ d="M (
         const xs = numbers.filter((_, k) => k % 2 === 0), ys = numbers.filter((_, k) => k % 2 === 1);
         return [0.5 * (Math.min(...xs) + Math.max(...xs)), 0.5 * (Math.min(...ys) + Math.max(...ys)),
                 0.5 * (Math.max(...xs) - Math.min(...xs))];
-    }));
+    }), (_, discs) => Math.max(...discs));
 assert.equal(new Set(ofPage.discs.map(String)).size, 28);
 for (const [x, y] of ofPage.discs) {
     const nearest = Math.min(...ofPicture.discs.map(([u, v]) => Math.hypot(u - x, v - y)));

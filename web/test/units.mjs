@@ -16,7 +16,7 @@ const load = async (name) => {
 };
 const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Float64Array(
     [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
-     ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r])]);
+     ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
 
 try {
     const {turnBetween, discAt} = await load("scene");
