@@ -68,7 +68,6 @@ constexpr Place places[quantities] = {
     {"position", 0},    {"position", 1},          {"velocity", 0},     {"velocity", 1},
     {"angle", {}},      {"angular_velocity", {}}, {"rolling_spin", 0}, {"rolling_spin", 1},
     {"orientation", 0}, {"orientation", 1},       {"orientation", 2},  {"orientation", 3}};
-constexpr bool is_of_spheres(int quantity) { return quantity >= spin_x; }
 /// In the dataset of the quantity before it.
 constexpr bool shares_dataset(int quantity) { return places[quantity].component.value_or(0) > 0; }
 
