@@ -101,7 +101,7 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t fewest, s
     if (!(tolerance > 0.0))
         throw WrongCall(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
-    texts.try_emplace("events", "2e5");  // as for `swirl crossing`: of the first runs
+    texts.try_emplace("events", events_of_a_search);
     CrossingSettings settings;
     settings.config = resolve(texts);
     settings.from = fewest;

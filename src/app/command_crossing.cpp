@@ -15,8 +15,7 @@
 namespace swirl {
 namespace {
 
-/// A run of a search is shorter than one that is made for its own sake.
-const ParameterTexts defaults{{"events", "2e5"}};
+const ParameterTexts defaults{{"events", events_of_a_search}};
 
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;

@@ -30,6 +30,10 @@
 
 namespace swirl {
 
+/// The events of the first runs where none are given: a run of a search is shorter than one that is
+/// made for its own sake.
+inline constexpr const char* events_of_a_search = "2e5";
+
 struct CrossingSettings {
     RunConfig
         config;  // its number of discs does not matter; its events are those of the first runs

@@ -8,11 +8,9 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
-import tempfile
 import unittest
 
-from program import SOURCE, swirl
+from program import SOURCE, made_of_the_web, swirl
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -86,15 +84,7 @@ def options(scene):
 class Laboratory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
-            print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
-            sys.exit(77)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.page = os.path.join(cls.folder.name, "laboratory.html")
-        done = subprocess.run([LAB, "--out", cls.page], capture_output=True, text=True)
-        if done.returncode:
-            raise RuntimeError(done.stderr[-4000:])
+        cls.page = made_of_the_web(cls, LAB, "laboratory.html")
 
     def engine(self, calls):
         done = subprocess.run(["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm"),
@@ -242,7 +232,8 @@ class Laboratory(unittest.TestCase):
             self.skipTest("this test needs chromium")
         dish = ["--discs", "28", "--mu", "0.5", "--seed", "3"]
         run = json.loads(swirl("run", *dish, "--events", "20000", "--json", "-", "--quiet").stdout)
-        picture, folder = os.path.join(self.folder.name, "dish.svg"), self.folder.name
+        folder = os.path.dirname(self.page)
+        picture = os.path.join(folder, "dish.svg")
         swirl("picture", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
                                CHROMIUM, run["state_hash"], picture, folder],

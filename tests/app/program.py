@@ -2,7 +2,9 @@
 
 import json
 import os
+import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -32,6 +34,21 @@ def without_time(file):
     for of_the_call in ("seconds", "events_per_second", "command"):
         del result[of_the_call]
     return result
+
+
+def made_of_the_web(test_class, script, name, **more):
+    """What a script of web/ writes for all tests of a class: its place, gone when they have ended. Without
+    the tools that takes, the test says so and is skipped."""
+    if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
+        print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
+        sys.exit(77)
+    folder = tempfile.TemporaryDirectory()
+    test_class.addClassCleanup(folder.cleanup)
+    place = os.path.join(folder.name, name)
+    done = subprocess.run([script, "--out", place], capture_output=True, text=True, **more)
+    if done.returncode:
+        raise RuntimeError(done.stderr[-4000:])
+    return place
 
 
 class InFolder(unittest.TestCase):

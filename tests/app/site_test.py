@@ -5,13 +5,12 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
-from program import SOURCE
+from program import SOURCE, made_of_the_web
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
 # The module of this build runs the notebooks.
@@ -59,15 +58,7 @@ class Links(HTMLParser):
 class Site(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
-            print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
-            sys.exit(77)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.site = os.path.join(cls.folder.name, "site")
-        done = subprocess.run([SITE, "--out", cls.site], capture_output=True, text=True, env=WITH_MODULE)
-        if done.returncode:
-            raise RuntimeError(done.stderr[-4000:])
+        cls.site = made_of_the_web(cls, SITE, "site", env=WITH_MODULE)
         cls.pages = {}
         for place, _, names in os.walk(cls.site):
             for name in names:
