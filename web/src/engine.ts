@@ -145,7 +145,7 @@ export class Engine {
     column(path: string): Float64Array {
         this.hand(path);
         const size = this.out.column();
-        return new Float64Array(this.out.memory.buffer, this.out.values(), size).slice();
+        return this.numbers(this.out.values(), size);
     }
     /** Of points N, ϖ/Ω, error, one after the other. */
     crossing(points: number[]): Crossing | null {
@@ -170,15 +170,19 @@ export class Engine {
     /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
     frame(time: number): Float64Array {
         const at = this.out.frame(time);
-        const head = new Float64Array(this.out.memory.buffer, at, frameHead);
-        const size = frameHead + frameDisc * (head[10] ?? 0);
+        const discs = this.numbers(at, frameHead)[10] ?? 0;
+        return this.numbers(at, frameHead + frameDisc * discs);
+    }
+    /** Of numbers that a call has left there. Only now is the memory's buffer asked for: a call may have
+     *  made it grow, and then it is another one. */
+    private numbers(at: number, size: number): Float64Array {
         return new Float64Array(this.out.memory.buffer, at, size).slice();
     }
     event(): Float64Array {
-        return new Float64Array(this.out.memory.buffer, this.out.event(), 9).slice();
+        return this.numbers(this.out.event(), 9);
     }
     nextEvent(): Float64Array {
-        return new Float64Array(this.out.memory.buffer, this.out.next_event(), 9).slice();
+        return this.numbers(this.out.next_event(), 9);
     }
     get time(): number {
         return this.out.time();

@@ -80,6 +80,10 @@ for (const [x, y] of ofPage.discs) {
 await page.click("#step");
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
 
+// A thousand more, one by one, with the next one looked up each time.
+await page.evaluate(() => { for (let k = 0; k < 1000; ++k) document.getElementById("step").click(); });
+await page.waitForFunction(() => document.getElementById("event-count").textContent === "21001");
+assert.equal(await page.isHidden("#refusal"), true);
 await barriers("a dish");
 
 // It moves, and time goes on.
