@@ -42,7 +42,8 @@ class Dish {
             state.discs.push_back(simulation_.disc(i));
         return Simulation(state, simulation_.progress()).step();
     }
-    /// An event that was found is passed, so that averages, counts and state are of the same moment.
+    /// An event that was found is passed, so that averages, counts and state are of the same
+    /// moment.
     void settle() {
         if (found_) pass();
     }
@@ -113,8 +114,6 @@ class Dish {
     }
 
   private:
-    static constexpr int rotation_samples = 64;  // per swirl, as in every run
-
     double time_of(const Event& event) const {
         return static_cast<double>(event.swirls) * config_.period + event.clock;
     }

@@ -48,6 +48,10 @@ struct RotationSample {
 /// Every width gives the same bits.
 RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::best);
 
+/// Samples of the averages by time per swirl. Not a multiple of the paper's 30 sides, so that the
+/// corners of the path are met at different phases.
+inline constexpr int rotation_samples = 64;
+
 /// In units of Ω.
 struct RotationEstimates {
     Estimate by_event, by_time, rigid_by_event, rigid_by_time;

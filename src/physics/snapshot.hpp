@@ -106,13 +106,17 @@ struct Snapshot {
         mass[i] = d.mass;
         inertia[i] = d.inertia;
     }
+    /// Spheres stay spheres, unless none is left.
     void resize(std::size_t n) {
+        if (are_spheres())
+            for (auto* column : {&spin_x, &spin_y, &ax, &ay}) column->resize(n);
+        if (!turned.empty()) turned.resize(n);
         for (auto* column : {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
             column->resize(n);
     }
     void resize_for_spheres(std::size_t n) {
-        resize(n);
         for (auto* column : {&spin_x, &spin_y, &ax, &ay}) column->resize(n);
+        resize(n);
     }
 };
 

@@ -15,10 +15,6 @@
 namespace swirl {
 namespace {
 
-/// Samples of the averages by time per swirl. Not a multiple of the paper's 30 sides, so that the
-/// corners of the path are met at different phases.
-constexpr int rotation_samples = 64;
-
 /// Events between two looks at the clock and at the stop flag: an average by event looks at all
 /// discs after each of them.
 int events_between_looks(std::size_t discs) {
