@@ -36,6 +36,53 @@ SWIRL_INLINE constexpr Vec2 unit_circle(double u) {
     }
 }
 
+/// sin φ and 1 − cos φ, which keeps all digits of a small angle.
+struct Turn {
+    double sine, versine;
+};
+
+/// For |φ| ≤ π/4: Taylor's series, whose first terms left out are below φ¹⁷/17! = 5·10⁻¹⁷ and
+/// φ¹⁸/18! = 2·10⁻¹⁸. No division, and terms in pairs, as each waits for the last: on a circular
+/// path this is done for every event.
+SWIRL_INLINE constexpr Turn small_turn(double phi) {
+    // One over n!, which up to 16! is exact.
+    constexpr double s1 = 1.0 / 6.0, s2 = 1.0 / 120.0, s3 = 1.0 / 5040.0, s4 = 1.0 / 362880.0;
+    constexpr double s5 = 1.0 / 39916800.0, s6 = 1.0 / 6227020800.0, s7 = 1.0 / 1307674368000.0;
+    constexpr double c1 = 1.0 / 24.0, c2 = 1.0 / 720.0, c3 = 1.0 / 40320.0, c4 = 1.0 / 3628800.0;
+    constexpr double c5 = 1.0 / 479001600.0, c6 = 1.0 / 87178291200.0;
+    constexpr double c7 = 1.0 / 20922789888000.0;
+    const double q = phi * phi, q2 = q * q, q4 = q2 * q2;
+    return {
+        phi * (((1.0 - q * s1) + q2 * (s2 - q * s3)) + q4 * ((s4 - q * s5) + q2 * (s6 - q * s7))),
+        q * (((0.5 - q * c1) + q2 * (c2 - q * c3)) + q4 * ((c4 - q * c5) + q2 * (c6 - q * c7)))};
+}
+
+/// (cos 2πu, sin 2πu) like unit_circle, within 2⁻⁵¹, in a third of the time. The last bit may be
+/// another.
+SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
+    const double quarters = 4.0 * u;
+    const auto k = static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
+    const Turn turn = small_turn((quarters - static_cast<double>(k)) * (pi / 2.0));
+    const double c = 1.0 - turn.versine, s = turn.sine;
+    switch (k & 3) {
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
+    }
+}
+
+/// For any angle.
+SWIRL_INLINE constexpr Turn turn_by(double phi) {
+    if (phi <= pi / 4.0 && phi >= -pi / 4.0) return small_turn(phi);
+    const Vec2 u = quick_unit_circle(phi * (0.5 / pi));
+    return {u.y, 1.0 - u.x};
+}
+
 /// The angle of a vector in turns, 0 ≤ u < 1, counter-clockwise from +x: the inverse of
 /// unit_circle, within 2⁻⁵² of the truth; 0 for the null vector, NaN if a component is. With t =
 /// tan of the angle from the nearest axis or diagonal, |t| ≤ √2 − 1, it is atan t = t P(t²); P

@@ -83,36 +83,127 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
     return now + time_to_leave(s, v, clearance);
 }
 
-/// Disc and wall on a turning leg, where f(τ) = |s|² − clearance² is no polynomial. Its curvature
-/// f''/2 = |v|² − s·C'' is at most M = (|v_disc| + |V|)² + clearance |V| turning, so
-/// c + 2bτ + Mτ² ≥ f(τ) touches zero no later than f does. Stepping to its root, again and again,
-/// never oversteps the contact and converges quadratically onto it. Static: each width's event loop
-/// must have a copy of its own (simulation/event_loop.hpp).
-static inline double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
-                                                  double clearance) {
-    const double container_speed = square_root(dot(leg.velocity, leg.velocity));
-    const double speed = square_root(dot(disc.velocity, disc.velocity)) + container_speed;
-    const double M = speed * speed + clearance * container_speed * magnitude(leg.turning);
-    double t = larger(disc.time, leg.begin);
-    // A dozen steps are usual. A disc that creeps along the wall takes more; after the limit it is
-    // at the wall to all digits that matter.
-    for (int steps = 0; steps < 1000 && t < leg.end; ++steps) {
-        const Vec2 s = disc.position_at(t) - leg.position_at(t);
-        const Vec2 v = disc.velocity - leg.velocity_at(t);
-        const double b = dot(s, v);
-        const double square = clearance * clearance;
-        const double c = dot(s, s) - square;
-        double wait;
-        if (b > 0.0) {
-            if (c >= 0.0) return t;
-            wait = -c / (b + square_root(b * b - M * c));
-        } else {
-            wait = (square_root(b * b - M * smaller(c, -0x1p-52 * square)) - b) / M;
-        }
-        if (!(t + wait > t)) return t;
-        t = t + wait;
+/// A disc inside a circle on a turning leg, from the moment on at which `centre` holds. It is seen
+/// at s from the centre and has velocity v, the centre has V and turns by φ = Ω τ. With W = V^⊥,
+/// what is below zero inside is
+///
+///     f(τ) = |s + v τ − (sin φ V + (1 − cos φ) W)/Ω|² − clearance²
+///          = f(0) + 2 s·v τ + v² τ² − (2/Ω) (sin φ A + (1 − cos φ) (B − V²/Ω)),
+///     A = (s + v τ)·V,   B = (s + v τ)·W.
+///
+/// That is no polynomial, but near any moment c + 2b δ + q δ² + k δ³ and at most L δ⁴ more, whose
+/// coefficients are sums of the same few products. What is added to f(0) vanishes with τ, so that a
+/// short hop along the wall keeps its digits.
+class TurningWall {
+  public:
+    struct Near {
+        double c, b, q, k;
+    };
+
+    SWIRL_INLINE TurningWall(const Flight<double>& disc, const Flight<double>& centre,
+                             double turning, double clearance)
+        : turning_(turning), square_(clearance * clearance) {
+        const Vec2 s = disc.position_at(centre.time) - centre.position;
+        const Vec2 &v = disc.velocity, &V = centre.velocity, W = perpendicular(V);
+        const double O = turning, per = 1.0 / O;
+        sv_ = dot(s, v);
+        vv_ = dot(v, v);
+        A_ = dot(s, V);
+        B_ = dot(s, W);
+        A_grows_ = dot(v, V);
+        B_grows_ = dot(v, W);
+        speed2_ = dot(V, V);
+        per_turning_ = per;
+        first_ = {dot(s, s) - square_, dot(s, v - V), vv_ + ((speed2_ - 2.0 * A_grows_) - O * B_),
+                  (third * O) * (O * A_ - 3.0 * B_grows_)};
+        // f⁗/2 = Ω² (cos φ (4v·V + ΩB − V²) + sin φ (4v·W − ΩA)). Within the wall |s + vτ| is at
+        // most clearance + 2|V|/Ω, and twice a product is at most the sum of the squares.
+        L_ = (O * O * (1.0 / 12.0)) * (2.0 * vv_ + 5.5 * speed2_ + (0.5 * O * O) * square_);
     }
-    return t < leg.end ? t : never;
+
+    SWIRL_INLINE double square() const { return square_; }
+    SWIRL_INLINE const Near& first() const { return first_; }
+    /// At the time τ.
+    SWIRL_INLINE Near at(double tau) const {
+        const double O = turning_, per = per_turning_;
+        const Turn turn = turn_by(O * tau);
+        const double sine = turn.sine, versine = turn.versine, cosine = 1.0 - versine;
+        const double A = A_ + A_grows_ * tau, B = B_ + B_grows_ * tau;
+        return {
+            first_.c + ((2.0 * sv_ + vv_ * tau) * tau -
+                        (2.0 * per) * (sine * A + versine * (B - speed2_ * per))),
+            (sv_ + vv_ * tau) - cosine * A - sine * (B - (speed2_ - A_grows_) * per) -
+                (versine * per) * B_grows_,
+            vv_ + (cosine * ((speed2_ - 2.0 * A_grows_) - O * B) + sine * (O * A - 2.0 * B_grows_)),
+            (third * O) *
+                (cosine * (O * A - 3.0 * B_grows_) + sine * ((3.0 * A_grows_ + O * B) - speed2_))};
+    }
+    /// Up to δ = h, f is at most c + 2b δ + M δ².
+    SWIRL_INLINE double steepest(const Near& f, double h) const {
+        return f.q + h * (larger(f.k, 0.0) + h * L_);
+    }
+    /// And by no more than so much less at δ ≤ h.
+    SWIRL_INLINE double below_steepest(const Near& f, double M, double delta) const {
+        return ((M - f.q) - delta * (f.k - L_ * delta)) * (delta * delta);
+    }
+
+  private:
+    static constexpr double third = 1.0 / 3.0;
+    double turning_, per_turning_, square_, sv_, vv_, speed2_, A_, A_grows_, B_, B_grows_, L_;
+    Near first_;
+};
+
+/// When a disc reaches the wall; or, if not by the time asked for, a time before which it does not.
+struct WallContact {
+    double time;
+    bool is_later;
+};
+
+/// When a disc reaches the wall on a turning leg, if by `latest`. Static: each width's event loop
+/// must have a copy of its own (simulation/event_loop.hpp).
+///
+/// The root of the steepest parabola never oversteps the contact, since f is below it up to h; and
+/// it comes as near as the square of the way times what h costs, so h is made as short as what is
+/// left to go. Three parabolas are usual. A disc that creeps along the wall takes more; after the
+/// limit it is at the wall to all digits that matter.
+///
+/// At the wall and approaching means now. Otherwise a disc counts as 2⁻⁵² clearance² inside
+/// (time_to_leave). Once f is that close to zero it is as zero as its rounding lets it be.
+[[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(const Flight<double>& disc,
+                                                                        const Leg& leg,
+                                                                        double clearance,
+                                                                        double latest) {
+    const double eighth = (0.25 * pi) / magnitude(leg.turning), now = larger(disc.time, leg.begin);
+    const TurningWall wall(disc, leg.flight_at(now), leg.turning, clearance);
+    double tau = 0.0, h = eighth;
+    TurningWall::Near f = wall.first();
+    for (int parabolas = 0; parabolas < 1000; ++parabolas) {
+        const bool approaching = f.b > 0.0;
+        if (approaching && f.c >= 0.0) break;
+        const double room = larger(-f.c, approaching ? 0.0 : 0x1p-52 * wall.square());
+        const double M = wall.steepest(f, h);
+        const double discriminant = f.b * f.b + M * room;
+        const double root = square_root(larger(discriminant, 0.0));
+        const double wait = (approaching ? room : root - f.b) / (approaching ? f.b + root : M);
+        const bool touches = (approaching ? discriminant >= 0.0 : M > 0.0) && wait < h;
+        const double next = tau + (touches ? wait : h), t = now + next;
+        if (t >= leg.end) return {never, false};
+        if (t > latest) return {t, true};
+        double next_h = eighth;
+        if (touches) {
+            const double left = wall.below_steepest(f, M, wait);
+            if (left <= 0x1p-52 * wall.square() || !(t > now + tau)) return {t, false};
+            next_h = smaller(2.0 * left / root, eighth);
+        }
+        h = next_h;
+        tau = next;
+        f = wall.at(tau);
+    }
+    return {now + tau, false};
+}
+SWIRL_INLINE double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
+                                                 double clearance) {
+    return turning_wall_contact(disc, leg, clearance, never).time;
 }
 
 /// The answer of what can be told without solving a quartic: it cannot.

@@ -11,6 +11,7 @@
 #include "swirl/math/real.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
 
 namespace swirl {
 
@@ -21,16 +22,22 @@ struct Leg {
     double turning;        // rad per unit time; 0 for a straight leg
 
     SWIRL_INLINE Vec2 position_at(double t) const {
-        const double elapsed = t - begin;
-        if (turning == 0.0) return start + elapsed * velocity;
-        // ∫ of the turning velocity: (sin φ v + (1 − cos φ) v^⊥) / turning, φ = turning·elapsed.
-        const Vec2 u = unit_circle(elapsed * turning / (2.0 * pi));
-        return start + (1.0 / turning) * (u.y * velocity + (1.0 - u.x) * perpendicular(velocity));
+        if (turning == 0.0) return start + (t - begin) * velocity;
+        return flight_at(t).position;
     }
     SWIRL_INLINE Vec2 velocity_at(double t) const {
         if (turning == 0.0) return velocity;
-        const Vec2 u = unit_circle((t - begin) * turning / (2.0 * pi));
-        return u.x * velocity + u.y * perpendicular(velocity);
+        return flight_at(t).velocity;
+    }
+    /// Both, at time t. Position is the integral of the turning velocity:
+    /// (sin φ v + (1 − cos φ) v^⊥) / turning, φ = turning (t − begin).
+    SWIRL_INLINE Flight<double> flight_at(double t) const {
+        const double elapsed = t - begin;
+        if (turning == 0.0) return {start + elapsed * velocity, velocity, t};
+        const Vec2 u = quick_unit_circle(elapsed * turning * (0.5 / pi));
+        const Vec2 across = perpendicular(velocity);
+        return {start + (1.0 / turning) * (u.y * velocity + (1.0 - u.x) * across),
+                u.x * velocity + u.y * across, t};
     }
 };
 

@@ -18,6 +18,8 @@
 //                                        event; of several at one instant, says the first in order
 //     predict_changed(state, discs, t)   predicts one or two discs that have just collided
 //     leg_ended(state, t)                predicts what depends on the container's course anew
+//     stretch_ended(state)               renews what it wanted to at EngineState::stretch_end, if
+//                                        that is before the leg's end
 //     check(state, t)                    asks what the search promises (internal_check.hpp)
 //
 //     Bodies                             Discs; or Spheres (resolve.hpp): their search has this
@@ -34,6 +36,7 @@
 #include "swirl/simulation/resolve.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/state_checks.hpp"
+#include "swirl/simulation/search/wall_times.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -58,10 +61,14 @@ SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
 /// The next event that happens.
 template <class Search>
 SWIRL_INLINE PendingEvent next_event(EngineState& state) {
-    const double end = state.legs[state.leg].end;
     for (;;) {
         const PendingEvent next = Search::next(state);
-        if (next.time >= end) return {end, state.size, state.size};
+        if (next.time >= state.stretch_end) [[unlikely]] {
+            const double end = state.legs[state.leg].end;
+            if (state.stretch_end >= end) return {end, state.size, state.size};
+            if constexpr (requires { Search::stretch_ended(state); }) Search::stretch_ended(state);
+            continue;
+        }
         if (is_of_floor<Search>(next) || state.is_valid(next)) return next;
         Search::predict_again(state, next);
     }
@@ -81,10 +88,17 @@ SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
     }
 }
 
+/// What is to be known of the leg before anybody predicts.
+SWIRL_INLINE void begin_leg(EngineState& state) {
+    state.stretch_end = state.legs[state.leg].end;
+    if (state.on_turning_leg()) renew_turning_bound(state, state.clock);
+}
+
 /// Not inlined: the collisions, which are most events, have the registers to themselves.
 template <class Search>
 [[gnu::noinline]] static Event end_leg(EngineState& state) {
     const Event event = take_next_leg<Bodies<Search>>(state);
+    begin_leg(state);
     Search::leg_ended(state, event.clock);
     return event;
 }
@@ -119,6 +133,7 @@ template <class Search>
 static void start(EngineState& state) {
     if constexpr (internal_checks)
         state.overlapped_at_start = !all_discs_are_apart(state, state.clock);
+    begin_leg(state);
     Search::start(state);
 }
 

@@ -177,11 +177,11 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
 template <class Bodies>
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
     using Body = typename Bodies::Body;
-    const Leg& leg = state.legs[state.leg];
+    const Flight<double> centre = state.legs[state.leg].flight_at(t);
     const Vec2 at = Bodies::position_at(state, i, t);
     const Body before = Bodies::body_at(state, i, t);
-    Body body = before, wall = Bodies::wall(leg.velocity_at(t));
-    const Vec2 s = at - leg.position_at(t);
+    Body body = before, wall = Bodies::wall(centre.velocity);
+    const Vec2 s = at - centre.position;
     const double since_last = t - Bodies::last_collision(state, i);
     state.elastic_by_tc += is_elastic_by_tc_model(state.wall_surface, since_last);
     const Surface surface =

@@ -243,13 +243,7 @@ void Simulation::Storage::allocate(std::size_t size, NeighbourSearch neighbours)
 /// its own, and a skin is no larger than with cells for the smallest. A small dish has none.
 void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radii,
                                     int cells_per_side) {
-    double reach = scene.container_radius;
-    for (const Leg& leg : legs)
-        if (leg.turning != 0.0)
-            // On a long way round, the frame is renewed before it has gone so far
-            // (verlet_lists.hpp).
-            reach = scene.container_radius +
-                    smaller(square_root(dot(leg.start, leg.start)), scene.container_radius);
+    const double reach = scene.container_radius;
     const double side = 2.0 * reach;
     state.cell_origin = -reach;
     constexpr std::uint32_t few = 100;

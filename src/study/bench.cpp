@@ -252,6 +252,34 @@ double by_event_cost(const BenchSettings& settings) {
     return median(ratios) - 1.0;
 }
 
+/// Both settle, then take turns of whole swirls.
+CircleRow circle_row(std::int64_t discs, const BenchSettings& settings) {
+    const BenchScene scene{
+        "",   discs > 100 ? Kind::large_dish : Kind::dish, discs, paper_packing, {}, {}, false,
+        false};
+    const InitialState on_polygon = state_of(scene, settings.stop);
+    InitialState on_circle = on_polygon;
+    on_circle.path = circular_path(paper_amplitude, paper_period);
+    Simulation polygon(on_polygon), circle(on_circle);
+    for (Simulation* dish : {&polygon, &circle}) dish->run(discs < 10 ? 5000 : 200000);
+    const int at_once = discs < 10 ? 100 : 1;  // a look at the clock takes time, too
+    constexpr int turns = 7;
+    const auto time_per_swirl = [&](Simulation& dish) {
+        const auto begin = static_cast<double>(dish.swirls());
+        const auto swirl = [&] { dish.advance_to(dish.swirls() + at_once, 0.0); };
+        const auto done = [&] { return static_cast<double>(dish.swirls()) - begin; };
+        swirl();
+        return 1.0 / rate_over(settings.seconds / turns, swirl, done);
+    };
+    std::vector<double> ratios;
+    for (int turn = 0; turn < turns; ++turn) {
+        check(settings.stop);
+        const double reference = time_per_swirl(polygon);
+        ratios.push_back(time_per_swirl(circle) / reference);
+    }
+    return {discs, median(ratios)};
+}
+
 std::string processor() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
@@ -340,7 +368,9 @@ BenchResult bench(const BenchSettings& settings) {
     std::vector<BenchScene> chosen;
     for (const BenchScene& scene : bench_scenes())
         if (settings.full || !scene.only_full) chosen.push_back(scene);
-    const double pieces = static_cast<double>(chosen.size() * settings.widths.size() + 1);
+    constexpr std::int64_t on_circle[] = {5, 28, 48, 500};
+    const double pieces =
+        static_cast<double>(chosen.size() * settings.widths.size() + std::size(on_circle) + 1);
     double done = 0.0;
     for (const BenchScene& scene : chosen) {
         for (const Width width : settings.widths) {
@@ -351,6 +381,13 @@ BenchResult bench(const BenchSettings& settings) {
             result.rows.push_back(bench_row(scene, width, settings));
             done += 1.0;
         }
+    }
+    for (const std::int64_t discs : on_circle) {
+        check(settings.stop);
+        if (settings.progress)
+            settings.progress(done / pieces, fmt::format("circle, N = {}", discs));
+        result.circles.push_back(circle_row(discs, settings));
+        done += 1.0;
     }
     if (settings.progress) settings.progress(done / pieces, "averages by event");
     result.by_event_cost = by_event_cost(settings);
@@ -389,6 +426,10 @@ std::vector<BenchTarget> targets_beyond_rates(const BenchResult& result) {
             targets.push_back(
                 {fmt::format("share of the large dish's time at path vertices, {}", row.width), "%",
                  100.0 * *row.vertex_share, below, 5.0});
+    for (const CircleRow& circle : result.circles)
+        targets.push_back(
+            {fmt::format("time per swirl on the circle over the polygon's, N = {}", circle.discs),
+             "", circle.over_polygon, at_most, 1.3});
     targets.push_back({"time added by averages by event at N = 48", "%",
                        100.0 * result.by_event_cost, below, 30.0});
     return targets;

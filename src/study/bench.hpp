@@ -58,8 +58,15 @@ struct BenchTarget {
     }
 };
 
+/// The paper's dish on the true circle.
+struct CircleRow {
+    std::int64_t discs;
+    double over_polygon;  // time per swirl, over that on the paper's polygon
+};
+
 struct BenchResult {
     std::vector<BenchRow> rows;
+    std::vector<CircleRow> circles;
     std::string machine;         // processor
     double by_event_cost = 0.0;  // added time of the averages by event at N = 48, as a fraction
 };

@@ -34,6 +34,32 @@ RC_GTEST_PROP(UnitCircle, IsCosineAndSineToTheLastDigit, ()) {
     RC_ASSERT(std::abs(static_cast<double>(std::sin(angle) - found.y)) <= ulp_of_one);
 }
 
+RC_GTEST_PROP(QuickUnitCircle, IsCosineAndSineToTheLastDigits, ()) {
+    const double u = draw(-1.0, 1.0);
+    const long double angle = 2.0L * 3.14159265358979323846264338327950288L * u;
+    const Vec2 found = quick_unit_circle(u);
+    RC_ASSERT(std::abs(static_cast<double>(std::cos(angle) - found.x)) <= 2.0 * ulp_of_one);
+    RC_ASSERT(std::abs(static_cast<double>(std::sin(angle) - found.y)) <= 2.0 * ulp_of_one);
+}
+
+// 1 − cos φ = 2 sin² φ/2, in which nothing cancels.
+RC_GTEST_PROP(TurnBy, KeepsTheDigitsOfSmallAngles, ()) {
+    const double phi = draw(-0.25 * pi, 0.25 * pi) * std::exp2(-draw(0.0, 100.0));
+    const Turn turn = turn_by(phi);
+    const long double half = std::sin(0.5L * phi);
+    RC_ASSERT(std::abs(static_cast<double>(std::sin(static_cast<long double>(phi)) - turn.sine)) <=
+              2.0 * ulp_of_one * std::abs(phi));
+    RC_ASSERT(std::abs(static_cast<double>(2.0L * half * half - turn.versine)) <=
+              2.0 * ulp_of_one * turn.versine);
+}
+
+RC_GTEST_PROP(TurnBy, IsTheUnitCircleForLargeAngles, ()) {
+    const double phi = draw(-7.0, 7.0);
+    const Turn turn = turn_by(phi);
+    RC_ASSERT(std::abs(turn.sine - std::sin(phi)) <= 8.0 * ulp_of_one);
+    RC_ASSERT(std::abs(turn.versine - (1.0 - std::cos(phi))) <= 8.0 * ulp_of_one);
+}
+
 RC_GTEST_PROP(UnitCircle, MirrorsAndQuarterTurnsGiveTheSameBits, ()) {
     const double u = *rc::gen::inRange(0, 1 << 20) * 0x1p-22;  // u + k/4 is exact
     const Vec2 a = unit_circle(u), back = unit_circle(-u), quarter = unit_circle(u + 0.25);

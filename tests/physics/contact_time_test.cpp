@@ -193,6 +193,43 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheDiscTouchesThenAndNotBefore, ()) 
     if (t < leg.end) RC_ASSERT(std::abs(wall_distance(in, leg, t)) < 1e-12);
 }
 
+// Whoever asks for the wall up to some time is told the same bits, or a time before which the disc
+// does not reach it.
+RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
+    const ContainerPath path = circular_path(draw(0.1, 30.0), 11.866071);
+    const Leg& leg = path.legs[0];
+    const Inside in = draw_inside(leg);
+    const double clearance = in.radius - in.disc.radius;
+    const double t = time_of_wall_contact(in.disc, leg, in.radius);
+    const double latest = in.disc.time + draw(0.0, 1.5) * (std::min(t, leg.end) - in.disc.time);
+    const WallContact asked = turning_wall_contact(in.disc.flight(), leg, clearance, latest);
+    if (t <= latest) {
+        RC_ASSERT(asked.time == t);
+        RC_ASSERT(!asked.is_later);
+    }
+    if (t > latest) {
+        RC_ASSERT(asked.time > latest);
+        const bool kept = asked.is_later ? asked.time <= t : asked.time == t;
+        RC_ASSERT(kept);
+    }
+}
+
+// Hop after hop along the wall, in which the centre does little more than push: each is as long as
+// a parabola, but for the turning of the push.
+TEST(TimeOfWallContact, OnTheCircleAShortHopKeepsItsDigits) {
+    const double amplitude = 2.0, period = 12.0, omega = 2.0 * pi / period;
+    const Leg leg = circular_path(amplitude, period).legs[0];
+    const double push = amplitude * omega * omega;
+    for (double speed = 1e-2; speed > 1e-9; speed *= 0.1) {
+        // At the wall, outwards of the path, and leaving it straight inwards.
+        Disc d{leg.start, leg.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
+        d.position.x += 7.6;
+        d.velocity.x -= speed;
+        const double hop = time_of_wall_contact(d, leg, 8.6);
+        EXPECT_NEAR(hop, 2.0 * speed / push, 1e-3 * hop * (speed / 1e-2) + 6e-8) << speed;
+    }
+}
+
 /// When the disc touches the wall of radius `container_radius` on any leg of the polygon.
 double contact_on_polygon(const Disc& disc, const ContainerPath& path, double container_radius) {
     for (const Leg& leg : path.legs) {

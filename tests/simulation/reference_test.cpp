@@ -19,6 +19,18 @@ class EveryWidth : public OfEveryWidth {
     Tuning tuning(NeighbourSearch neighbours) const { return {0, GetParam(), neighbours}; }
 };
 
+/// The same discs in a dish that is swirled on a true circle.
+InitialState on_circle(InitialState scene, double amplitude = paper_amplitude) {
+    const Leg before = scene.path.legs[0];
+    scene.path = circular_path(amplitude, paper_period);
+    const Leg& leg = scene.path.legs[0];
+    for (Disc& disc : scene.discs) {
+        disc.position = disc.position + (leg.start - before.start);
+        disc.velocity = disc.velocity + (leg.velocity - before.velocity);
+    }
+    return scene;
+}
+
 // Without a grid (0 cells), a few discs go by all pairs; one cell has neighbour lists.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInThePaperDish) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
@@ -41,10 +53,26 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
     expect_same_trajectory(mixture_dish(20), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
-    InitialState scene = paper_dish(28);
-    scene.path = circular_path(paper_amplitude, paper_period);
-    expect_same_trajectory(scene, 10000, tuning());
-    expect_same_trajectory(scene, 5000, tuning(1));
+    for (const std::size_t n : {1u, 2u, 5u, 28u, 48u}) {
+        const InitialState scene = on_circle(paper_dish(n));
+        expect_same_trajectory(scene, 10000, tuning());
+        expect_same_trajectory(scene, 5000, tuning(1));
+    }
+    // With a grid, with discs that do not come near the wall, and with smooth ones, which slide
+    // along it for long.
+    expect_same_trajectory(on_circle(state_of({unit_disc()}, 200, 18.0, still_path(1.0), 1.0, 1.0)),
+                           5000, tuning());
+    expect_same_trajectory(on_circle(mixture_dish()), 10000, tuning(3));
+    expect_same_trajectory(on_circle(paper_dish(20, 0.0, 0.0)), 10000, tuning());
+}
+// Far from the origin places are known less well; a small turn is a long way.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
+    for (const double amplitude : {1e-3, 30.0, 1e6}) {
+        for (const std::size_t n : {28u, 48u}) {
+            const InitialState scene = on_circle(paper_dish(n), amplitude);
+            expect_same_trajectory(scene, sanitized ? 500 : 3000, tuning());
+        }
+    }
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
     InitialState scene = paper_dish(40);

@@ -70,16 +70,30 @@ SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&w
     return first;
 }
 
+/// On a turning leg: not before when the first of discs that have just collided meets the wall.
+template <int D>
+SWIRL_INLINE double predict_turning_wall(EngineState& state, const std::uint32_t (&who)[D],
+                                         double t) {
+    SideBySide& all = *state.side_by_side;
+    const Lanes<2> time = earliest_wall_times<D>(state, who, t);
+    for (int d = 0; d < D; ++d) {
+        set(all.wall, who[d], lane(time, d));
+        all.wall_is_earliest |= std::uint64_t{1} << who[d];
+    }
+    return smallest(time);
+}
 /// When a disc that has just collided, at time t, meets the wall.
-SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double) {
+SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double t) {
+    if (state.on_turning_leg()) [[unlikely]]
+        return predict_turning_wall(state, who, t);
     const double time = wall_time(state, who[0]);
     set(state.side_by_side->wall, who[0], time);
     return time;
 }
 /// When the first of two does.
 SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[2], double t) {
-    if (state.legs[state.leg].turning != 0.0) [[unlikely]]
-        return smaller(predict_wall(state, {who[0]}, t), predict_wall(state, {who[1]}, t));
+    if (state.on_turning_leg()) [[unlikely]]
+        return predict_turning_wall(state, who, t);
     const Lanes<2> time = wall_times_from_now(state, state.discs[who[0]], state.discs[who[1]], t);
     set(state.side_by_side->wall, who[0], lane(time, 0));
     set(state.side_by_side->wall, who[1], lane(time, 1));
@@ -89,15 +103,46 @@ SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[
 template <int G>
 SWIRL_INLINE void predict_all_walls(EngineState& state) {
     SideBySide& all = *state.side_by_side;
-    if (state.legs[state.leg].turning != 0.0) {
-        for (std::uint32_t i = 0; i < state.size; ++i) predict_wall(state, {i}, state.clock);
-        return;
-    }
+    const bool turning = state.on_turning_leg();
+    all.wall_is_earliest = turning ? ~std::uint64_t{0} : 0;
+    all.walls_asked_at = state.clock;
+    const Eight now(state.clock);
     for (int g = 0; g < G; ++g) {
         const Others<8> discs = load_eight(all, g);
-        const Eight time = wall_times<8>(state, discs.flight, discs.radius);
+        const Eight time =
+            turning ? earliest_wall_times<8>(state, discs.flight.position_at(now),
+                                             discs.flight.velocity, discs.radius, state.clock)
+                    : wall_times<8>(state, discs.flight, discs.radius);
         larger(time, Eight::load(all.nobody + 8 * g)).store(all.wall + 8 * g);
     }
+}
+/// Disc i is the first, and not before `time` at the wall of a turning leg. If everybody was asked
+/// some while ago, all are asked again from then on, as nothing happens before; most of those that
+/// come near the wall meet somebody else before they are there. Then when disc i is at the wall.
+template <int G>
+[[gnu::noinline]] static void approach_wall(EngineState& state, std::uint32_t i, double time) {
+    SideBySide& all = *state.side_by_side;
+    const Eight then(time);
+    if (time - all.walls_asked_at > state.turning_bound.horizon * (1.0 / 16.0)) {
+        all.walls_asked_at = time;
+        for (int g = 0; g < G; ++g) {
+            const Others<8> discs = load_eight(all, g);
+            const Eight no_sooner = earliest_wall_times<8>(
+                state, discs.flight.position_at(then), discs.flight.velocity, discs.radius, time);
+            // What is known better stays.
+            larger(no_sooner, Eight::load(all.wall + 8 * g)).store(all.wall + 8 * g);
+        }
+        return;
+    }
+    set(all.wall, i, never);
+    Eight least = Eight(state.legs[state.leg].end);
+    for (int g = 0; g < G; ++g)
+        least = smaller(least,
+                        smaller(Eight::load(all.meeting + 8 * g), Eight::load(all.wall + 8 * g)));
+    const WallContact contact =
+        seek_wall(state, i, smallest(least) + state.turning_bound.horizon * (1.0 / 16.0));
+    set(all.wall, i, contact.time);
+    if (!contact.is_later) all.wall_is_earliest &= ~(std::uint64_t{1} << i);
 }
 
 /// Of the events at one instant, that of the discs whose bits are set, the first.
@@ -117,19 +162,27 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 template <int G>
 SWIRL_INLINE void find_next(EngineState& state) {
     SideBySide& all = *state.side_by_side;
-    Eight meeting[G], wall[G];
-    for (int g = 0; g < G; ++g) {
-        meeting[g] = Eight::load(all.meeting + 8 * g);
-        wall[g] = Eight::load(all.wall + 8 * g);
+    for (;;) {
+        Eight meeting[G], wall[G];
+        for (int g = 0; g < G; ++g) {
+            meeting[g] = Eight::load(all.meeting + 8 * g);
+            wall[g] = Eight::load(all.wall + 8 * g);
+        }
+        Eight least = smaller(meeting[0], wall[0]);
+        for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
+        const double time = smallest(least);
+        const std::uint64_t walls = lanes_equal(wall, time);
+        // Who comes after the leg's end need not be known.
+        if (!(time < state.legs[state.leg].end)) {
+            all.next = {time, state.size, state.size};
+            return;
+        }
+        if ((walls & all.wall_is_earliest) == 0) [[likely]] {
+            all.next = first_in_order(state, time, lanes_equal(meeting, time), walls);
+            return;
+        }
+        approach_wall<G>(state, __builtin_ctzll(walls & all.wall_is_earliest), time);
     }
-    Eight least = smaller(meeting[0], wall[0]);
-    for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
-    const double time = smallest(least);
-    // Who comes after the leg's end need not be known.
-    all.next =
-        time < state.legs[state.leg].end
-            ? first_in_order(state, time, lanes_equal(meeting, time), lanes_equal(wall, time))
-            : PendingEvent{time, state.size, state.size};
 }
 
 template <int G>

@@ -120,6 +120,9 @@ struct alignas(64) SideBySide {
     double meeting[most], wall[most];
     double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
     PendingEvent next;    // the first of all
+    // On a turning leg (wall_times.hpp): bit i is set where wall[i] is the earliest time possible.
+    std::uint64_t wall_is_earliest;
+    double walls_asked_at;
 };
 
 /// The same of a few spheres (few_spheres.hpp), with their accelerations and when they begin to
@@ -132,6 +135,17 @@ struct alignas(64) SpheresSideBySide {
     // the floor, it can come in this leg.
     double X[most], Y[most], reach[most];
     PendingEvent next;  // the first of all
+};
+
+/// On a turning leg: a course of the container's that is near enough to the true one
+/// (wall_times.hpp), from a time on that is renewed now and then, and what limits how it goes on.
+struct TurningBound {
+    Flight<double> centre;
+    double turning, per_turning;
+    double horizon;  // a time for which the parabolas hold
+    double lasts;    // before and after centre.time
+    double L, L_of_u2, L_of_square;
+    double margin;  // against rounding errors, as a fraction
 };
 
 struct EngineState {
@@ -180,6 +194,9 @@ struct EngineState {
 
     const Leg* legs;
     std::uint32_t leg, leg_count;
+    // Of the leg; or sooner, if the search has something to do by then that is no event.
+    double stretch_end;
+    TurningBound turning_bound;  // of a turning leg
     double period, container_radius;
     Surface disc_surface, wall_surface;
 
@@ -200,6 +217,7 @@ struct EngineState {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
     }
+    SWIRL_INLINE bool on_turning_leg() const { return legs[leg].turning != 0.0; }
     /// Asked in loops over all discs, every thousand of them.
     SWIRL_INLINE bool stops_at(std::uint32_t i) const {
         return i % 1024 == 0 && is_stopped != nullptr && is_stopped(caller);

@@ -56,12 +56,20 @@ SWIRL_INLINE void predict(EngineState& state, const std::uint32_t (&who)[D], dou
     for (int d = 0; d < D; ++d) others[d] = load_others<8>(state, state.cold(who[d]).neighbours());
     for (int d = 0; d < D; ++d)
         contacts[d] = contact_times<held>(state.discs[who[d]], others[d], t);
-    find_leaving<held, D>(state, who, t, leaving);
+    const bool turning = state.on_turning_leg();
+    const bool all_far =
+        state.discs[who[0]].far_from_wall != 0 && state.discs[who[D - 1]].far_from_wall != 0;
+    if (turning && !all_far) [[unlikely]]
+        find_leaving_on_turn<D>(state, who, t, leaving);
+    else
+        find_leaving<held, D>(state, who, t, leaving);
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         PendingEvent meeting =
             earlier<8>(state.cold(who[d]).neighbours(), contacts[d], no_meeting(who[d]));
         if (state.discs[who[d]].neighbours > 8) meeting = earliest_beyond_eight(state, meeting, t);
+        if (turning) [[unlikely]]
+            seek_wall(state, who[d], smaller(meeting.time, leaving[d].skin), leaving[d]);
         put_in(state, first_of(meeting, leaving[d]));
     }
 }
@@ -136,17 +144,25 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 
 /// The container has changed course, so the wall and the skin, whose frame is renewed, come at
 /// other times. An event of theirs that now comes later leaves its disc to be predicted again at
-/// the time it held, which is early enough for whatever comes next.
-SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, const Leaving& leaving) {
+/// the time it held, which is early enough for whatever comes next. In the middle of a turning leg
+/// only the skin does.
+SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving leaving) {
     ColdDisc& cold = state.cold(i);
-    if (cold.partner == i || cold.partner == leaves_skin) cold.partner = no_event;
+    const bool turning = state.on_turning_leg();
+    if ((cold.partner == i && !turning) || cold.partner == leaves_skin) cold.partner = no_event;
     const PendingEvent held{pending_time(state, i), i, cold.partner};
+    if (turning) [[unlikely]] {
+        if (cold.partner == i)
+            leaving.wall = held.time;
+        else
+            seek_wall(state, i, smaller(held.time, leaving.skin), leaving);
+    }
     const PendingEvent first = first_of(held, leaving);
     if (first.partner != held.partner) put_in(state, first);
 }
 
-/// The same for the eight discs from `begin` on, on a straight leg; all of them hold states from
-/// before the leg, which begins at time t.
+/// The same for the eight discs from `begin` on; all of them hold states from before time t, when
+/// the leg begins, or a stretch of it.
 SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t) {
     const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
     std::uint32_t who[8];
@@ -163,14 +179,16 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     const Others<8> discs = load_others<8>(state, who);
     const BasicVec2<Eight> centre{Eight::load(X), Eight::load(Y)};
     const Flight<double>& frame = state.comoving_frame;
-    const BasicVec2<Eight> offset =
-        discs.flight.position_at(Eight(t)) - in_lanes<8>(frame.position_at(t)) - centre;
+    const BasicVec2<Eight> at = discs.flight.position_at(Eight(t));
+    const BasicVec2<Eight> offset = at - in_lanes<8>(frame.position_at(t)) - centre;
     const BasicVec2<Eight> drift = discs.flight.velocity - in_lanes<8>(frame.velocity);
     alignas(64) double wall[8], skin[8], beyond[8];
-    wall_times<8>(state, discs.flight, discs.radius).store(wall);
+    (state.on_turning_leg()
+         ? earliest_wall_times<8>(state, at, discs.flight.velocity, discs.radius, t)
+         : wall_times<8>(state, discs.flight, discs.radius))
+        .store(wall);
     (Eight(t) + time_to_leave(offset, drift, Eight::load(inner_radius))).store(skin);
-    const Vec2 from_container =
-        frame.position_at(t) - container_flight(state.legs[state.leg]).position_at(t);
+    const Vec2 from_container = frame.position_at(t) - state.legs[state.leg].position_at(t);
     beyond_reach(Eight(reach_far_from_wall(state, t)), in_lanes<8>(from_container) + centre,
                  Eight::load(skin_radius), discs.radius)
         .store(beyond);
@@ -183,16 +201,8 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
 }
 
 /// At a corner of the path only what depends on the container's motion is predicted anew.
-static void renew_all_leaving(EngineState& state) {
-    if (state.legs[state.leg].turning == 0.0) {
-        for (std::uint32_t i = 0; i < state.size; i += 8) renew_eight(state, i, state.clock);
-        return;
-    }
-    for (std::uint32_t i = 0; i < state.size; ++i) {
-        Leaving leaving[1];
-        find_leaving<Held::for_a_while, 1>(state, {i}, state.clock, leaving);
-        renew_leaving(state, i, leaving[0]);
-    }
+static void renew_all_leaving(EngineState& state, double t) {
+    for (std::uint32_t i = 0; i < state.size; i += 8) renew_eight(state, i, t);
 }
 
 /// At the end of the swirl the discs' clocks have restarted, and so does the frame's. Its origin is
@@ -214,7 +224,14 @@ SWIRL_INLINE void leg_ended(EngineState& state, double t) {
     const Vec2 origin = state.comoving_frame.position_at(t);
     if (state.leg == 0) return renew_all(state, origin);
     renew_comoving_frame(state, origin, t);
-    renew_all_leaving(state);
+    renew_all_leaving(state, t);
+}
+
+/// Of a turning leg: the discs have turned with the container, and so does the frame.
+[[gnu::noinline]] static void stretch_ended(EngineState& state) {
+    const double t = state.stretch_end;
+    renew_comoving_frame(state, state.comoving_frame.position_at(t), t);
+    renew_all_leaving(state, t);
 }
 
 }  // namespace lists
@@ -244,6 +261,7 @@ struct VerletLists {
         check_tournament(state);
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double t) { lists::leg_ended(state, t); }
+    SWIRL_INLINE static void stretch_ended(EngineState& state) { lists::stretch_ended(state); }
 };
 
 }  // namespace SWIRL_TARGET

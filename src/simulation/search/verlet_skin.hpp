@@ -35,14 +35,22 @@ SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
     return static_cast<double>(skin.skin_radius) * (1.0 - skin_margin);
 }
 
+/// On a turning leg the co-moving frame is renewed this often per turn, as on the paper's polygon.
+inline constexpr double stretches_per_turn = 30.0;
+
 /// From time t on the co-moving frame has the discs' mean velocity. The pack circles in the dish
 /// with the swirl, so this is where most discs stay near; and in a large dish, where the wall is
-/// far, they do not follow the container at all.
+/// far, they do not follow the container at all. On a turning leg it lasts for a stretch.
 static void renew_comoving_frame(EngineState& state, const Vec2& origin, double t) {
     Vec2 sum{0.0, 0.0};
     for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
     state.comoving_frame = {origin, (1.0 / state.size) * sum, t};
     state.rebuilds_in_frame = 0;
+    const Leg& leg = state.legs[state.leg];
+    state.stretch_end = leg.end;
+    if (leg.turning != 0.0)
+        state.stretch_end =
+            smaller(leg.end, t + 2.0 * pi / (stretches_per_turn * magnitude(leg.turning)));
 }
 
 /// Whether the discs fly with each other rather than with the frame: in a fast dish all have
@@ -66,12 +74,17 @@ SWIRL_INLINE double reach_short_of_wall(const EngineState& state) {
     return state.container_radius * (1.0 - 1e-6);
 }
 /// How far from the centre of the container, at time t, a skin may reach so that its disc cannot
-/// reach the wall before the leg ends: the skin drifts against the container.
+/// reach the wall before the leg ends, or a stretch of it: the skin drifts against the container,
+/// which turns away from its course by no more than half its acceleration times the square of the
+/// time.
 SWIRL_INLINE double reach_far_from_wall(const EngineState& state, double t) {
     const Leg& leg = state.legs[state.leg];
-    if (leg.turning != 0.0) return 0.0;
-    const Vec2 drift = (leg.end - t) * (state.comoving_frame.velocity - leg.velocity);
-    return reach_short_of_wall(state) - square_root(dot(drift, drift));
+    const double time = state.stretch_end - t;
+    const Vec2 drift = time * (state.comoving_frame.velocity - leg.velocity_at(t));
+    const double reach = reach_short_of_wall(state) - square_root(dot(drift, drift));
+    if (leg.turning == 0.0) return reach;
+    const double speed = square_root(dot(leg.velocity, leg.velocity));
+    return reach - 0.5 * speed * magnitude(leg.turning) * time * time;
 }
 
 /// Negative if a skin whose centre is at s from that of the container does not reach so far.

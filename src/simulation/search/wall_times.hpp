@@ -39,6 +39,51 @@ SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
                                 state.container_radius - disc.radius);
 }
 
+// On a turning leg that is some work. A time before which a disc does not reach the wall is had by
+// vectors, and mostly something else comes first.
+
+/// The wall of a turning leg as a parabola that it is not nearer than, up to a time h: with g the
+/// acceleration and j the jerk of what is at rest, as seen from the centre, which has velocity V, a
+/// disc at s with velocity u has
+///
+///     |s + uτ + gτ²/2 + jτ³/6 …|² ≤ s² + 2 s·u τ + (u² + s·g + h (max(k, 0) + h L)) τ²,   τ ≤ h,
+///
+/// k = u·g + s·j/3 and L = Ω² (2u² + 8.7 V² + (Ω clearance)²/2)/12, more than a 24th of the fourth
+/// derivative in a sixth of a turn; as in contact_time.hpp, where the terms are others.
+SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
+    const Leg& leg = state.legs[state.leg];
+    const double O = leg.turning, O2 = O * O, turn = 2.0 * pi / magnitude(O);
+    const double speed2 = dot(leg.velocity, leg.velocity);
+    TurningBound& bound = state.turning_bound;
+    bound.centre = leg.flight_at(t);
+    bound.turning = O;
+    bound.per_turning = 1.0 / O;
+    bound.lasts = turn / 30.0;
+    bound.horizon = state.side_by_side ? turn / 8.0 : turn / 30.0;
+    bound.L = O2 * (8.7 / 12.0) * speed2;
+    bound.L_of_u2 = O2 * (2.0 / 12.0);
+    bound.L_of_square = O2 * O2 * (0.5 / 12.0);
+    // Those of places grow with the radius of the path.
+    bound.margin = 1e-8 + 1e-12 * square_root(speed2 / O2) / state.container_radius;
+}
+
+/// The container near time t: cosine and sine of a turn by at most π/15, to the eighth and ninth
+/// power; what is left out is below (π/15)¹⁰/10! = 5·10⁻¹⁴.
+SWIRL_INLINE Flight<double> container_near(EngineState& state, double t) {
+    if (!(magnitude(t - state.turning_bound.centre.time) <= state.turning_bound.lasts)) [[unlikely]]
+        renew_turning_bound(state, t);
+    const TurningBound& bound = state.turning_bound;
+    const Vec2 V = bound.centre.velocity, W = perpendicular(V);
+    const double phi = (t - bound.centre.time) * bound.turning, q = phi * phi;
+    const auto next = [q](double n, double rest) {
+        return 1.0 - q * (1.0 / (n * (n + 1.0))) * rest;
+    };
+    const double sine = phi * next(2.0, next(4.0, next(6.0, next(8.0, 1.0))));
+    const double versine = (0.5 * q) * next(3.0, next(5.0, next(7.0, 1.0)));
+    return {bound.centre.position + bound.per_turning * (sine * V + versine * W),
+            (1.0 - versine) * V + sine * W, t};
+}
+
 /// When W discs reach the wall, on a straight leg.
 template <int W>
 SWIRL_INLINE Lanes<W> wall_times(const EngineState& state, const Flight<Lanes<W>>& flights,
@@ -63,8 +108,9 @@ SWIRL_INLINE Lanes<2> wall_times_from_now(const EngineState& state, const HotDis
 }
 
 /// When a disc reaches the wall, and when it leaves its skin or its cell. The first follows from
-/// the state the disc holds alone; the second, which decides nothing but when to look for
-/// neighbours again, is counted from the moment of asking.
+/// the state the disc holds alone, but on a turning leg is the earliest time possible until it is
+/// asked whether that matters; the second, which decides nothing but when to look for neighbours
+/// again, is counted from the moment of asking.
 struct Leaving {
     double wall, skin;
     std::uint32_t mark = leaves_skin;  // or by which edge a cell
@@ -105,9 +151,119 @@ SWIRL_INLINE void find_leaving(const EngineState& state, const std::uint32_t (&w
     for (int d = 0; d < D; ++d) {
         const bool far = state.discs[who[d]].far_from_wall;
         leaving[d] = {lane(time, 2 * d) + far_wait[far], lane(time, 2 * d + 1)};
-        if (leg.turning != 0.0) [[unlikely]]
-            leaving[d].wall = wall_time(state, who[d]);
     }
+}
+
+/// The first time at which W discs may be at a circle which they are inside of. With s their
+/// places, v their velocities, the room to it nowhere grows slower than `room` − 2 s·v τ − a τ².
+template <int W>
+SWIRL_INLINE Lanes<W> wait_for_parabola(const Lanes<W>& a, const Lanes<W>& b,
+                                        const Lanes<W>& room) {
+    const Lanes<W> zero(0.0), discriminant = b * b + a * room;
+    const Lanes<W> root = square_root(larger(discriminant, zero));
+    const auto approaching = b > zero;
+    const Lanes<W> wait = select(approaching, room, root - b) / select(approaching, b + root, a);
+    return select(select(approaching, discriminant, a) > zero, wait, Lanes<W>(never));
+}
+
+/// W discs, asked at time t, do not reach the wall of a turning leg before this. The wall is taken
+/// to be a little nearer and all to come a little earlier, which is far more than rounding errors
+/// (TurningBound::margin).
+template <int W>
+SWIRL_INLINE Lanes<W> earliest_wall_times(EngineState& state, const BasicVec2<Lanes<W>>& position,
+                                          const BasicVec2<Lanes<W>>& velocity,
+                                          const Lanes<W>& radius, double t) {
+    const Flight<double> centre = container_near(state, t);
+    const TurningBound& bound = state.turning_bound;
+    const BasicVec2<Lanes<W>> s = position - in_lanes<W>(centre.position);
+    const BasicVec2<Lanes<W>> u = velocity - in_lanes<W>(centre.velocity);
+    const BasicVec2<Lanes<W>> g = in_lanes<W>((-bound.turning) * perpendicular(centre.velocity));
+    const BasicVec2<Lanes<W>> third_of_j =
+        in_lanes<W>((bound.turning * bound.turning * (1.0 / 3.0)) * centre.velocity);
+    const Lanes<W> clearance = Lanes<W>(state.container_radius) - radius;
+    const Lanes<W> square = clearance * clearance, u2 = dot(u, u), zero(0.0), h(bound.horizon);
+    const Lanes<W> k = dot(u, g) + dot(s, third_of_j);
+    const Lanes<W> L =
+        Lanes<W>(bound.L) + Lanes<W>(bound.L_of_u2) * u2 + Lanes<W>(bound.L_of_square) * square;
+    const Lanes<W> a = (u2 + dot(s, g)) + h * (larger(k, zero) + h * L);
+    const Lanes<W> room = larger(Lanes<W>(1.0 - bound.margin) * square - dot(s, s), zero);
+    return Lanes<W>(t - bound.margin * bound.horizon) +
+           Lanes<W>(1.0 - bound.margin) * smaller(wait_for_parabola(a, dot(s, u), room), h);
+}
+
+/// Of one disc or two.
+template <int D>
+SWIRL_INLINE Lanes<2> earliest_wall_times(EngineState& state, const std::uint32_t (&who)[D],
+                                          double t) {
+    const HotDisc &a = state.discs[who[0]], &b = state.discs[who[D - 1]];
+    const Vec2 p = a.flight().position_at(t), q = b.flight().position_at(t);
+    return earliest_wall_times<2>(
+        state, {two_lanes(p.x, q.x), two_lanes(p.y, q.y)},
+        {two_lanes(a.velocity.x, b.velocity.x), two_lanes(a.velocity.y, b.velocity.y)},
+        two_lanes(a.radius, b.radius), t);
+}
+
+/// find_leaving on a turning leg: the wall is no parabola, but bounded by one. The second of each
+/// pair of lanes is the skin, of which nothing is known to be nearer than it is.
+template <int D>
+SWIRL_INLINE void find_leaving_on_turn(EngineState& state, const std::uint32_t (&who)[D], double t,
+                                       Leaving (&leaving)[D]) {
+    const Flight<double> centre = container_near(state, t);
+    const TurningBound& bound = state.turning_bound;
+    const Vec2 origin = state.comoving_frame.position_at(t);
+    const Vec2& drift = state.comoving_frame.velocity;
+    Double2 x[D], y[D], vx[D], vy[D], clearance[D];
+#pragma GCC unroll 2
+    for (int d = 0; d < D; ++d) {
+        const HotDisc& disc = state.discs[who[d]];
+        const Skin& skin = state.skins[who[d]];
+        const Vec2 at = disc.flight().position_at(t);
+        x[d] = at.x - Double2{centre.position.x, origin.x} - Double2{0.0, skin.X};
+        y[d] = at.y - Double2{centre.position.y, origin.y} - Double2{0.0, skin.Y};
+        vx[d] = disc.velocity.x - Double2{centre.velocity.x, drift.x};
+        vy[d] = disc.velocity.y - Double2{centre.velocity.y, drift.y};
+        clearance[d] = Double2{state.container_radius - disc.radius, inner_skin_radius(skin)};
+    }
+    using Pairs = Lanes<2 * D>;
+    const auto both = [](double wall, double skin) {
+        Double2 pairs[D];
+        for (int d = 0; d < D; ++d) pairs[d] = Double2{wall, skin};
+        return beside(pairs);
+    };
+    const BasicVec2<Pairs> s{beside(x), beside(y)}, u{beside(vx), beside(vy)};
+    const Vec2 at_rest = (-bound.turning) * perpendicular(centre.velocity);
+    const double third = bound.turning * bound.turning * (1.0 / 3.0);
+    const BasicVec2<Pairs> g{both(at_rest.x, 0.0), both(at_rest.y, 0.0)};
+    const BasicVec2<Pairs> third_of_j{both(third * centre.velocity.x, 0.0),
+                                      both(third * centre.velocity.y, 0.0)};
+    const Pairs R = beside(clearance), square = R * R, u2 = dot(u, u), zero(0.0);
+    const Pairs k = dot(u, g) + dot(s, third_of_j), h = both(bound.horizon, 0.0);
+    const Pairs L = Pairs(bound.L) + Pairs(bound.L_of_u2) * u2 + Pairs(bound.L_of_square) * square;
+    const Pairs a = (u2 + dot(s, g)) + h * (larger(k, zero) + h * L);
+    const Pairs room =
+        larger(both(1.0 - bound.margin, 1.0) * square - dot(s, s), both(0.0, 0x1p-52) * square);
+    const Pairs wait = smaller(wait_for_parabola(a, dot(s, u), room), both(bound.horizon, never));
+    const Pairs time =
+        (Pairs(t) - both(bound.margin * bound.horizon, 0.0)) + both(1.0 - bound.margin, 1.0) * wait;
+#pragma GCC unroll 2
+    for (int d = 0; d < D; ++d) {
+        const bool far = state.discs[who[d]].far_from_wall;
+        leaving[d] = {lane(time, 2 * d) + far_wait[far], lane(time, 2 * d + 1)};
+    }
+}
+
+/// On a turning leg: when disc i reaches the wall, if it does by `latest`.
+SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i, double latest) {
+    const HotDisc& disc = state.discs[i];
+    return turning_wall_contact(disc.flight(), state.legs[state.leg],
+                                state.container_radius - disc.radius, latest);
+}
+/// The same, where it may not reach the wall before leaving.wall.
+SWIRL_INLINE void seek_wall(const EngineState& state, std::uint32_t i, double latest,
+                            Leaving& leaving) {
+    if (leaving.wall > latest) return;
+    const WallContact contact = seek_wall(state, i, latest);
+    leaving.wall = contact.is_later ? never : contact.time;
 }
 
 }  // namespace SWIRL_TARGET
