@@ -6,16 +6,15 @@
 #include <cmath>
 
 #include "swirl/app/commands.hpp"
+#include "swirl/app/opened_tracks.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
-#include "swirl/app/track_fit.hpp"
 #include "swirl/app/track_options.hpp"
 #include "swirl/files/trajectory.hpp"
-#include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
-#include "swirl/run/measurements.hpp"
+#include "swirl/run/measured_series.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 
@@ -30,135 +29,61 @@ struct MeasureCall {
     bool quiet = false;
 };
 
-/// The frames, and what is to be said of them.
-struct Opened {
-    SnapshotSeries series;
-    std::string remarks;  // a line each
-    Json camera;          // of tracks only
-};
-
-Json camera_json(const Tracks& tracks, const SnapshotSeries& series, const TrackFit& fit) {
-    return {{"filled_positions", tracks.mended.filled},
-            {"renamed", tracks.mended.renamed},
-            {"dropped_positions", tracks.mended.dropped},
-            {"breaks", series.breaks.size()},
-            {"frames_outside", fit.outside},
-            {"frames_overlapping", fit.overlapping},
-            {"wall_gap", fit.wall_gap},
-            {"fitting_phase", fit.fitting_phase}};
-}
-
-Opened open_tracks(const MeasureCall& call) {
-    const TrackScale scale = track_scale(call.camera, call.file);
-    const double misfit = number_option("misfit", call.misfit, 0.05, 0.0);
-    Tracks tracks = read_tracks(call.file, scale);
-    if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
-        throw Failure(fmt::format(
-            "'{}' holds a single frame, which tells no velocities; two are the least.", call.file));
-    Opened opened;
-    opened.remarks = mended_text(tracks);
-    opened.series = series_of(tracks, scale);
-    const TrackFit fit = fit_of(opened.series, scale);
-    refuse_misfit(fit, scale, misfit);
-    opened.remarks += fit_text(fit);
-    if (!opened.series.same_discs())
-        opened.remarks += fmt::format(
-            "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",
-            opened.series.breaks.size(), opened.series.frames);
-    opened.camera = camera_json(tracks, opened.series, fit);
-    return opened;
-}
-
-Opened open_series(const MeasureCall& call) {
+OpenedSeries open_series(const MeasureCall& call) {
     if (is_trajectory(call.file))
         return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
-    return open_tracks(call);
-}
-
-/// Whether the same discs are seen long enough for their tracks to say anything.
-bool holds_tracks(const SnapshotSeries& series) {
-    std::uint64_t begin = 0, longest = 0;
-    for (const std::uint64_t end : series.breaks) {
-        longest = std::max(longest, end - begin);
-        begin = end;
-    }
-    longest = std::max(longest, series.frames - begin);
-    return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
+    return open_tracks(call.file, call.camera, number_option("misfit", call.misfit, 0.05, 0.0));
 }
 
 /// Frames do not tell one collision from the next.
-void drop_what_needs_events(std::vector<std::string>& names, const std::string& list) {
+void refuse_what_needs_events(const std::vector<std::string>& names, const std::string& list) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_events && list != "all")
             throw WrongCall(fmt::format(
                 "--measure has '{}' in its list, which needs every collision, and frames do not "
                 "hold them; `swirl run --measure {}` can tell.",
                 name, name));
-    std::erase_if(names,
-                  [](const std::string& name) { return find_measurement(name)->needs_events; });
 }
 
-void drop_what_needs_tracks(std::vector<std::string>& names, const MeasureCall& call) {
+void refuse_what_needs_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
                 "The discs of '{}' are never the same for {} frames in a row, so '{}' cannot be "
                 "told of them; density, flow, profile, radial, temperature, order and packing can.",
                 call.file, PinnedLoose::width + 1, name));
-    std::erase_if(names,
-                  [](const std::string& name) { return find_measurement(name)->needs_tracks; });
 }
 
 void measure_file(const MeasureCall& call) {
     if (call.list == "help") return print_all(measurement_help_text());
     std::vector<std::string> names;
     if (!call.list.empty()) names = read_measurement_list(call.list);
-    drop_what_needs_events(names, call.list);
+    refuse_what_needs_events(names, call.list);
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
-    const Opened opened = open_series(call);
+    const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
-    const Snapshot first = series.frame(0);
     const bool tracked = holds_tracks(series);
-    if (!tracked) drop_what_needs_tracks(names, call);
-
-    Observation observation(first.container_radius, first.period, names, tracked);
-    ClusterRotation rotation;
-    ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
-    std::int64_t swirl = first.swirls;
-    std::uint64_t used = 0;
-    std::size_t discs = 0;
-    auto next_break = series.breaks.begin();
-    for (std::uint64_t k = 0; k < series.frames; ++k) {
-        if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
-        const Snapshot s = series.frame(k);
-        const bool others = next_break != series.breaks.end() && *next_break == k;
-        if (others) ++next_break;
-        if (s.time() < skip * s.period) continue;
-        if (used > 0 && s.swirls != swirl) {
-            rotation.close_block();
-            observation.close_block();
-        }
-        if (others) observation.begin_tracks();
-        swirl = s.swirls;
-        discs = std::max(discs, s.size());
-        rotation.sample_by_time(s);
-        observation.sample(s);
-        ++used;
-        line.show(double(k + 1) / double(series.frames), fmt::format("frame {}", k + 1));
-    }
-    line.clear();
-    if (used == 0)
+    if (!tracked) refuse_what_needs_tracks(names, call);
+    names = measurable(names, tracked);
+    if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
-    rotation.close_block();
-    observation.close_block();
 
-    const MeasurementReports measured = observation.report();
-    const RotationEstimates found = rotation.estimates();
-    const double swirls = series.frame(series.frames - 1).time() / first.period - skip;
+    ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
+    MeasuringControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](std::uint64_t k, std::uint64_t of) {
+        line.show(double(k) / double(of), fmt::format("frame {}", k));
+    };
+    const MeasuredSeries measured_series = measure_series(series, names, skip, control);
+    line.clear();
+    const MeasurementReports& measured = measured_series.reports;
+    const RotationEstimates& found = measured_series.rotation;
+    const std::uint64_t used = measured_series.frames;
+    const std::size_t discs = measured_series.discs;
     Json json{{"file", call.file},
               {"frames", used},
               {"discs", discs},
@@ -176,11 +101,11 @@ void measure_file(const MeasureCall& call) {
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
     text += measured_text(measured);
     text += opened.remarks;
-    const double per_swirl = swirls > 0.0 ? double(used) / swirls : 0.0;
+    const double per_swirl = measured_series.frames_per_swirl();
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
     });
-    if (pinned && (per_swirl < 0.8 * samples_per_period || per_swirl > 1.25 * samples_per_period))
+    if (pinned && !fits_criteria(per_swirl))
         text += fmt::format(
             "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",
             per_swirl, samples_per_period);
