@@ -18,6 +18,7 @@
 #include "swirl/draw/label.hpp"
 #include "swirl/draw/movie.hpp"
 #include "swirl/film/movie.hpp"
+#include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
 #endif
 
@@ -29,7 +30,7 @@ struct TrackCall {
     std::string out, json, overlay;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
-    bool quiet = false, overwrite = false;
+    bool spin = false, quiet = false, overwrite = false;
 };
 
 #ifndef SWIRL_CAMERA
@@ -145,7 +146,14 @@ void track(const TrackCall& call) {
     settings.stop = &stop_signal();
     settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
     TrackedFilm film = track_film(settings);
+    std::optional<FilmSpins> spins;
+    if (call.spin) spins = spins_of(film, settings);
     line.clear();
+    if (spins && spins->measured < 0.9)
+        film.warnings.push_back(fmt::format(
+            "The texture of the discs tells their turning in {:.0f} % of the steps of {} picture{} "
+            "only: more of a pattern on them, sharper pictures or more of them would help.",
+            100.0 * spins->measured, spins->step, spins->step == 1 ? "" : "s"));
     if (call.source.dish_diameter && call.source.disc_diameter) {
         const double given = *call.source.dish_diameter / *call.source.disc_diameter;
         const double seen = film.container_radius / film.radius;
@@ -156,7 +164,8 @@ void track(const TrackCall& call) {
                 given, seen));
     }
 
-    const nlohmann::ordered_json json = write_tracks(film, call.source, call.out);
+    const nlohmann::ordered_json json =
+        write_tracks(film, call.source, call.out, spins ? &*spins : nullptr);
     if (!call.overlay.empty()) make_overlay(film, call);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
@@ -184,6 +193,9 @@ void add_track_command(Subcommand& subcommand) {
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
     add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
     add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout");
+    subcommand.add_flag("--spin", call->spin,
+                        "how fast each disc turns, from its texture: columns spin (about the "
+                        "vertical), spin_x, spin_y, and the paper's PIV");
     subcommand.add_flag("--overwrite", call->overwrite, "replace tracks that are there");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",

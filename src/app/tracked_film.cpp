@@ -9,6 +9,7 @@
 #include "swirl/files/table.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
 #endif
 
@@ -86,14 +87,36 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
             {"version", version()}};
 }
 
-Table table_of(const TrackedFilm& film) {
-    Table table({"frame", "particle", "x", "y", "x_seen", "y_seen", "radius", "error", "seen"});
+Table table_of(const TrackedFilm& film, const FilmSpins* spins) {
+    std::vector<std::string> columns{"frame",  "particle", "x",     "y",   "x_seen",
+                                     "y_seen", "radius",   "error", "seen"};
+    if (spins)
+        columns.insert(columns.end(),
+                       {"spin", "spin_x", "spin_y", "piv_spin", "piv_velocity", "texture_match"});
+    Table table(columns);
+    // Per second, where the film says how long that is.
+    const double rate = 1.0 / (film.times[1] - film.times[0]);
     for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
         const TrackFrame& f = film.tracks.frames[k];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
             const Vec2 seen = film.lens.seen(f.position[i]);
-            table.add({f.number, f.id[i], f.position[i].x, f.position[i].y, seen.x, seen.y,
-                       f.radius[i], film.errors[k][i], std::int64_t(film.seen[k][i])});
+            std::vector<Table::Cell> row{f.number,
+                                         f.id[i],
+                                         f.position[i].x,
+                                         f.position[i].y,
+                                         seen.x,
+                                         seen.y,
+                                         f.radius[i],
+                                         film.errors[k][i],
+                                         std::int64_t(film.seen[k][i])};
+            if (spins) {
+                const DiscSpin& s = spins->discs[k][i];
+                for (const double value :
+                     {s.turn[2], s.turn[0], s.turn[1], s.piv_turn, s.piv_velocity})
+                    row.emplace_back(rate * value);
+                row.emplace_back(s.match);
+            }
+            table.add(std::move(row));
         }
     }
     return table;
@@ -107,9 +130,13 @@ double phase_of(const TrackedFilm& film) {
 }
 
 Json write_tracks(const TrackedFilm& film, const FilmSource& source,
-                  const std::filesystem::path& out) {
-    const Json json = json_of(film, source);
-    table_of(film).write(out);
+                  const std::filesystem::path& out, const FilmSpins* spins) {
+    Json json = json_of(film, source);
+    if (spins)
+        json["spins"] = {{"step", spins->step},
+                         {"steps_measured", spins->measured},
+                         {"texture_match", spins->match}};
+    table_of(film, spins).write(out);
     write_output(camera_file(out), json.dump(2) + "\n");
     return json;
 }

@@ -10,6 +10,7 @@
 namespace swirl {
 
 struct TrackedFilm;
+struct FilmSpins;
 
 /// Where the pictures are from, and what is known of them.
 struct FilmSource {
@@ -25,6 +26,7 @@ double phase_of(const TrackedFilm& film);
 
 /// Both files, each whole or not at all; returns what stands in the second (camera_file()).
 nlohmann::ordered_json write_tracks(const TrackedFilm& film, const FilmSource& source,
-                                    const std::filesystem::path& out);
+                                    const std::filesystem::path& out,
+                                    const FilmSpins* spins = nullptr);
 
 }  // namespace swirl
