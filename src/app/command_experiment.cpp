@@ -23,6 +23,7 @@
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/version.hpp"
 #ifdef SWIRL_CAMERA
+#include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
 #endif
 
@@ -38,7 +39,7 @@ struct ExperimentCall {
     std::string out, json;
     std::optional<double> fps;
     std::optional<std::int64_t> frames;
-    bool no_simulation = false, quiet = false;
+    bool spin = false, no_simulation = false, quiet = false;
 };
 
 bool is_table(const std::string& film) { return film.ends_with(".csv"); }
@@ -59,6 +60,7 @@ nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string
             {"modified", file ? fs::last_write_time(film, ignored).time_since_epoch().count() : 0},
             {"fps", call.fps ? nlohmann::ordered_json(*call.fps) : nullptr},
             {"frames", call.frames ? nlohmann::ordered_json(*call.frames) : nullptr},
+            {"spin", call.spin},
             {"version", version()}};
 }
 
@@ -95,8 +97,10 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& film, FilmedDi
     settings.stop = &stop_signal();
     settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
     const TrackedFilm found = track_film(settings);
+    std::optional<FilmSpins> spins;
+    if (call.spin) spins = spins_of(found, settings);
     line.clear();
-    write_tracks(found, {film, {}, {}}, table);
+    write_tracks(found, {film, {}, {}}, table, spins ? &*spins : nullptr);
     draw_film(found, film, picture);
     write_output(about, identity);
     return table;
@@ -246,6 +250,10 @@ void add_experiment_command(Subcommand& subcommand) {
     add("--fps", call->fps, "NUMBER", "pictures per second, of all films [as each film says]",
         films);
     add("--frames", call->frames, "NUMBER", "only the first so many pictures of each", films);
+    subcommand
+        .add_flag("--spin", call->spin,
+                  "measure how fast discs turn, from their texture (Figure 4b)")
+        ->group(films);
     call->parameters = add_run_options(subcommand, {"discs", "mixture", "radius"},
                                        {{"events", "5e5"},
                                         {"container_radius", "the films'"},

@@ -53,9 +53,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "{}: {} discs in {} pictures of {}x{}.\n"
         "  discs       {}, {} on {} floor\n"
         "  dish        radius {:.2f} pixels, {:.3f} disc radii\n"
-        "  swirl       centre {:.2f},{:.2f} ± {:.2f}; amplitude {:.2f} ± {:.2f} pixels, {:.3f} "
-        "disc "
-        "radii; {}\n"
+        "  swirl       centre {}, {}; amplitude {} pixels, {:.3f} disc radii; {}\n"
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
@@ -63,8 +61,9 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  error       {:.3f} pixels of a place, from the edges{}\n",
         call.source.film, film.number, film.pictures, film.width, film.height, sizes,
         film.bright ? "bright" : "dark", film.bright ? "a dark" : "a bright", film.container_radius,
-        film.container_radius / film.radius, film.path.centre.x, film.path.centre.y,
-        film.path.centre_error, film.path.amplitude, film.path.amplitude_error,
+        film.container_radius / film.radius, with_error(film.path.centre.x, film.path.centre_error),
+        with_error(film.path.centre.y, film.path.centre_error),
+        with_error(film.path.amplitude, film.path.amplitude_error),
         film.path.amplitude / film.radius,
         film.path.clockwise ? "clockwise in the picture" : "counter-clockwise",
         with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,

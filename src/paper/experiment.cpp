@@ -463,7 +463,8 @@ std::vector<std::string> Experiment::findings() const {
     });
     if (!spins)
         findings.push_back(
-            "No film tells the spins of its discs, so Figure 4b has the simulation alone.");
+            "No film tells the spins of its discs, so Figure 4b has the simulation alone; --spin "
+            "measures them where discs have a texture.");
     if (std::none_of(films_.begin(), films_.end(), [](const FilmedDish& f) { return f.smooth; }))
         findings.push_back(
             "All films are of one kind of disc, so there is no Figure 4c; --smooth takes films of "

@@ -113,24 +113,6 @@ struct Spot {
     double radius;
 };
 
-/// Where the values become dense.
-double onset(const std::vector<double>& values, double width) {
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const auto number = [&](double from) {
-        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
-               std::lower_bound(sorted.begin(), sorted.end(), from);
-    };
-    std::ptrdiff_t most = 0;
-    double at = 0.0;
-    for (const double v : sorted)
-        if (number(v) > most) most = number(v), at = v;
-    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
-    double half = at;
-    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
-    return 0.5 * (half + at) + width;
-}
-
 /// Circles in contact lie so far apart, in sums of their radii: where the distances become dense.
 /// 0 where there are too few of them to tell.
 double contact_distance(const std::vector<Spot>& spots, const std::vector<CircleFit>& fits) {

@@ -107,6 +107,23 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
 
 double median(std::vector<double> values) { return median_of(values); }
 
+double onset(const std::vector<double>& values, double width) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto number = [&](double from) {
+        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
+               std::lower_bound(sorted.begin(), sorted.end(), from);
+    };
+    std::ptrdiff_t most = 0;
+    double at = 0.0;
+    for (const double v : sorted)
+        if (number(v) > most) most = number(v), at = v;
+    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
+    double half = at;
+    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
+    return 0.5 * (half + at) + width;
+}
+
 double gradient_noise(const cv::Mat& picture) {
     std::vector<double> slopes;
     for (int row = 1; row + 1 < picture.rows; row += 7) {

@@ -26,6 +26,8 @@ namespace swirl {
 inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
 /// The middle one, of two in the middle the larger; 0 of none.
 double median(std::vector<double> values);
+/// Where the values become dense, looked at with windows of twice this width.
+double onset(const std::vector<double>& values, double width);
 
 /// 1: bright inside, dark outside; −1: the reverse.
 using Polarity = int;

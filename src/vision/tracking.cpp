@@ -37,24 +37,6 @@ double quantile(std::vector<double> values, double share) {
     return *at;
 }
 
-/// Where the values become dense.
-double commonest(const std::vector<double>& values, double width) {
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const auto number = [&](double from) {
-        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
-               std::lower_bound(sorted.begin(), sorted.end(), from);
-    };
-    std::ptrdiff_t most = 0;
-    double at = 0.0;
-    for (const double v : sorted)
-        if (number(v) > most) most = number(v), at = v;
-    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
-    double half = at;
-    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
-    return 0.5 * (half + at) + width;
-}
-
 /// What one picture says.
 struct Seen {
     CircleFit rim;
@@ -437,7 +419,7 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
     film.reach = quantile(reaches, 0.8);
     film.touching =
-        gaps.size() > 100 ? 1.0 + commonest(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
+        gaps.size() > 100 ? 1.0 + onset(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
     // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
     // of a distance, √2 that of a place.
     std::vector<double> overlaps;
