@@ -163,13 +163,16 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
     if (recording.size() == 0) throw WrongCall("The recording holds no frames.");
     const SnapshotSeries& series = recording.series();
     const auto told = told_by_frames(series, names, all);
+    const Snapshot last = series.frame(series.frames - 1);
+    if (last.time() < skip * last.period)
+        throw WrongCall(fmt::format("skip {} leaves no frame.", skip));
     std::atomic<bool> stop = false;
-    const MeasuredSeries found = listening(stop, [&] {
-        return measure_series(series, told, skip, [&](std::uint64_t) { return !stop; });
-    });
-    if (found.used == 0) throw WrongCall(fmt::format("skip {} leaves no frame.", skip));
+    MeasuringControl control;
+    control.stop = &stop;
+    const MeasuredSeries found =
+        listening(stop, [&] { return measure_series(series, told, skip, control); });
     return py::make_tuple(reports_in_python(found.reports), estimate_tuple(found.rotation.by_time),
-                          estimate_tuple(found.rotation.rigid_by_time), found.used);
+                          estimate_tuple(found.rotation.rigid_by_time), found.frames);
 }
 
 }  // namespace

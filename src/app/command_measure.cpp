@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "swirl/app/commands.hpp"
+#include "swirl/app/opened_tracks.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
@@ -14,9 +15,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
-#include "swirl/run/measurements.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/run/track_fit.hpp"
 #include "swirl/run/version.hpp"
 
 namespace swirl {
@@ -30,120 +29,90 @@ struct MeasureCall {
     bool quiet = false;
 };
 
-/// The frames, and what is to be said of them.
-struct Opened {
-    SnapshotSeries series;
-    std::string remarks;  // a line each
-    Json camera;          // of tracks only
-};
-
-Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
-    return {{"filled_positions", tracks.mended.filled},
-            {"renamed", tracks.mended.renamed},
-            {"dropped_positions", tracks.mended.dropped},
-            {"breaks", fitted.series.breaks.size()},
-            {"frames_outside", fitted.fit.outside},
-            {"frames_overlapping", fitted.fit.overlapping},
-            {"wall_gap", fitted.fit.wall_gap},
-            {"fitting_phase", fitted.fit.fitting_phase}};
-}
-
-Opened open_tracks(const MeasureCall& call) {
-    const TrackScale scale = track_scale(call.camera, call.file);
-    const double misfit = number_option("misfit", call.misfit, default_misfit, 0.0);
-    const Tracks tracks = read_tracks(call.file, scale);
-    if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
-        throw Failure(fmt::format(
-            "'{}' holds a single frame, which tells no velocities; two are the least.", call.file));
-    FittedSeries fitted = fitted_series(tracks, scale, misfit);
-    const Json camera = camera_json(tracks, fitted);
-    return {std::move(fitted.series), std::move(fitted.remarks), camera};
-}
-
-Opened open_series(const MeasureCall& call) {
+OpenedSeries open_series(const MeasureCall& call) {
     if (is_trajectory(call.file))
         return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
-    return open_tracks(call);
+    return open_tracks(call.file, call.camera,
+                       number_option("misfit", call.misfit, default_misfit, 0.0));
 }
 
 /// Frames do not tell one collision from the next.
-void drop_what_needs_events(std::vector<std::string>& names, const std::string& list) {
+void refuse_what_needs_events(const std::vector<std::string>& names, const std::string& list) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_events && list != "all")
             throw WrongCall(fmt::format(
                 "--measure has '{}' in its list, which needs every collision, and frames do not "
                 "hold them; `swirl run --measure {}` can tell.",
                 name, name));
-    std::erase_if(names,
-                  [](const std::string& name) { return find_measurement(name)->needs_events; });
 }
 
-void drop_what_needs_tracks(std::vector<std::string>& names, const MeasureCall& call) {
+void refuse_what_needs_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
                 "The discs of '{}' are never the same for {} frames in a row, so '{}' cannot be "
                 "told of them; density, flow, profile, radial, temperature, order and packing can.",
                 call.file, PinnedLoose::width + 1, name));
-    std::erase_if(names,
-                  [](const std::string& name) { return find_measurement(name)->needs_tracks; });
 }
 
 void measure_file(const MeasureCall& call) {
     if (call.list == "help") return print_all(measurement_help_text());
     std::vector<std::string> names;
     if (!call.list.empty()) names = read_measurement_list(call.list);
-    drop_what_needs_events(names, call.list);
+    refuse_what_needs_events(names, call.list);
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
-    const Opened opened = open_series(call);
+    const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
-    if (!holds_tracks(series)) drop_what_needs_tracks(names, call);
-    ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
-    const MeasuredSeries found = measure_series(series, names, skip, [&](std::uint64_t k) {
-        if (stop_signal().load()) throw Interrupted("Stopped before the last frame.");
-        line.show(double(k) / double(series.frames), fmt::format("frame {}", k));
-        return true;
-    });
-    line.clear();
-    if (found.used == 0)
+    const bool tracked = holds_tracks(series);
+    if (!tracked) refuse_what_needs_tracks(names, call);
+    names = measurable(names, tracked);
+    if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
 
-    const RotationEstimates& rotation = found.rotation;
-    const Snapshot last = series.frame(series.frames - 1);
-    const double swirls = last.time() / last.period - skip;
+    ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
+    MeasuringControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](std::uint64_t k, std::uint64_t of) {
+        line.show(double(k) / double(of), fmt::format("frame {}", k));
+    };
+    const MeasuredSeries measured_series = measure_series(series, names, skip, control);
+    line.clear();
+    const MeasurementReports& measured = measured_series.reports;
+    const RotationEstimates& found = measured_series.rotation;
+    const std::uint64_t used = measured_series.frames;
+    const std::size_t discs = measured_series.discs;
     Json json{{"file", call.file},
-              {"frames", found.used},
-              {"discs", found.discs},
+              {"frames", used},
+              {"discs", discs},
               {"same_discs", series.same_discs()},
               {"rotation",
-               {{"by_time", estimate_json(rotation.by_time)},
-                {"rigid_by_time", estimate_json(rotation.rigid_by_time)}}},
-              {"measured", measured_json(found.reports)},
+               {{"by_time", estimate_json(found.by_time)},
+                {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
+              {"measured", measured_json(measured)},
               {"camera", opened.camera},
               {"remark", opened.remarks},
               {"version", version()}};
     std::string text = fmt::format(
-        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", found.discs,
-        sense_of_rotation(rotation.by_time),
-        with_error(rotation.by_time.mean, rotation.by_time.error),
-        with_error(rotation.rigid_by_time.mean, rotation.rigid_by_time.error), found.used);
-    text += measured_text(found.reports);
+        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
+        sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
+        with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
+    text += measured_text(measured);
     text += opened.remarks;
-    const double per_swirl = swirls > 0.0 ? double(found.used) / swirls : 0.0;
+    const double per_swirl = measured_series.frames_per_swirl();
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
     });
-    if (pinned && (per_swirl < 0.8 * samples_per_period || per_swirl > 1.25 * samples_per_period))
+    if (pinned && !fits_criteria(per_swirl))
         text += fmt::format(
             "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",
             per_swirl, samples_per_period);
     if (!call.tables.empty()) {
         make_folder(call.tables);
-        write_measured_tables(found.reports, call.tables);
+        write_measured_tables(measured, call.tables);
     }
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");

@@ -10,16 +10,15 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
-#include "swirl/files/table.hpp"
+#include "swirl/app/tracked_film.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/run/version.hpp"
 #ifdef SWIRL_CAMERA
-#include "swirl/app/track_options.hpp"
 #include "swirl/draw/label.hpp"
 #include "swirl/draw/movie.hpp"
 #include "swirl/film/movie.hpp"
+#include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
 #endif
 
@@ -27,90 +26,18 @@ namespace swirl {
 namespace {
 
 struct TrackCall {
-    std::string film, out, json, overlay;
+    FilmSource source;
+    std::string out, json, overlay;
     std::optional<double> fps;
-    std::optional<double> dish_diameter, disc_diameter;  // millimetres
     std::optional<std::int64_t> discs, frames;
-    bool quiet = false, overwrite = false;
+    bool spin = false, quiet = false, overwrite = false;
 };
 
 #ifndef SWIRL_CAMERA
 
-void track(const TrackCall&) {
-    throw Failure(
-        "This build of swirl has no eyes: it was made without OpenCV. Install libopencv-core-dev "
-        "and libopencv-imgproc-dev, and build again; ./swirl track does both.");
-}
+void track(const TrackCall&) { throw_no_eyes(); }
 
 #else
-
-using Json = nlohmann::ordered_json;
-
-Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
-
-double degrees(double radians) { return radians * 180.0 / pi; }
-
-/// The angle as one reads it off: from 0 to 360.
-double phase_of(const TrackedFilm& film) {
-    const double phase = degrees(film.path.angle(film.times.front()));
-    return phase - 360.0 * std::floor(phase / 360.0);
-}
-
-Json json_of(const TrackedFilm& film, const TrackCall& call) {
-    Json kinds = Json::array();
-    for (const TrackedKind& kind : film.kinds)
-        kinds.push_back(
-            {{"number", kind.number}, {"radius", kind.radius}, {"radius_scatter", kind.scatter}});
-    const TrackScale scale = film.scale();
-    return {{"film", call.film},
-            {"pictures", film.pictures},
-            {"size", {film.width, film.height}},
-            {"fps", film.fps > 0.0 ? Json(film.fps) : Json(nullptr)},
-            {"discs", film.number},
-            {"kinds", kinds},
-            {"discs_are", film.bright ? "bright" : "dark"},
-            {"dish",
-             {{"radius", film.container_radius},
-              {"rim_radius", film.rim_radius},
-              {"reach_of_the_discs", film.reach},
-              {"rim_seen", film.rim_support},
-              {"rims_missed", film.rims_missed}}},
-            {"path",
-             {{"centre", vector_json(film.path.centre)},
-              {"centre_error", film.path.centre_error},
-              {"amplitude", film.path.amplitude},
-              {"amplitude_error", film.path.amplitude_error},
-              {"omega", film.path.omega},
-              {"omega_error", film.path.omega_error},
-              {"phase", phase_of(film)},
-              {"phase_error", degrees(film.path.phase_error)},
-              {"clockwise", film.path.clockwise},
-              {"residual", film.path.residual}}},
-            {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
-            {"quality",
-             {{"touching_discs_are_apart", film.touching},
-              {"pictures_with_all_discs", film.complete},
-              {"position_error", film.position_error},
-              {"position_error_from_overlaps", film.overlap_error},
-              {"filled_positions", film.filled},
-              {"discs_too_many", film.refused}}},
-            {"millimetres_per_pixel",
-             call.disc_diameter   ? Json(*call.disc_diameter / (2.0 * film.radius))
-             : call.dish_diameter ? Json(*call.dish_diameter / (2.0 * film.container_radius))
-                                  : Json(nullptr)},
-            {"warnings", film.warnings},
-            // What `swirl measure` and `swirl movie` take the tracks with.
-            {"camera",
-             {{"camera-fps", scale.frames_per_time},
-              {"scale", scale.pixels_per_radius},
-              {"omega", film.path.omega},
-              {"centre", vector_json(scale.swirl_centre)},
-              {"phase", phase_of(film)},
-              {"amplitude", scale.amplitude},
-              {"container-radius", scale.container_radius},
-              {"clockwise", scale.clockwise}}},
-            {"version", version()}};
-}
 
 std::string text_of(const TrackedFilm& film, const TrackCall& call) {
     const std::string unit = film.fps > 0.0 ? "s" : "picture";
@@ -126,34 +53,33 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "{}: {} discs in {} pictures of {}x{}.\n"
         "  discs       {}, {} on {} floor\n"
         "  dish        radius {:.2f} pixels, {:.3f} disc radii\n"
-        "  swirl       centre {:.2f},{:.2f} ± {:.2f}; amplitude {:.2f} ± {:.2f} pixels, {:.3f} "
-        "disc "
-        "radii; {}\n"
+        "  swirl       centre {}, {}; amplitude {} pixels, {:.3f} disc radii; {}\n"
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
         "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
         "  error       {:.3f} pixels of a place, from the edges{}\n",
-        call.film, film.number, film.pictures, film.width, film.height, sizes,
+        call.source.film, film.number, film.pictures, film.width, film.height, sizes,
         film.bright ? "bright" : "dark", film.bright ? "a dark" : "a bright", film.container_radius,
-        film.container_radius / film.radius, film.path.centre.x, film.path.centre.y,
-        film.path.centre_error, film.path.amplitude, film.path.amplitude_error,
+        film.container_radius / film.radius, with_error(film.path.centre.x, film.path.centre_error),
+        with_error(film.path.centre.y, film.path.centre_error),
+        with_error(film.path.amplitude, film.path.amplitude_error),
         film.path.amplitude / film.radius,
         film.path.clockwise ? "clockwise in the picture" : "counter-clockwise",
         with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,
         with_error(film.path.omega, film.path.omega_error), unit,
-        with_error(phase_of(film), degrees(film.path.phase_error)),
+        with_error(phase_of(film), film.path.phase_error * 180.0 / pi),
         with_error(film.lens.k, film.lens.k_error), film.lens.k != 0.0 ? ", corrected" : "",
         100.0 * film.complete, film.filled, film.position_error,
         film.overlap_error > 0.0
             ? fmt::format("; {:.3f} from overlaps that cannot be", film.overlap_error)
             : "");
-    if (call.disc_diameter)
+    if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
-                            *call.disc_diameter / (2.0 * film.radius));
-    if (call.dish_diameter)
+                            *call.source.disc_diameter / (2.0 * film.radius));
+    if (call.source.dish_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the dish\n",
-                            *call.dish_diameter / (2.0 * film.container_radius));
+                            *call.source.dish_diameter / (2.0 * film.container_radius));
     for (const std::string& warning : film.warnings) text += warning + "\n";
     return text;
 }
@@ -163,8 +89,8 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
     MovieConfig config;
     config.out = call.overlay;
     config.sources = {tracked(film.tracks, film.scale(),
-                              escaped(std::filesystem::path(call.film).filename().string()),
-                              call.film)};
+                              escaped(std::filesystem::path(call.source.film).filename().string()),
+                              call.source.film)};
     const FrameSource& source = config.sources.front();
     config.appearance.size = {960, 960};
     config.appearance.coloring = Coloring::id;
@@ -192,8 +118,8 @@ void track(const TrackCall& call) {
         throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *call.fps));
     if (call.discs && !(*call.discs > 0))
         throw WrongCall(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
-    for (const auto& [name, given] : {std::pair("dish-diameter", call.dish_diameter),
-                                      std::pair("disc-diameter", call.disc_diameter)})
+    for (const auto& [name, given] : {std::pair("dish-diameter", call.source.dish_diameter),
+                                      std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
             throw WrongCall(fmt::format("--{} is {}, but it must be above 0.", name, *given));
     if (call.frames && !(*call.frames > 0))
@@ -210,18 +136,25 @@ void track(const TrackCall& call) {
     if (!call.overwrite && std::filesystem::exists(call.out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
 
-    ProgressLine line(call.film, call.quiet);
+    ProgressLine line(call.source.film, call.quiet);
     TrackingSettings settings;
-    settings.film = call.film;
+    settings.film = call.source.film;
     settings.fps = call.fps;
     settings.discs = call.discs;
     settings.most_pictures = call.frames.value_or(0);
     settings.stop = &stop_signal();
     settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
     TrackedFilm film = track_film(settings);
+    std::optional<FilmSpins> spins;
+    if (call.spin) spins = spins_of(film, settings);
     line.clear();
-    if (call.dish_diameter && call.disc_diameter) {
-        const double given = *call.dish_diameter / *call.disc_diameter;
+    if (spins && spins->measured < 0.9)
+        film.warnings.push_back(fmt::format(
+            "The texture of the discs tells their turning in {:.0f} % of the steps of {} picture{} "
+            "only: more of a pattern on them, sharper pictures or more of them would help.",
+            100.0 * spins->measured, spins->step, spins->step == 1 ? "" : "s"));
+    if (call.source.dish_diameter && call.source.disc_diameter) {
+        const double given = *call.source.dish_diameter / *call.source.disc_diameter;
         const double seen = film.container_radius / film.radius;
         if (std::abs(given / seen - 1.0) > 0.03)
             film.warnings.push_back(fmt::format(
@@ -230,18 +163,8 @@ void track(const TrackCall& call) {
                 given, seen));
     }
 
-    Table table({"frame", "particle", "x", "y", "x_seen", "y_seen", "radius", "error", "seen"});
-    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
-        const TrackFrame& f = film.tracks.frames[k];
-        for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const Vec2 seen = film.lens.seen(f.position[i]);
-            table.add({f.number, f.id[i], f.position[i].x, f.position[i].y, seen.x, seen.y,
-                       f.radius[i], film.errors[k][i], std::int64_t(film.seen[k][i])});
-        }
-    }
-    const Json json = json_of(film, call);
-    table.write(call.out);
-    write_output(camera_file(call.out), json.dump(2) + "\n");
+    const nlohmann::ordered_json json =
+        write_tracks(film, call.source, call.out, spins ? &*spins : nullptr);
     if (!call.overlay.empty()) make_overlay(film, call);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
@@ -255,7 +178,7 @@ void add_track_command(Subcommand& subcommand) {
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
         return subcommand.add_option(name, into, description)->type_name(type);
     };
-    add("film", call->film, "VIDEO",
+    add("film", call->source.film, "VIDEO",
         "a film that ffmpeg reads, numbered pictures ('frames/%05d.png'), or a camera "
         "(/dev/video0)")
         ->required();
@@ -263,12 +186,15 @@ void add_track_command(Subcommand& subcommand) {
         "the tracks, as trackpy writes them; what was found of the dish goes beside them "
         "(.camera.json), where swirl measure finds it");
     add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
-    add("--dish-diameter", call->dish_diameter, "MM", "of the dish inside, in millimetres");
-    add("--disc-diameter", call->disc_diameter, "MM", "of a disc, in millimetres");
+    add("--dish-diameter", call->source.dish_diameter, "MM", "of the dish inside, in millimetres");
+    add("--disc-diameter", call->source.disc_diameter, "MM", "of a disc, in millimetres");
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
     add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
     add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout");
+    subcommand.add_flag("--spin", call->spin,
+                        "how fast each disc turns, from its texture: columns spin (about the "
+                        "vertical), spin_x, spin_y, and the paper's PIV");
     subcommand.add_flag("--overwrite", call->overwrite, "replace tracks that are there");
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",

@@ -202,10 +202,17 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
 
     struct Place {
         Vec2 position;
-        double radius;
+        double radius, spin;
     };
     std::map<std::int64_t, std::map<std::int64_t, Place>> tracks;  // by particle and frame
-    const auto radius = index_of(names, "seen") ? index_of(names, "radius") : std::nullopt;
+    const auto of_ours = [&](std::string_view name) {
+        return index_of(names, "seen") ? index_of(names, name) : std::nullopt;
+    };
+    const auto radius = of_ours("radius"), spin = of_ours("spin");
+    // Counter-clockwise in the picture, where y is down.
+    const auto spin_in = [&](std::string_view cell) {
+        return cell.empty() ? unknown : -lines.number(cell);
+    };
     std::string_view line;
     while (lines.next(line)) {
         if (line.empty()) continue;
@@ -217,7 +224,8 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
             tracks[lines.whole(parts[*particle])]
                 .try_emplace(lines.whole(parts[*frame]),
                              Place{{lines.number(parts[*x]), lines.number(parts[*y])},
-                                   radius ? lines.number(parts[*radius]) : 0.0})
+                                   radius ? lines.number(parts[*radius]) : 0.0,
+                                   spin ? spin_in(parts[*spin]) : 0.0})
                 .second;
         if (!fresh)
             lines.wrong(fmt::format("particle {} appears twice in frame {}", parts[*particle],
@@ -235,6 +243,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
             f.id.push_back(id);
             f.position.push_back(place.position);
             if (radius) f.radius.push_back(place.radius);
+            if (spin) f.spin.push_back(place.spin);
         }
     for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
     return result;

@@ -2,7 +2,8 @@
 //
 //   trackpy CSV   a header line with at least frame, particle, x, y (any order, further columns
 //                 ignored); x to the right and y downwards, in pixels. With the columns seen and
-//                 radius, as `swirl track` writes them, the discs have these radii
+//                 radius, as `swirl track` writes them, the discs have these radii; with spin
+//                 these spins, counter-clockwise in the picture, per unit of time
 //   LAMMPS dump   text; id, x and y (or xu, yu), and where given vx, vy, radius, mass, omegaz
 //
 // Velocities that are not given are central differences over the frame before and the frame after
@@ -13,7 +14,8 @@
 // container = 1 (docs/physics.md), so the period is 2πA. Of a container that stands still, with
 // amplitude 0, time stays in the unit of `frames_per_time`. Masses are as given, 1 if they are not.
 // The container is where a swirl of the given amplitude, period and phase puts it; the swirl centre
-// is the origin. Orientation and spin of a tracked disc are not known (NaN).
+// is the origin. Orientation of a tracked disc is not known (NaN), and its spin
+// is not unless the table has it.
 #pragma once
 
 #include <cstdint>

@@ -31,35 +31,6 @@ std::vector<Point> points_of(const std::vector<Friction>& frictions,
     return points;
 }
 
-/// The numbers of these measurements, "slip.cluster" and so on, each with its error; the column is
-/// called by what follows a "=", or else the point.
-std::vector<std::string> number_columns(const std::vector<std::string>& names) {
-    std::vector<std::string> columns;
-    for (const std::string& name : names) {
-        const std::size_t renamed = name.find('=');
-        const std::string column =
-            name.substr((renamed == name.npos ? name.find('.') : renamed) + 1);
-        columns.push_back(column);
-        columns.push_back(column + "_error");
-    }
-    return columns;
-}
-void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& names,
-                 const Json& result) {
-    for (const std::string& name : names) {
-        const std::size_t dot = name.find('.');
-        const std::string measurement = name.substr(0, dot);
-        const std::string quantity = name.substr(dot + 1, name.find('=') - dot - 1);
-        const Json& value = at(result, {"measured", measurement, quantity});
-        if (value.is_number()) {  // no average
-            row.emplace_back(number(value));
-            row.emplace_back(0.0);
-            continue;
-        }
-        for (const char* what : {"mean", "error"}) row.emplace_back(number(at(value, {what})));
-    }
-}
-
 using Sentences =
     std::function<std::vector<std::string>(const std::vector<Point>&, const std::vector<Json>&)>;
 

@@ -200,6 +200,33 @@ RotationPoint rotation_point(double x, const Json& r, const char* average) {
             number(at(r, {"rotation", average, "error"}))};
 }
 
+std::vector<std::string> number_columns(const std::vector<std::string>& names) {
+    std::vector<std::string> columns;
+    for (const std::string& name : names) {
+        const std::size_t renamed = name.find('=');
+        const std::string column =
+            name.substr((renamed == name.npos ? name.find('.') : renamed) + 1);
+        columns.push_back(column);
+        columns.push_back(column + "_error");
+    }
+    return columns;
+}
+void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& names,
+                 const Json& result) {
+    for (const std::string& name : names) {
+        const std::size_t dot = name.find('.');
+        const std::string measurement = name.substr(0, dot);
+        const std::string quantity = name.substr(dot + 1, name.find('=') - dot - 1);
+        const Json& value = at(result, {"measured", measurement, quantity});
+        if (value.is_number()) {  // no average
+            row.emplace_back(number(value));
+            row.emplace_back(0.0);
+            continue;
+        }
+        for (const char* what : {"mean", "error"}) row.emplace_back(number(at(value, {what})));
+    }
+}
+
 std::string crossing_sentence(std::span<const RotationPoint> curve) {
     const Crossing crossing = find_crossing(curve);
     if (crossing.verdict == Crossing::Verdict::crosses)

@@ -85,6 +85,12 @@ std::string name_of_point(const nlohmann::ordered_json& result);
 /// "steady", "drifting", "too short to tell", or "failed".
 std::string steadiness(const nlohmann::ordered_json& result);
 
+/// The numbers of these measurements, "slip.cluster" and so on, each with its error; the column is
+/// called by what follows a "=", or else the point.
+std::vector<std::string> number_columns(const std::vector<std::string>& names);
+void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& names,
+                 const nlohmann::ordered_json& result);
+
 /// The point of a curve: "by_event" or "by_time". Not known for a run that failed, and then no
 /// crossing looks at it.
 RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);

@@ -1,7 +1,11 @@
 #include "swirl/run/measured_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <utility>
+
+#include "swirl/measure/observation.hpp"
+#include "swirl/run/failure.hpp"
 
 namespace swirl {
 
@@ -15,36 +19,56 @@ bool holds_tracks(const SnapshotSeries& series) {
     return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
 }
 
-MeasuredSeries measure_series(const SnapshotSeries& series, std::vector<std::string> names,
-                              double skip, const std::function<bool(std::uint64_t)>& next) {
+std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked) {
+    std::vector<std::string> left;
+    std::copy_if(names.begin(), names.end(), std::back_inserter(left), [&](const auto& name) {
+        const MeasurementKind& kind = *find_measurement(name);
+        return !kind.needs_events && (tracked || !kind.needs_tracks);
+    });
+    return left;
+}
+
+MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
+                              double skip, const MeasuringControl& control) {
+    if (series.frames == 0) throw Failure("There are no frames.");
     const Snapshot first = series.frame(0);
-    Observation observation(first.container_radius, first.period, std::move(names),
-                            holds_tracks(series));
+    Observation observation(first.container_radius, first.period, names, holds_tracks(series));
     ClusterRotation rotation;
-    MeasuredSeries found;
+    MeasuredSeries measured;
     std::int64_t swirl = first.swirls;
     auto next_break = series.breaks.begin();
-    for (std::uint64_t k = 0; k < series.frames && next(k); ++k) {
+    for (std::uint64_t k = 0; k < series.frames; ++k) {
+        if (control.stop && control.stop->load())
+            throw Interrupted("Stopped before the last frame.");
         const Snapshot s = series.frame(k);
         const bool others = next_break != series.breaks.end() && *next_break == k;
         if (others) ++next_break;
         if (s.time() < skip * s.period) continue;
-        if (found.used > 0 && s.swirls != swirl) {
+        if (measured.frames > 0 && s.swirls != swirl) {
             rotation.close_block();
             observation.close_block();
         }
         if (others) observation.begin_tracks();
         swirl = s.swirls;
+        measured.discs = std::max(measured.discs, s.size());
         rotation.sample_by_time(s);
         observation.sample(s);
-        found.discs = std::max(found.discs, s.size());
-        ++found.used;
+        ++measured.frames;
+        if (control.progress) control.progress(k + 1, series.frames);
     }
+    if (measured.frames == 0)
+        throw Failure(fmt::format("Without the first {:g} swirls no frame is left.", skip));
     rotation.close_block();
     observation.close_block();
-    found.reports = observation.report();
-    found.rotation = rotation.estimates();
-    return found;
+    measured.rotation = rotation.estimates();
+    measured.reports = observation.report();
+    measured.swirls = series.frame(series.frames - 1).time() / first.period - skip;
+    return measured;
+}
+
+bool fits_criteria(double frames_per_swirl) {
+    return frames_per_swirl >= 0.8 * samples_per_period &&
+           frames_per_swirl <= 1.25 * samples_per_period;
 }
 
 }  // namespace swirl

@@ -56,12 +56,15 @@ RaySettings rays_for(const Picture& picture, double radius) {
     return rays;
 }
 
+/// Of fewer pixels a limb shows too little for all that is fitted to larger ones.
+constexpr double small_discs = 18.0;
+
 /// Windows of a fifth of the radius to either side, four pixels at most outside, where neighbours
 /// are.
 Limb limb_for(double radius, double blur) {
     const int inside = std::clamp(static_cast<int>(0.22 * radius / Limb::step), 5, 14);
     const int outside = std::clamp(static_cast<int>(0.16 * radius / Limb::step), 5, 8);
-    return Limb(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0));
+    return Limb(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0), radius > small_discs);
 }
 
 /// One size or two? The gap that splits the radii best.
@@ -101,6 +104,75 @@ std::vector<BeadKind> kinds_of(std::vector<double> radii) {
 
 }  // namespace
 
+namespace {
+
+/// A circle somewhere in the pictures.
+struct Spot {
+    std::size_t picture;
+    Vec2 centre;
+    double radius;
+};
+
+/// Circles in contact lie so far apart, in sums of their radii: where the distances become dense.
+/// 0 where there are too few of them to tell.
+double contact_distance(const std::vector<Spot>& spots, const std::vector<CircleFit>& fits) {
+    std::vector<double> apart;
+    for (std::size_t a = 0; a < spots.size(); ++a)
+        for (std::size_t b = a + 1; b < spots.size() && spots[b].picture == spots[a].picture; ++b) {
+            if (!fits[a].good || !fits[b].good) continue;
+            const double ratio =
+                length(fits[a].centre - fits[b].centre) / (fits[a].radius + fits[b].radius);
+            if (ratio > 0.8 && ratio < 1.25) apart.push_back(ratio);
+        }
+    if (apart.size() < 60) return 0.0;
+    return onset(apart, 0.02);
+}
+
+/// The limbs' own places and sizes with that blur.
+std::vector<CircleFit> exact_fits(const std::vector<Picture>& pictures,
+                                  const std::vector<Spot>& spots, double radius, Polarity polarity,
+                                  double blur) {
+    const Limb limb = limb_for(radius / pictures.front().shrink, blur);
+    std::vector<CircleFit> fits;
+    for (const Spot& spot : spots) {
+        const Picture& p = pictures[spot.picture];
+        RaySettings rays = rays_for(p, spot.radius);
+        rays.free_radius = true;
+        rays.limb = &limb;
+        fits.push_back(fit_circle(p.sharp, spot.centre, spot.radius, polarity, rays));
+    }
+    return fits;
+}
+
+/// The film's blur: limbs fit well with it, and discs in contact are as far apart as their radii
+/// say. Neither is enough: the shading of a ball does to its edge what more blur would, so poor
+/// pictures are fitted best by too much of it and radii that are too small; distances of discs in
+/// contact have an onset that is known to some per cent only.
+double blur_of(const std::vector<Picture>& pictures, const std::vector<Spot>& spots, double radius,
+               Polarity polarity) {
+    constexpr std::array trials{0.6, 0.8, 1.0, 1.25, 1.6, 2.0};
+    constexpr double onset_of_contacts = 1.01, onset_known_to = 0.04;
+    std::array<double, trials.size()> worth{};
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+        const auto fits = exact_fits(pictures, spots, radius, polarity, trials[k]);
+        std::vector<double> rests;
+        for (const CircleFit& fit : fits)
+            if (fit.good) rests.push_back(fit.rest);
+        const double contact = contact_distance(spots, fits);
+        const double off = contact > 0.0 ? (contact - onset_of_contacts) / onset_known_to : 0.0;
+        worth[k] = rests.size() < 4 ? 1e300 : std::log(std::max(median(rests), 1e-6)) + off * off;
+    }
+    const auto best =
+        static_cast<std::size_t>(std::min_element(worth.begin(), worth.end()) - worth.begin());
+    if (best == 0 || best + 1 == trials.size() || worth[best] == 1e300) return trials[best];
+    // The steps are about equal in the logarithm.
+    const double bend = worth[best - 1] - 2.0 * worth[best] + worth[best + 1];
+    const double shift = 0.5 * (worth[best - 1] - worth[best + 1]) / bend;
+    return trials[best] * std::pow(1.26, std::clamp(shift, -0.5, 0.5));
+}
+
+}  // namespace
+
 BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims) {
     // Which radius explains most edges?
     const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 6);
@@ -134,11 +206,6 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
             "The dish was found, but no discs in it: there are no circles that stand out from its "
             "floor.");
     // One or two sizes about that one, by fits with free radius.
-    struct Spot {
-        std::size_t picture;
-        Vec2 centre;
-        double radius;
-    };
     std::vector<Spot> spots;
     std::vector<double> fitted;
     std::vector<std::vector<double>> by_picture;
@@ -171,24 +238,9 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
                 separate.push_back(f);
         for (const CircleFit& f : separate) spots.push_back({k, f.centre, f.radius});
     }
-    // The film's blur is the one with which limbs fit best; then their true places.
-    std::vector<CircleFit> exact(spots.size());
-    double least_rest = 1e300, blur = 1.0;
-    for (const double trial : {0.6, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5}) {
-        const Limb limb = limb_for(best.radius / pictures.front().shrink, trial);
-        std::vector<CircleFit> fits;
-        std::vector<double> rests;
-        for (const Spot& spot : spots) {
-            const Picture& p = pictures[spot.picture];
-            RaySettings rays = rays_for(p, spot.radius);
-            rays.free_radius = true;
-            rays.limb = &limb;
-            fits.push_back(fit_circle(p.sharp, spot.centre, spot.radius, best.polarity, rays));
-            if (fits.back().good) rests.push_back(fits.back().rest);
-        }
-        const double rest = rests.size() < 4 ? 1e300 : median(rests);
-        if (rest < least_rest) least_rest = rest, blur = trial, exact = fits;
-    }
+    const double blur = blur_of(pictures, spots, best.radius, best.polarity);
+    const std::vector<CircleFit> exact =
+        exact_fits(pictures, spots, best.radius, best.polarity, blur);
     by_picture.resize(pictures.size());
     for (std::size_t k = 0; k < spots.size(); ++k) {
         if (!exact[k].good) continue;
@@ -201,8 +253,11 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
             "Is the film out of focus, or the contrast between discs and floor too low?");
     BeadLook look;
     look.polarity = best.polarity;
+    std::vector<double> shares;
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (exact[k].good) shares.push_back(spots[k].radius / exact[k].radius);
+    look.steepest = std::clamp(median(shares), 0.85, 1.05);
     look.kinds = kinds_of(fitted);
-    for (const BeadKind& kind : look.kinds) look.limbs.push_back(limb_for(kind.radius, blur));
     // Soft or faint edges have less support; what is sure is judged by what is common here.
     std::vector<double> supports;
     for (const CircleFit& fit : exact)
@@ -215,6 +270,11 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     if (!clarity.empty())
         look.blur = std::clamp(0.6 * std::sqrt(60.0 / std::max(median(clarity), 1.0)), 0.6,
                                std::clamp(0.1 * look.radius(), 0.6, 2.0));
+    // The pictures that are searched may be smoothed more than these were.
+    for (std::size_t k = 0; k < look.kinds.size(); ++k)
+        look.limbs.push_back(limb_for(
+            look.kinds[k].radius, std::sqrt(std::max(0.2, blur * blur - survey_blur * survey_blur +
+                                                              look.blur * look.blur))));
     look.sure = std::clamp(0.8 * median(supports), 0.3, sure_support);
     // Equal balls show what the lens does; their size is that in the middle of the picture.
     std::vector<SeenSize> sizes;
@@ -261,11 +321,69 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     return look;
 }
 
+namespace {
+
+/// The exact place of a disc that is known to a pixel or two.
+void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, const BeadLook& look) {
+    const double radius = look.kinds[bead.kind].radius;
+    const double seen = look.lens.seen_radius(bead.centre, radius);
+    RaySettings rays = rays_for(picture, radius);
+    // With its true radius: on the side where a ball is dark its edge is not where the brightness
+    // changes most, and that circle is too small and too far on the bright side.
+    const CircleFit whole = fit_circle(picture.sharp, bead.centre, seen, look.polarity, rays);
+    if (whole.good && length(whole.centre - bead.centre) < 0.2 * radius) bead.centre = whole.centre;
+    rays.limb = &look.limbs[bead.kind];
+    rays.limb_alone = true;
+    for (const Bead& other : all) {
+        if (&other == &bead || !other.sure) continue;
+        const double size = look.lens.seen_radius(other.centre, look.kinds[other.kind].radius);
+        if (length(other.centre - bead.centre) < radius + size + 8.0)
+            rays.others.push_back({other.centre, size + 0.5});
+    }
+    const CircleFit fit = fit_circle(picture.sharp, bead.centre, seen, look.polarity, rays);
+    // The steepest places err towards the lamp, the limb's with the texture: independent errors, of
+    // which the mean is better than both; the limb's are smaller.
+    const double limb_counts = radius > small_discs ? 0.7 : 0.5;
+    if (!fit.good || length(fit.centre - bead.centre) > std::max(1.5, 0.06 * radius)) return;
+    bead.centre = (1.0 - limb_counts) * bead.centre + limb_counts * fit.centre;
+    bead.error = fit.error;
+}
+
+}  // namespace
+
+std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
+                                   std::size_t kind, const std::vector<Bead>& others) {
+    constexpr double farthest = 0.45, step = 0.15;  // radii
+    const double radius = look.kinds[kind].radius;
+    const RaySettings rays = rays_for(picture, look.steepest * radius);
+    Bead best;
+    best.kind = kind;
+    for (double x = -farthest; x <= farthest + 1e-9; x += step)
+        for (double y = -farthest; y <= farthest + 1e-9; y += step) {
+            const Vec2 seed = where + radius * Vec2{x, y};
+            const CircleFit fit =
+                fit_circle(picture.sharp, seed, look.steepest * look.lens.seen_radius(seed, radius),
+                           look.polarity, rays);
+            if (!fit.good || length(fit.centre - where) > farthest * radius) continue;
+            const bool taken = std::any_of(others.begin(), others.end(), [&](const Bead& other) {
+                return length(other.centre - fit.centre) <
+                       0.88 * (radius + look.kinds[other.kind].radius);
+            });
+            if (taken || fit.support <= best.support) continue;
+            best.centre = fit.centre;
+            best.support = fit.support;
+            best.error = fit.error;
+        }
+    if (best.support < any_support) return std::nullopt;
+    place(best, others, picture, look);
+    return best;
+}
+
 std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look) {
     const std::vector<EdgePixel> edges = edges_inside(picture, rim);
     std::vector<Bead> all;
     for (std::size_t kind = 0; kind < look.kinds.size(); ++kind) {
-        const double radius = look.kinds[kind].radius;
+        const double radius = look.steepest * look.kinds[kind].radius;
         const double area = rim.radius * rim.radius / (radius * radius);
         const auto candidates =
             vote(edges, picture.small.size(), radius * picture.shrink, look.polarity, 0.18,
@@ -297,20 +415,7 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
         kept.push_back(bead);
     }
     // Their exact places.
-    for (Bead& bead : kept) {
-        const double radius = look.kinds[bead.kind].radius;
-        RaySettings rays = rays_for(picture, radius);
-        rays.limb = &look.limbs[bead.kind];
-        rays.limb_alone = true;
-        const CircleFit fit =
-            fit_circle(picture.sharp, bead.centre, look.lens.seen_radius(bead.centre, radius),
-                       look.polarity, rays);
-        // The steepest places err towards the lamp, the limb's with the texture: independent errors
-        // of about the same size, of which the mean is better than both.
-        if (!fit.good || length(fit.centre - bead.centre) > std::max(1.0, 0.04 * radius)) continue;
-        bead.centre = 0.5 * (bead.centre + fit.centre);
-        bead.error = fit.error;
-    }
+    for (Bead& bead : kept) place(bead, kept, picture, look);
     return kept;
 }
 

@@ -11,6 +11,7 @@
 //            whoever knows where a disc should be
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "swirl/vision/circles.hpp"
@@ -32,6 +33,7 @@ struct BeadLook {
     double blur = 0.6;            // by which pictures are to be smoothed for their noise, pixels
     double sure = 0.45;           // support from which on a circle is a disc
     Lens lens;
+    double steepest = 1.0;  // where the brightness changes most, in radii: inside of a shaded limb
     std::vector<Limb> limbs;  // of each kind, with the blur of this film
 
     double radius() const { return kinds.front().radius; }
@@ -47,6 +49,14 @@ struct Bead {
 /// Throws Failure where there are none.
 BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims);
 
+/// By how much the pictures of the survey are to be smoothed.
+inline constexpr double survey_blur = 0.6;
+
 std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look);
+
+/// The disc that is known to be near there and was not found: the circle with most of an edge
+/// within half a radius of it that is in nobody's way, however little that is.
+std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
+                                   std::size_t kind, const std::vector<Bead>& others);
 
 }  // namespace swirl

@@ -30,7 +30,7 @@ inline float between_pixels(const cv::Mat& picture, float x, float y) {
 /// Steepest place on a ray.
 struct RayEdge {
     double ux, uy, distance, slope;
-    double rest = 0.0;
+    double rest = 0.0, weight = 1.0;
 };
 
 /// Solves the symmetric 3×3 (or, without the last row, 2×2) system; false if it is singular.
@@ -62,6 +62,17 @@ bool solve(const double (&m)[3][3], const double (&b)[3], int n, double (&x)[3],
     return true;
 }
 
+/// A ray counts by how sharply it tells its edge, as far as that is more than chance: a dark patch
+/// of the texture at the limb says little, and that wrongly.
+void weigh(std::vector<RayEdge>& edges, std::vector<double>& sharpness) {
+    constexpr double power = 0.6, most = 4.0;
+    sharpness.clear();
+    for (const RayEdge& e : edges) sharpness.push_back(e.weight);
+    const double middle = median_of(sharpness);
+    for (RayEdge& e : edges)
+        e.weight = middle > 0.0 ? std::pow(std::min(e.weight / middle, most), power) : 1.0;
+}
+
 /// By the limb's profile, around a circle that is known to about a pixel.
 void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
                 const RaySettings& settings, std::vector<RayEdge>& edges) {
@@ -76,19 +87,42 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
             return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
         };
         if (!within(first) || !within(last)) continue;
+        if (std::any_of(settings.others.begin(), settings.others.end(), [&](const NearCircle& o) {
+                const Vec2 d = last - o.centre;
+                return dot(d, d) < o.radius * o.radius;
+            }))
+            continue;
         for (int j = 0; j < samples; ++j)
             profile[static_cast<std::size_t>(j)] =
                 between_pixels(picture, static_cast<float>(first.x + Limb::step * j * u.x),
                                static_cast<float>(first.y + Limb::step * j * u.y));
         const Limb::Edge edge = limb.find(profile.data());
         if (!edge.found || polarity * edge.contrast <= 0.0) continue;
-        edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest});
+        edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest,
+                         std::max(0.0, edge.sharpness)});
     }
 }
 
 }  // namespace
 
 double median(std::vector<double> values) { return median_of(values); }
+
+double onset(const std::vector<double>& values, double width) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto number = [&](double from) {
+        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
+               std::lower_bound(sorted.begin(), sorted.end(), from);
+    };
+    std::ptrdiff_t most = 0;
+    double at = 0.0;
+    for (const double v : sorted)
+        if (number(v) > most) most = number(v), at = v;
+    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
+    double half = at;
+    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
+    return 0.5 * (half + at) + width;
+}
 
 double gradient_noise(const cv::Mat& picture) {
     std::vector<double> slopes;
@@ -270,6 +304,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             for (const RayEdge& e : edges) sizes.push_back(e.distance - fit.radius);
             if (settings.free_radius) d[2] = median_of(sizes);
         }
+        if (by_limb) weigh(edges, sizes);
         double scale = window;
         for (int pass = 0; pass < 8; ++pass) {
             double m[3][3] = {}, b[3] = {}, x[3];
@@ -279,7 +314,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
                 sizes.push_back(std::abs(rest));
                 const double q = rest / (3.0 * scale);
                 if (q * q >= 1.0) continue;
-                const double w = (1.0 - q * q) * (1.0 - q * q);
+                const double w = e.weight * (1.0 - q * q) * (1.0 - q * q);
                 const double y = e.distance - fit.radius;
                 const double j[3] = {e.ux, e.uy, 1.0};
                 for (int r = 0; r < 3; ++r) {

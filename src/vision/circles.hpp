@@ -26,6 +26,8 @@ namespace swirl {
 inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
 /// The middle one, of two in the middle the larger; 0 of none.
 double median(std::vector<double> values);
+/// Where the values become dense, looked at with windows of twice this width.
+double onset(const std::vector<double>& values, double width);
 
 /// 1: bright inside, dark outside; −1: the reverse.
 using Polarity = int;
@@ -50,6 +52,11 @@ struct CircleCandidate {
 std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size size, double radius,
                                   Polarity polarity, double least, std::size_t most);
 
+struct NearCircle {
+    Vec2 centre;
+    double radius;
+};
+
 struct RaySettings {
     int rays = 64;
     double window = 4.0;  // pixels to either side of the radius
@@ -59,6 +66,8 @@ struct RaySettings {
     /// The last rounds look for the limb (limb.hpp) instead of the steepest place.
     const Limb* limb = nullptr;
     bool limb_alone = false;  // the circle is known to a pixel: no rounds before
+    /// Others next to it: rays whose outer end lies in one of them say nothing of the edge.
+    std::vector<NearCircle> others = {};
 };
 
 struct CircleFit {

@@ -5,7 +5,7 @@
 
 namespace swirl {
 
-Limb::Limb(double blur, int inside, int outside, double reach)
+Limb::Limb(double blur, int inside, int outside, double reach, bool bent)
     : blur_(blur), inside_(inside), outside_(outside), first_(-reach), spacing_(0.25) {
     const int samples = inside + outside + 1;
     // The kernel on a grid fine enough for the root's cusp.
@@ -28,13 +28,15 @@ Limb::Limb(double blur, int inside, int outside, double reach)
         std::array<std::vector<double>, columns> q;
         for (int j = 0; j < samples; ++j) {
             const double x = step * (j - inside);
-            std::array<double, columns> value{1.0, 0.0, 0.0};
+            std::array<double, columns> value{};
+            value[0] = 1.0;
             for (int k = -half; k <= half; ++k) {
                 const double depth = e - (x + k * fine);
                 if (depth <= 0.0) break;  // from here on outwards
                 const double w = kernel[static_cast<std::size_t>(k + half)] / sum;
                 value[1] += w;
                 value[2] += w * std::sqrt(depth);
+                if (bent) value[3] += w * depth;
             }
             for (std::size_t c = 0; c < columns; ++c) q[c].push_back(value[c]);
         }
@@ -62,7 +64,8 @@ Limb::Limb(double blur, int inside, int outside, double reach)
         // Contrast: h + s √d averaged over the first three pixels inside.
         constexpr double depth = 3.0;
         for (std::size_t c = 0; c < columns; ++c)
-            contrast_[c][candidate] = made[c][1] + 2.0 / 3.0 * std::sqrt(depth) * made[c][2];
+            contrast_[c][candidate] =
+                made[c][1] + 2.0 / 3.0 * std::sqrt(depth) * made[c][2] + 0.5 * depth * made[c][3];
     }
 }
 
@@ -98,6 +101,7 @@ Limb::Edge Limb::find(const float* profile) const {
     edge.rest = std::max(0.0, square - here) / double(samples);
     for (std::size_t c = 0; c < columns; ++c)
         edge.contrast += double(products[c][best]) * contrast_[c][best];
+    edge.sharpness = -bend / (spacing_ * spacing_);
     edge.found = true;
     return edge;
 }

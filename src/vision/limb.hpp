@@ -8,7 +8,7 @@
 //     I(x) = b + (x < e) (h + s √(e − x) + t (e − x)),   convolved with a Gaussian of width σ
 //
 // (x outwards, e the edge), which is linear in b, h, s, t: for each e on a fine grid its best fit
-// is a projection onto three columns, made orthonormal once for all rays. The edge is the e that
+// is a projection onto four columns, made orthonormal once for all rays. The edge is the e that
 // leaves least; a parabola gives the fraction of a step. A flat disc is the case s = 0.
 #pragma once
 
@@ -21,9 +21,9 @@ class Limb {
   public:
     static constexpr double step = 0.5;  // between samples, in pixels
 
-    /// For profiles of `samples` values around a guess, and edges up to `reach` pixels from it;
-    /// `bent`: with t.
-    Limb(double blur, int inside, int outside, double reach);
+    /// For profiles of `samples` values around a guess, and edges up to `reach` pixels from it.
+    /// `bent`: with t, which takes a window that is long against the blur.
+    Limb(double blur, int inside, int outside, double reach, bool bent = true);
 
     /// How many samples to either side of the guess; the guess itself is one more.
     int inside() const { return inside_; }
@@ -31,15 +31,16 @@ class Limb {
     double blur() const { return blur_; }
 
     struct Edge {
-        double at = 0.0;        // pixels outwards from the guess
-        double contrast = 0.0;  // grey levels by which it is brighter inside
-        double rest = 0.0;      // mean square of what the fit leaves
-        bool found = false;     // not at the end of the reach
+        double at = 0.0;         // pixels outwards from the guess
+        double contrast = 0.0;   // grey levels by which it is brighter inside
+        double rest = 0.0;       // mean square of what the fit leaves
+        double sharpness = 0.0;  // how fast the rest grows away from the edge, per square pixel
+        bool found = false;      // not at the end of the reach
     };
     Edge find(const float* profile) const;
 
   private:
-    static constexpr std::size_t columns = 3;
+    static constexpr std::size_t columns = 4;
 
     double blur_;
     int inside_, outside_;

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <mutex>
 #include <opencv2/core.hpp>
-#include <thread>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/vision/beads.hpp"
 #include "swirl/vision/dish.hpp"
@@ -35,24 +33,6 @@ double quantile(std::vector<double> values, double share) {
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
-}
-
-/// Where the values become dense.
-double commonest(const std::vector<double>& values, double width) {
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const auto number = [&](double from) {
-        return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
-               std::lower_bound(sorted.begin(), sorted.end(), from);
-    };
-    std::ptrdiff_t most = 0;
-    double at = 0.0;
-    for (const double v : sorted)
-        if (number(v) > most) most = number(v), at = v;
-    // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
-    double half = at;
-    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
-    return 0.5 * (half + at) + width;
 }
 
 /// What one picture says.
@@ -97,7 +77,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
         const CircleFit rim = find_rim(small[k], found.rim);
         if (!rim.good) continue;
         rims.push_back(rim);
-        fewer.emplace_back(kept[k], sharp_side, 0.6);
+        fewer.emplace_back(kept[k], sharp_side, survey_blur);
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
     found.look = survey_beads(fewer, rims);
@@ -107,8 +87,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
 /// Every picture, a batch at a time, shared between the threads.
 std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& found,
                               std::int64_t expected, TrackedFilm& film) {
-    const unsigned threads =
-        settings.threads ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+    const unsigned threads = settings.threads ? settings.threads : available_cores();
     Video video(settings.film);
     const double radius = found.look.radius();
     const double shrink = std::min(1.0, votes_radius / radius);
@@ -130,29 +109,15 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
         }
         const std::size_t begin = all.size();
         all.resize(begin + got);
-        std::atomic<std::size_t> next{0};
-        std::exception_ptr trouble;
-        std::mutex mutex;
-        const auto work = [&] {
-            for (;;) {
-                const std::size_t k = next++;
-                if (k >= got) return;
-                try {
-                    const Picture picture(batch[k], shrink, blur);
-                    Seen& seen = all[begin + k];
-                    seen.rim = find_rim(picture, found.rim);
-                    if (seen.rim.good) seen.beads = find_beads(picture, seen.rim, found.look);
-                } catch (...) {
-                    const std::lock_guard lock(mutex);
-                    trouble = std::current_exception();
-                }
-            }
-        };
-        std::vector<std::thread> workers;
-        for (unsigned t = 1; t < threads; ++t) workers.emplace_back(work);
-        work();
-        for (std::thread& worker : workers) worker.join();
-        if (trouble) std::rethrow_exception(trouble);
+        on_all_cores(
+            got,
+            [&](std::size_t k) {
+                const Picture picture(batch[k], shrink, blur);
+                Seen& seen = all[begin + k];
+                seen.rim = find_rim(picture, found.rim);
+                if (seen.rim.good) seen.beads = find_beads(picture, seen.rim, found.look);
+            },
+            threads);
         if (settings.progress)
             settings.progress("finding discs",
                               double(all.size()) / double(std::max<std::int64_t>(
@@ -182,8 +147,156 @@ void drop_overlaps(const std::vector<Seen>& all, const std::vector<double>& radi
     }
 }
 
+/// Out for a single picture and back again: a disc that is hit from both sides in between, at up to
+/// about twice the dish's speed, does so, and the less of it is seen the less it is believed.
+void drop_leaps(const std::vector<Seen>& all, const TrackedFilm& film, Links& links) {
+    struct Place {
+        std::size_t picture, bead;
+        Vec2 at_dish;
+    };
+    std::vector<std::vector<Place>> places(links.kind.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0)
+                places[static_cast<std::size_t>(t)].push_back(
+                    {k, d, all[k].beads[d].centre - film.path.at(film.times[k])});
+    const double way = film.path.amplitude * film.path.omega * (film.times[1] - film.times[0]);
+    for (std::size_t t = 0; t < places.size(); ++t)
+        for (std::size_t j = 1; j + 1 < places[t].size(); ++j) {
+            const Place &before = places[t][j - 1], &now = places[t][j], &after = places[t][j + 1];
+            if (after.picture - before.picture != 2) continue;
+            const bool sure = all[now.picture].beads[now.bead].sure;
+            const double most =
+                std::max(0.2 * film.kinds[links.kind[t]].radius, (sure ? 2.4 : 1.2) * way);
+            if (length(now.at_dish - 0.5 * (before.at_dish + after.at_dish)) > most)
+                links.track[now.picture][now.bead] = -1;
+        }
+}
+
+/// Discs that were lost for a while, where they should have been.
+struct Wanted {
+    std::size_t track, kind;
+    Vec2 where;  // of an ideal lens
+};
+
+/// Of every picture those who are missing there between two that were seen: straight on relative
+/// to the dish.
+std::vector<std::vector<Wanted>> lost_discs(const std::vector<Seen>& all, const Links& links,
+                                            const TrackedFilm& film) {
+    std::vector<std::vector<Wanted>> wanted(all.size());
+    struct Last {
+        std::size_t picture;
+        Vec2 at_dish;
+    };
+    std::vector<std::optional<Last>> last(links.kind.size());
+    const double step = film.times[1] - film.times[0];
+    const auto longest = static_cast<std::size_t>(0.5 * pi / (film.path.omega * step) + 2.0);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d) {
+            if (links.track[k][d] < 0) continue;
+            const auto t = static_cast<std::size_t>(links.track[k][d]);
+            const Vec2 now = all[k].beads[d].centre - film.path.at(film.times[k]);
+            if (last[t] && k - last[t]->picture > 1 && k - last[t]->picture <= longest)
+                for (std::size_t j = last[t]->picture + 1; j < k; ++j) {
+                    const double u = double(j - last[t]->picture) / double(k - last[t]->picture);
+                    wanted[j].push_back(
+                        {t, links.kind[t],
+                         film.path.at(film.times[j]) + (1.0 - u) * last[t]->at_dish + u * now});
+                }
+            last[t] = Last{k, now};
+        }
+    return wanted;
+}
+
+/// A second look at the pictures in which somebody is missing.
+void search_again(const TrackingSettings& settings, const Survey& found, const TrackedFilm& film,
+                  std::vector<Seen>& all, Links& links) {
+    const std::vector<std::vector<Wanted>> wanted = lost_discs(all, links, film);
+    const bool all_there =
+        std::all_of(links.track.begin(), links.track.end(), [&](const auto& here) {
+            return std::size_t(std::count_if(here.begin(), here.end(),
+                                             [](int t) { return t >= 0; })) == links.kind.size();
+        });
+    if (all_there) return;
+    // Who is lost until the end is looked for where it was last, at rest relative to the dish.
+    std::vector<std::optional<Vec2>> last(links.kind.size());
+    std::vector<std::size_t> last_picture(links.kind.size(), all.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (const int t : links.track[k])
+            if (t >= 0) last_picture[static_cast<std::size_t>(t)] = k;
+    Video video(settings.film);
+    const double shrink = std::min(1.0, votes_radius / found.look.radius());
+    cv::Mat grey;
+    for (std::size_t k = 0; k < all.size() && video.next(grey); ++k) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        if (settings.progress && k % 16 == 0)
+            settings.progress("looking for lost discs", double(k) / double(all.size()));
+        std::vector<Wanted> here = wanted[k];
+        for (std::size_t t = 0; t < last.size(); ++t)
+            if (k > last_picture[t] && last[t])
+                here.push_back({t, links.kind[t], film.path.at(film.times[k]) + *last[t]});
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0)
+                last[static_cast<std::size_t>(t)] =
+                    all[k].beads[d].centre - film.path.at(film.times[k]);
+        if (here.empty()) continue;
+        const Picture picture(grey, shrink, found.look.blur);
+        std::vector<Bead> others;
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (links.track[k][d] >= 0) {
+                others.push_back(all[k].beads[d]);
+                others.back().centre = film.lens.seen(others.back().centre);
+                others.back().sure = true;
+            }
+        for (const Wanted& w : here) {
+            auto bead =
+                find_bead_near(picture, found.look, film.lens.seen(w.where), w.kind, others);
+            if (!bead) continue;
+            bead->sure = true;
+            others.push_back(*bead);
+            bead->centre = film.lens.ideal({bead->centre, found.look.kinds[w.kind].radius}).centre;
+            last[w.track] = bead->centre - film.path.at(film.times[k]);
+            all[k].beads.push_back(*bead);
+            links.track[k].push_back(static_cast<int>(w.track));
+        }
+    }
+}
+
+/// Hard discs do not lie in each other: who seems to is moved apart, each by its share of the
+/// variance, which is the larger the less of its edge is seen. What errors of radii explain is
+/// left.
+void part_overlaps(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all) {
+    constexpr double nearest = 0.985;  // of the sum of radii
+    constexpr int rounds = 12;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        std::vector<Bead*> here;
+        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
+            if (links.track[k][d] >= 0) here.push_back(&all[k].beads[d]);
+        // By trial: the error that its fit tells itself says too little of a disc that is hardly
+        // seen.
+        const auto variance = [](const Bead& b) {
+            const double share = std::max(b.support, 0.05),
+                         doubt = b.error / (share * share * share);
+            return std::max(doubt * doubt, 1e-6);
+        };
+        for (int round = 0; round < rounds; ++round)
+            for (std::size_t a = 0; a < here.size(); ++a)
+                for (std::size_t b = a + 1; b < here.size(); ++b) {
+                    const Vec2 d = here[b]->centre - here[a]->centre;
+                    const double apart = length(d);
+                    const double over =
+                        nearest * (radii[here[a]->kind] + radii[here[b]->kind]) - apart;
+                    if (over <= 0.0 || apart <= 0.0) continue;
+                    const double va = variance(*here[a]), vb = variance(*here[b]);
+                    here[a]->centre = here[a]->centre - (over * va / (va + vb) / apart) * d;
+                    here[b]->centre = here[b]->centre + (over * vb / (va + vb) / apart) * d;
+                }
+    }
+}
+
 /// From discs in pictures to discs that are the same ones from picture to picture.
-void track(const std::vector<Seen>& all, TrackedFilm& film) {
+void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>& all,
+           TrackedFilm& film) {
     std::vector<std::vector<SeenDisc>> discs;
     for (const Seen& seen : all) {
         std::vector<SeenDisc> here;
@@ -197,6 +310,9 @@ void track(const std::vector<Seen>& all, TrackedFilm& film) {
     }
     Links links = link_discs(discs, film.times, film.path, settings);
     drop_overlaps(all, settings.radii, links);
+    drop_leaps(all, film, links);
+    search_again(given, found, film, all, links);
+    part_overlaps(links, settings.radii, all);
     film.refused = links.refused;
     // By track: where it was when.
     struct Place {
@@ -210,27 +326,6 @@ void track(const std::vector<Seen>& all, TrackedFilm& film) {
             if (const int t = links.track[k][d]; t >= 0)
                 places[static_cast<std::size_t>(t)].push_back(
                     {k, all[k].beads[d].centre, all[k].beads[d].error});
-    // Out for a single picture and back again: a disc hit from both sides in between changes its
-    // velocity by little more than twice the dish's, so what is farther off was something else.
-    const double step = film.times[1] - film.times[0];
-    for (std::size_t t = 0; t < places.size(); ++t) {
-        const double most = std::max(0.2 * film.kinds[links.kind[t]].radius,
-                                     1.2 * film.path.amplitude * film.path.omega * step);
-        std::vector<Place> kept;
-        const auto at_dish = [&](const Place& p) {
-            return p.centre - film.path.at(film.times[p.picture]);
-        };
-        for (std::size_t j = 0; j < places[t].size(); ++j) {
-            if (j > 0 && j + 1 < places[t].size() &&
-                places[t][j + 1].picture - places[t][j - 1].picture == 2) {
-                const Vec2 off = at_dish(places[t][j]) -
-                                 0.5 * (at_dish(places[t][j - 1]) + at_dish(places[t][j + 1]));
-                if (length(off) > most) continue;
-            }
-            kept.push_back(places[t][j]);
-        }
-        places[t] = std::move(kept);
-    }
     // A track of a few pictures is no disc.
     const std::size_t fewest = std::min<std::size_t>(4, all.size());
     film.tracks.y_down = true;
@@ -307,7 +402,7 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
     film.reach = quantile(reaches, 0.8);
     film.touching =
-        gaps.size() > 100 ? 1.0 + commonest(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
+        gaps.size() > 100 ? 1.0 + onset(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
     // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
     // of a distance, √2 that of a place.
     std::vector<double> overlaps;
@@ -475,7 +570,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     for (std::size_t k = 1; k < film.kinds.size(); ++k)
         if (film.kinds[k].number > film.kinds[commonest].number) commonest = k;
     film.radius = film.kinds[commonest].radius;
-    track(all, film);
+    track(settings, found, all, film);
     if (film.number == 0) throw Failure("No disc could be followed through the film.");
     judge(all, film);
     // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or

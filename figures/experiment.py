@@ -1,0 +1,285 @@
+"""The figures and the report of `swirl experiment`: report.html (one self-contained file) and
+figure_*.png and .pdf, from the tables and experiment.json that it left in a folder.
+
+    /usr/bin/python3 figures/experiment.py marbles
+"""
+
+import html
+import json
+import math
+import os
+import sys
+
+import report
+import style
+
+CSS = """
+figure.wide { grid-template-columns: 1fr; }
+figure.wide img { max-width: 46rem; }
+"""
+LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
+
+
+def known(rows, *names):
+    return [row for row in rows if not any(math.isnan(row[name]) for name in names)]
+
+
+def sides(axes, rows, quantity, kinds=("rough", "smooth"), label="", second=False):
+    """A quantity against N: films as marks with errors, their simulation as a line; paler, with
+    other marks and a broken line if it is the second one in the figure."""
+    look = {"linestyle": "--", "alpha": 0.55} if second else {}
+    drawn = False
+    for kind in kinds:
+        color, marker = LOOK[kind]
+        film = known(style.select(rows, source="film", kind=kind), quantity)
+        run = known(style.select(rows, source="simulation", kind=kind), quantity)
+        run.sort(key=lambda row: row["discs"])
+        several = len({row["kind"] for row in rows}) > 1
+        name = ", ".join(part for part in (kind if several else "", label) if part)
+        name = f" ({name})" if name else ""
+        if run:
+            axes.errorbar(style.column(run, "discs"), style.column(run, quantity),
+                          yerr=style.column(run, quantity + "_error"), color=color, elinewidth=0.7,
+                          marker="." if len(run) > 1 else "_", markersize=3 if len(run) > 1 else 9,
+                          label="simulation" + name, **look)
+        if film:
+            axes.errorbar(style.column(film, "discs"), style.column(film, quantity),
+                          yerr=[0 if math.isnan(e) else e
+                                for e in style.column(film, quantity + "_error")],
+                          color=color, marker="s" if second else marker, linestyle="none",
+                          markersize=3.6 if second else 4.5, fillstyle="none", elinewidth=0.9,
+                          alpha=look.get("alpha", 1), label="film" + name)
+        drawn = drawn or film or run
+    return bool(drawn)
+
+
+def against_n(folder, name, rows, quantities, ylabel, level=None, kinds=("rough", "smooth")):
+    """One figure; returns its name, or nothing where there is nothing to draw."""
+    drawing, axes = style.figure()
+    drawn = False
+    for k, (quantity, label) in enumerate(quantities):
+        drawn = sides(axes, rows, quantity, kinds, label, second=k > 0) or drawn
+    if not drawn:
+        return None
+    if level is not None:
+        axes.axhline(level, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
+    axes.set_xlabel(r"number of discs $N$")
+    axes.set_ylabel(ylabel)
+    numbers = style.column(rows, "discs")
+    axes.set_xlim(min(numbers) - 1.5, max(numbers) + 1.5)
+    style.legend(axes)
+    style.save(drawing, os.path.join(folder, f"figure_{name}.csv"))
+    return f"figure_{name}"
+
+
+def profile(folder, name, rows, quantity, level, label):
+    rows = [row for row in rows if row["kind"] == "rough"]
+    if not rows:
+        return None
+    numbers = sorted({row["discs"] for row in rows})
+    drawing, axes = style.figure(height=2.6)
+    colors = style.plt.get_cmap("viridis")
+    span = max(numbers[-1] - numbers[0], 1)
+    for discs in numbers:
+        color = colors(0.95 * (discs - numbers[0]) / span)
+        for source in ("simulation", "film"):
+            part = style.select(rows, discs=discs, source=source)
+            most = max((row["visits"] for row in part), default=0)
+            part = [row for row in part if row["visits"] > max(20, 0.01 * most)]
+            for film in sorted({row["film"] for row in part}, key=str):
+                here = [row for row in part if str(row["film"]) == str(film)]
+                look = ({"marker": "o", "linestyle": "none", "markersize": 2.4,
+                         "fillstyle": "none", "markeredgewidth": 0.7} if source == "film"
+                        else {"linewidth": 0.9})
+                axes.plot(style.column(here, "theta"), style.column(here, quantity), color=color,
+                          **look)
+    axes.plot([], [], "o", color=style.GREY, fillstyle="none", markersize=3, label="film")
+    axes.plot([], [], color=style.GREY, label="simulation, seen as the film was")
+    axes.axhline(level, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
+    axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
+    axes.set_ylabel(label)
+    axes.set_xlim(0, 360)
+    axes.set_xticks(range(0, 361, 90))
+    style.legend(axes)
+    if len(numbers) > 1:
+        bar = drawing.colorbar(style.scale(numbers, colors), ax=axes)
+        bar.set_label(r"number of discs $N$")
+    else:
+        axes.set_title(f"$N = {numbers[0]:.0f}$", fontsize=7, loc="right")
+    style.save(drawing, os.path.join(folder, f"figure_{name}.csv"))
+    return f"figure_{name}"
+
+
+def coarser(rows, by):
+    """Means over squares of `by` cells: a film of a swirl or two has few visits of each."""
+    side = round(len(rows) ** 0.5)
+    result = []
+    for top in range(0, side, by):
+        for left in range(0, side, by):
+            here = [rows[(top + j) * side + left + i] for j in range(by) for i in range(by)]
+            result.append({name: sum(row[name] for row in here) / len(here)
+                           for name in ("x", "y", "density")})
+    return result
+
+
+def maps(folder, film, amplitude):
+    rows = style.read(os.path.join(folder, f"maps_{film}.csv"))
+    there = [source for source in ("film", "simulation") if style.select(rows, source=source)]
+    style.AMPLITUDE = amplitude
+    drawing, panels = style.figure(width=style.PAGE if len(there) == 2 else style.COLUMN,
+                                   height=3.1, ncols=len(there), squeeze=False)
+    R = max(row["x"] for row in rows if row["map"] == "density") * 100 / 99
+    density = {source: coarser(style.select(rows, source=source, map="density"), 2)
+               for source in there}
+    # One scale for both, which a few cells that are hardly visited must not set.
+    levels = sorted(row["density"] for part in density.values() for row in part)
+    top = levels[int(0.995 * (len(levels) - 1))]
+    for axes, source in zip(panels[0], there):
+        shown = style.cells(axes, density[source], "density", R)
+        shown.set_clim(0, top)
+        flow = [row for row in style.select(rows, source=source, map="flow") if row["visits"] > 0]
+        style.arrows(axes, flow, R, color="white",
+                     least=0.002 * sum(row["visits"] for row in flow) / 10)
+        style.dish(axes, R, color="white")
+        axes.set_title(f"{source}, $N = {rows[0]['discs']:.0f}$")
+    bar = drawing.colorbar(shown, ax=list(panels[0]), shrink=0.85)
+    bar.set_label(r"discs per unit area ($r^{-2}$)")
+    style.save(drawing, os.path.join(folder, f"figure_2_{film}.csv"))
+    return f"figure_2_{film}"
+
+
+def with_error(mean, error):
+    if mean is None or math.isnan(mean):
+        return "–"
+    if error is None or math.isnan(error) or error <= 0:
+        return f"{mean:.3g}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{mean:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
+
+
+def films_table(rows):
+    head = ["film", "N", "swirls", "pictures a swirl", "radius of a disc, pixels", "R", "A",
+            "all discs seen", "error of a place, pixels", "ϖ/Ω by time", "simulated"]
+    body = []
+    for row in rows:
+        if row["failed"] == row["failed"] and row["failed"]:
+            body.append([report.td(row["film"]), report.td("–"),
+                         f"<td colspan=9>{html.escape(str(row['failed']))}</td>"])
+            continue
+        body.append([report.td(text) for text in (
+            row["film"], f"{row['discs']:.0f}", f"{row['swirls']:.1f}",
+            f"{row['pictures_per_swirl']:.0f}", f"{row['radius']:.2f}",
+            f"{row['container_radius']:.3f}", f"{row['amplitude']:.3f}",
+            f"{100 * row['all_seen']:.1f} %", f"{row['position_error']:.2f}",
+            with_error(row["by_time"], row["by_time_error"]),
+            with_error(row["simulated"], row["simulated_error"]))])
+    return report.table(head, body)
+
+
+TITLES = {
+    "figure_1b": ("Figure 1b", "Rotation of the cluster against the number of discs. Broken line: a "
+                  "pancake of the cluster's perimeter that rolls on the wall without slipping."),
+    "figure_3a": ("Figure 3a", "Angular velocity of the discs about the centre of mass, in the "
+                  "M-frame; −1 is what a disc has that moves with the wall."),
+    "figure_3b": ("Figure 3b", "The same, divided by that of the wall."),
+    "figure_4a": ("Figure 4a", "The slip parameter: 1 is rolling with the wall. Broken line: all "
+                  "pinned discs, by the SI's criterion."),
+    "figure_4b": ("Figure 4b", "Spin about the vertical of the discs at the wall, in Ω."),
+    "figure_4c": ("Figure 4c", "Rotation for two kinds of discs."),
+}
+
+
+def figure_html(folder, name):
+    title, text = TITLES.get(name, (None, None))
+    if title is None:
+        title = f"Figure 2, {name.removeprefix('figure_2_')}"
+        text = ("Where the discs are in the M-frame, and how they move against the container: the "
+                "film, and the simulation of as many discs.")
+    image = (f'<img alt="{html.escape(title)}" '
+             f'src="{report.inline(os.path.join(folder, name + ".png"))}">')
+    wide = " class=wide" if name.startswith("figure_2_") else ""
+    return (f"<figure{wide}>{image}<figcaption><h3>{html.escape(title)}</h3><p>{html.escape(text)}</p>"
+            f"<p class=small><code>{html.escape(name)}.pdf</code></p></figcaption></figure>\n")
+
+
+def film_html(folder, film):
+    found, remarks = film.get("found") or {}, film.get("remarks") or []
+    pictures = [os.path.join(folder, name) for name in film.get("pictures", [])]
+    image = "".join(f'<img alt="the film with the discs that were found" src="{report.inline(p)}">'
+                    for p in pictures if os.path.exists(p)) or "<span></span>"
+    items = "".join(f"<li>{html.escape(remark)}</li>" for remark in remarks)
+    path = found.get("path", {})
+    said = ""
+    if path:
+        said = (f"<p>{html.escape(str(found.get('discs')))} discs, {found.get('pictures')} pictures; "
+                f"centre {path['centre'][0]:.2f}, {path['centre'][1]:.2f}, amplitude "
+                f"{path['amplitude']:.2f} pixels, "
+                f"{'clockwise' if path['clockwise'] else 'counter-clockwise'}.</p>")
+    return (f"<figure>{image}<figcaption><h3>{html.escape(film['name'])}</h3>"
+            f"<p class=small>{html.escape(film['film'])}</p>{said}"
+            f"{'<ul>' + items + '</ul>' if items else ''}</figcaption></figure>\n")
+
+
+def page(folder, about, films, figures):
+    findings = "".join(f"<li>{report.rich(finding)}</li>" for finding in about["findings"])
+    runs = (f" Beside each stands the simulation of as many discs in the same dish, "
+            f"{about['seeds']} runs, which is looked at as the camera looked: as many pictures a "
+            "swirl, places with the same error, velocities as differences of places."
+            if about["runs"] else "")
+    parts = ["<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
+             '<meta name=viewport content="width=device-width, initial-scale=1">',
+             f"<title>Experiment and simulation</title><style>{report.CSS}{CSS}</style></head><body>\n",
+             "<h1>Experiment and simulation</h1>\n",
+             f"<p>What {len(films)} film{'s' if len(films) != 1 else ''} of a swirled dish "
+             f"say{'s' if len(films) == 1 else ''}.{runs} ± is one standard error, from the "
+             "scatter between swirls.</p>\n",
+             f"<ul>{findings}</ul>\n", "<h2>The films</h2>\n", films_table(films)]
+    parts += ["<h2>The paper’s figures</h2>\n"] + [figure_html(folder, name) for name in figures]
+    parts += ["<h2>Each film</h2>\n"] + [film_html(folder, film) for film in about["films"]]
+    parts += ["<h2>Made by</h2>\n", report.table(["", ""], [
+        (report.td(a), report.td(b)) for a, b in (
+            ("command", about["command"]), ("version", about["version"]),
+            ("built with", about["build"]))]), "</body></html>\n"]
+    return "".join(parts)
+
+
+def main():
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
+              "draws the figures and writes report.html from what `swirl experiment --out FOLDER` "
+              "left there", file=sys.stderr)
+        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
+    folder = sys.argv[1]
+    try:
+        with open(os.path.join(folder, "experiment.json"), encoding="utf-8") as file:
+            about = json.load(file)
+    except FileNotFoundError:
+        sys.exit(f"There is no '{folder}/experiment.json'; `swirl experiment` writes it.")
+    films = style.read(os.path.join(folder, "films.csv"))
+    points = style.read(os.path.join(folder, "points.csv"))
+    profiles = style.tables.read(os.path.join(folder, "profiles.csv"))
+    rotation = r"rotation $\varpi/\Omega$, by time"
+    rough = ("rough",)
+    made = [against_n(folder, "1b", points,
+                      [("by_time", ""), ("pancake", "pancake")], rotation, 0,
+                      rough if style.select(points, kind="rough") else ("smooth",))]
+    for row in films:
+        if os.path.exists(os.path.join(folder, f"maps_{row['film']}.csv")):
+            made.append(maps(folder, row["film"], row["amplitude"]))
+    made += [profile(folder, "3a", profiles, "varpi_m", -1, r"$\langle\varpi_{M,i}\rangle/\Omega$"),
+             profile(folder, "3b", profiles, "normalised", 1,
+                     r"$\langle\varpi_{M,i}\rangle/\langle\varpi_{\rm wall}\rangle$"),
+             against_n(folder, "4a", points,
+                       [("pinned_at_wall", "pinned at the wall"),
+                        ("pinned_region", "pinned, SI")],
+                       "slip parameter $s$", 1),
+             against_n(folder, "4b", points, [("wall_spin", "")],
+                       r"spin at the wall $\langle|\omega_i|\rangle/\Omega$")]
+    if style.select(points, kind="smooth"):
+        made.append(against_n(folder, "4c", points, [("by_time", "")], rotation, 0))
+    figures = [name for name in made if name]
+    report.write(os.path.join(folder, "report.html"), page(folder, about, films, figures))
+
+
+if __name__ == "__main__":
+    main()

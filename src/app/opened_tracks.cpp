@@ -1,0 +1,39 @@
+#include "swirl/app/opened_tracks.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/track_fit.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
+    return {{"filled_positions", tracks.mended.filled},
+            {"renamed", tracks.mended.renamed},
+            {"dropped_positions", tracks.mended.dropped},
+            {"breaks", fitted.series.breaks.size()},
+            {"frames_outside", fitted.fit.outside},
+            {"frames_overlapping", fitted.fit.overlapping},
+            {"wall_gap", fitted.fit.wall_gap},
+            {"fitting_phase", fitted.fit.fitting_phase}};
+}
+
+}  // namespace
+
+OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, double misfit) {
+    const TrackScale scale = track_scale(camera, file);
+    const Tracks tracks = read_tracks(file, scale);
+    if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
+        throw Failure(fmt::format(
+            "'{}' holds a single frame, which tells no velocities; two are the least.", file));
+    FittedSeries fitted = fitted_series(tracks, scale, misfit);
+    const Json found = camera_json(tracks, fitted);
+    return {std::move(fitted.series), std::move(fitted.remarks), found};
+}
+
+}  // namespace swirl

@@ -1,0 +1,146 @@
+#include "swirl/app/tracked_film.hpp"
+
+#include <cmath>
+
+#include "swirl/run/failure.hpp"
+#ifdef SWIRL_CAMERA
+#include "swirl/app/output.hpp"
+#include "swirl/app/track_options.hpp"
+#include "swirl/files/table.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/vision/spin.hpp"
+#include "swirl/vision/tracking.hpp"
+#endif
+
+namespace swirl {
+
+void throw_no_eyes() {
+    throw Failure(
+        "This build of swirl has no eyes: it was made without OpenCV. Install libopencv-core-dev "
+        "and libopencv-imgproc-dev, and build again; ./swirl track does both.");
+}
+
+#ifdef SWIRL_CAMERA
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double degrees(double radians) { return radians * 180.0 / pi; }
+
+Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
+
+Json json_of(const TrackedFilm& film, const FilmSource& source) {
+    Json kinds = Json::array();
+    for (const TrackedKind& kind : film.kinds)
+        kinds.push_back(
+            {{"number", kind.number}, {"radius", kind.radius}, {"radius_scatter", kind.scatter}});
+    const TrackScale scale = film.scale();
+    return {{"film", source.film},
+            {"pictures", film.pictures},
+            {"size", {film.width, film.height}},
+            {"fps", film.fps > 0.0 ? Json(film.fps) : Json(nullptr)},
+            {"discs", film.number},
+            {"kinds", kinds},
+            {"discs_are", film.bright ? "bright" : "dark"},
+            {"dish",
+             {{"radius", film.container_radius},
+              {"rim_radius", film.rim_radius},
+              {"reach_of_the_discs", film.reach},
+              {"rim_seen", film.rim_support},
+              {"rims_missed", film.rims_missed}}},
+            {"path",
+             {{"centre", vector_json(film.path.centre)},
+              {"centre_error", film.path.centre_error},
+              {"amplitude", film.path.amplitude},
+              {"amplitude_error", film.path.amplitude_error},
+              {"omega", film.path.omega},
+              {"omega_error", film.path.omega_error},
+              {"phase", phase_of(film)},
+              {"phase_error", degrees(film.path.phase_error)},
+              {"clockwise", film.path.clockwise},
+              {"residual", film.path.residual}}},
+            {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
+            {"quality",
+             {{"touching_discs_are_apart", film.touching},
+              {"pictures_with_all_discs", film.complete},
+              {"position_error", film.position_error},
+              {"position_error_from_overlaps", film.overlap_error},
+              {"filled_positions", film.filled},
+              {"discs_too_many", film.refused}}},
+            {"millimetres_per_pixel",
+             source.disc_diameter   ? Json(*source.disc_diameter / (2.0 * film.radius))
+             : source.dish_diameter ? Json(*source.dish_diameter / (2.0 * film.container_radius))
+                                    : Json(nullptr)},
+            {"warnings", film.warnings},
+            // What `swirl measure` and `swirl movie` take the tracks with.
+            {"camera",
+             {{"camera-fps", scale.frames_per_time},
+              {"scale", scale.pixels_per_radius},
+              {"omega", film.path.omega},
+              {"centre", vector_json(scale.swirl_centre)},
+              {"phase", phase_of(film)},
+              {"amplitude", scale.amplitude},
+              {"container-radius", scale.container_radius},
+              {"clockwise", scale.clockwise}}},
+            {"version", version()}};
+}
+
+Table table_of(const TrackedFilm& film, const FilmSpins* spins) {
+    std::vector<std::string> columns{"frame",  "particle", "x",     "y",   "x_seen",
+                                     "y_seen", "radius",   "error", "seen"};
+    if (spins)
+        columns.insert(columns.end(),
+                       {"spin", "spin_x", "spin_y", "piv_spin", "piv_velocity", "texture_match"});
+    Table table(columns);
+    // Per second, where the film says how long that is.
+    const double rate = 1.0 / (film.times[1] - film.times[0]);
+    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            const Vec2 seen = film.lens.seen(f.position[i]);
+            std::vector<Table::Cell> row{f.number,
+                                         f.id[i],
+                                         f.position[i].x,
+                                         f.position[i].y,
+                                         seen.x,
+                                         seen.y,
+                                         f.radius[i],
+                                         film.errors[k][i],
+                                         std::int64_t(film.seen[k][i])};
+            if (spins) {
+                const DiscSpin& s = spins->discs[k][i];
+                for (const double value :
+                     {s.turn[2], s.turn[0], s.turn[1], s.piv_turn, s.piv_velocity})
+                    row.emplace_back(rate * value);
+                row.emplace_back(s.match);
+            }
+            table.add(std::move(row));
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+double phase_of(const TrackedFilm& film) {
+    const double phase = degrees(film.path.angle(film.times.front()));
+    return phase - 360.0 * std::floor(phase / 360.0);
+}
+
+Json write_tracks(const TrackedFilm& film, const FilmSource& source,
+                  const std::filesystem::path& out, const FilmSpins* spins) {
+    Json json = json_of(film, source);
+    if (spins)
+        json["spins"] = {{"step", spins->step},
+                         {"steps_measured", spins->measured},
+                         {"texture_match", spins->match}};
+    table_of(film, spins).write(out);
+    write_output(camera_file(out), json.dump(2) + "\n");
+    return json;
+}
+
+#endif
+
+}  // namespace swirl
