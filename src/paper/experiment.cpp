@@ -15,12 +15,12 @@
 #include "swirl/paper/points.hpp"
 #include "swirl/paper/python_script.hpp"
 #include "swirl/paper/several_seeds.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/seen_run.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/all_cores.hpp"
 
 namespace swirl {
 namespace {
