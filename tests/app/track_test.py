@@ -233,6 +233,26 @@ class FilmTest(InFolder):
         self.refused(1, "no pictures named",
                      call=swirl("track", self.path("no%05d.png"), "--out", out))
 
+    def test_what_telephones_do_to_a_film(self):
+        film = self.film()
+
+        def changed(name, *arguments):
+            subprocess.run(["ffmpeg", "-v", "error", "-i", film, *arguments, self.path(name)],
+                           check=True)
+            return self.track(self.path(name), name=name[:-4] + ".csv")
+
+        # Held upright: the file says that it is to be turned, and it is.
+        tracks, _ = changed("turned.mp4", "-c", "copy", "-metadata:s:v:0", "rotate=90")
+        with open(tracks[:-4] + ".camera.json", encoding="utf-8") as file:
+            found = json.load(file)
+        self.assertEqual(found["discs"], 20)
+        self.assertLess(abs((found["path"]["phase"] - 90.0 + 180.0) % 360.0 - 180.0), 1.0)
+        _, said = changed("two.mp4", "-vf", "split[a][b];[a][b]hstack", "-qp", "14")
+        self.assertIn("second circle of the dish's size", said)
+        _, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",
+                          "-qp", "14")
+        self.assertIn("frame rate varies", said)
+
     def test_wrong_calls(self):
         for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
                                  (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
