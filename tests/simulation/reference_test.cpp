@@ -83,6 +83,11 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
         for (const std::size_t n : {28u, 48u}) {
             const InitialState scene = on_circle(paper_dish(n), amplitude);
             expect_same_trajectory(scene, sanitized ? 500 : 3000, tuning());
+            Simulation simulation(scene);
+            double deepest = 0.0;
+            for (int event = 0; event < 3000; ++event)
+                deepest = larger(deepest, simulation.step().overlap);
+            EXPECT_LT(deepest, 1e-13 * (amplitude + scene.container_radius)) << amplitude;
         }
     }
 }
