@@ -36,9 +36,9 @@ SWIRL_INLINE constexpr Vec2 unit_circle(double u) {
     }
 }
 
-/// sin φ and 1 − cos φ, which keeps all digits of a small angle.
+/// sin φ, 1 − cos φ, and φ − sin φ, with all digits of small angles.
 struct Turn {
-    double sine, versine;
+    double sine, versine, lag;
 };
 
 /// For |φ| ≤ π/4: Taylor's series, whose first terms left out are below φ¹⁷/17! = 5·10⁻¹⁷ and
@@ -52,9 +52,11 @@ SWIRL_INLINE constexpr Turn small_turn(double phi) {
     constexpr double c5 = 1.0 / 479001600.0, c6 = 1.0 / 87178291200.0;
     constexpr double c7 = 1.0 / 20922789888000.0;
     const double q = phi * phi, q2 = q * q, q4 = q2 * q2;
-    return {
-        phi * (((1.0 - q * s1) + q2 * (s2 - q * s3)) + q4 * ((s4 - q * s5) + q2 * (s6 - q * s7))),
-        q * (((0.5 - q * c1) + q2 * (c2 - q * c3)) + q4 * ((c4 - q * c5) + q2 * (c6 - q * c7)))};
+    const double lag =
+        phi * q * ((s1 - q * s2) + q2 * ((s3 - q * s4) + q2 * ((s5 - q * s6) + q2 * s7)));
+    return {phi - lag,
+            q * (((0.5 - q * c1) + q2 * (c2 - q * c3)) + q4 * ((c4 - q * c5) + q2 * (c6 - q * c7))),
+            lag};
 }
 
 /// (cos 2πu, sin 2πu) like unit_circle, within 2⁻⁵¹, in a third of the time. The last bit may be
@@ -80,7 +82,7 @@ SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
 SWIRL_INLINE constexpr Turn turn_by(double phi) {
     if (phi <= pi / 4.0 && phi >= -pi / 4.0) return small_turn(phi);
     const Vec2 u = quick_unit_circle(phi * (0.5 / pi));
-    return {u.y, 1.0 - u.x};
+    return {u.y, 1.0 - u.x, phi - u.y};
 }
 
 /// The angle of a vector in turns, 0 ≤ u < 1, counter-clockwise from +x: the inverse of

@@ -84,16 +84,15 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
 }
 
 /// A disc inside a circle on a turning leg, from the moment on at which `centre` holds. It is seen
-/// at s from the centre and has velocity v, the centre has V and turns by φ = Ω τ. With W = V^⊥,
-/// what is below zero inside is
+/// at s from the centre, with velocity u; the centre has V and turns by φ = Ω τ. With W = V^⊥, the
+/// disc is then at
 ///
-///     f(τ) = |s + v τ − (sin φ V + (1 − cos φ) W)/Ω|² − clearance²
-///          = f(0) + 2 s·v τ + v² τ² − (2/Ω) (sin φ A + (1 − cos φ) (B − V²/Ω)),
-///     A = (s + v τ)·V,   B = (s + v τ)·W.
+///     s + d,   d = u τ + ((φ − sin φ) V − (1 − cos φ) W)/Ω,
 ///
-/// That is no polynomial, but near any moment c + 2b δ + q δ² + k δ³ and at most L δ⁴ more, whose
-/// coefficients are sums of the same few products. What is added to f(0) vanishes with τ, so that a
-/// short hop along the wall keeps its digits.
+/// and what is below zero inside is f(τ) = |s|² − clearance² + (2s + d)·d, which is no polynomial.
+/// Near any moment it is c + 2b δ + q δ² + k δ³ and at most L δ⁴ more, from place, velocity,
+/// acceleration g and jerk j of the disc as seen from the centre. What is added to f(0) vanishes
+/// with d, so that a short hop along the wall keeps its digits, however fast the container.
 class TurningWall {
   public:
     struct Near {
@@ -102,41 +101,27 @@ class TurningWall {
 
     SWIRL_INLINE TurningWall(const Flight<double>& disc, const Flight<double>& centre,
                              double turning, double clearance)
-        : turning_(turning), square_(clearance * clearance) {
-        const Vec2 s = disc.position_at(centre.time) - centre.position;
-        const Vec2 &v = disc.velocity, &V = centre.velocity, W = perpendicular(V);
-        const double O = turning, per = 1.0 / O;
-        sv_ = dot(s, v);
-        vv_ = dot(v, v);
-        A_ = dot(s, V);
-        B_ = dot(s, W);
-        A_grows_ = dot(v, V);
-        B_grows_ = dot(v, W);
-        speed2_ = dot(V, V);
-        per_turning_ = per;
-        first_ = {dot(s, s) - square_, dot(s, v - V), vv_ + ((speed2_ - 2.0 * A_grows_) - O * B_),
-                  (third * O) * (O * A_ - 3.0 * B_grows_)};
-        // f⁗/2 = Ω² (cos φ (4v·V + ΩB − V²) + sin φ (4v·W − ΩA)). Within the wall |s + vτ| is at
-        // most clearance + 2|V|/Ω, and twice a product is at most the sum of the squares.
-        L_ = (O * O * (1.0 / 12.0)) * (2.0 * vv_ + 5.5 * speed2_ + (0.5 * O * O) * square_);
+        : s_(disc.position_at(centre.time) - centre.position),
+          u_(disc.velocity - centre.velocity),
+          V_(centre.velocity),
+          turning_(turning),
+          per_turning_(1.0 / turning),
+          square_(clearance * clearance) {
+        const double O2 = turning * turning;
+        // f⁗/24 = (3 g² + 4 u·j + s·(−Ω² g))/12, where g is Ω|V| and j Ω²|V|; u changes by 2|V| at
+        // most, s is no longer than the clearance, and twice a product at most the sum of squares.
+        L_ = (O2 * (1.0 / 12.0)) * (2.0 * dot(u_, u_) + 13.5 * dot(V_, V_) + (0.5 * O2) * square_);
     }
 
     SWIRL_INLINE double square() const { return square_; }
-    SWIRL_INLINE const Near& first() const { return first_; }
+    SWIRL_INLINE Near first() const { return near({0.0, 0.0}, u_, V_); }
     /// At the time τ.
     SWIRL_INLINE Near at(double tau) const {
-        const double O = turning_, per = per_turning_;
-        const Turn turn = turn_by(O * tau);
-        const double sine = turn.sine, versine = turn.versine, cosine = 1.0 - versine;
-        const double A = A_ + A_grows_ * tau, B = B_ + B_grows_ * tau;
-        return {
-            first_.c + ((2.0 * sv_ + vv_ * tau) * tau -
-                        (2.0 * per) * (sine * A + versine * (B - speed2_ * per))),
-            (sv_ + vv_ * tau) - cosine * A - sine * (B - (speed2_ - A_grows_) * per) -
-                (versine * per) * B_grows_,
-            vv_ + (cosine * ((speed2_ - 2.0 * A_grows_) - O * B) + sine * (O * A - 2.0 * B_grows_)),
-            (third * O) *
-                (cosine * (O * A - 3.0 * B_grows_) + sine * ((3.0 * A_grows_ + O * B) - speed2_))};
+        const Turn turn = turn_by(turning_ * tau);
+        const Vec2 W = perpendicular(V_);
+        const Vec2 d = tau * u_ + per_turning_ * (turn.lag * V_ - turn.versine * W);
+        const Vec2 turned = turn.sine * W - turn.versine * V_;
+        return near(d, u_ - turned, V_ + turned);
     }
     /// Up to δ = h, f is at most c + 2b δ + M δ².
     SWIRL_INLINE double steepest(const Near& f, double h) const {
@@ -148,9 +133,16 @@ class TurningWall {
     }
 
   private:
-    static constexpr double third = 1.0 / 3.0;
-    double turning_, per_turning_, square_, sv_, vv_, speed2_, A_, A_grows_, B_, B_grows_, L_;
-    Near first_;
+    /// With the disc d away from where it was, seen with velocity u from the centre, which has V.
+    SWIRL_INLINE Near near(const Vec2& d, const Vec2& u, const Vec2& V) const {
+        const Vec2 s = s_ + d, g = (-turning_) * perpendicular(V);
+        const double c = (dot(s_, s_) - square_) + dot(s_ + s, d);
+        return {c, dot(s, u), dot(u, u) + dot(s, g),
+                dot(u, g) + (turning_ * turning_ * (1.0 / 3.0)) * dot(s, V)};
+    }
+
+    Vec2 s_, u_, V_;
+    double turning_, per_turning_, square_, L_;
 };
 
 /// When a disc reaches the wall; or, if not by the time asked for, a time before which it does not.

@@ -51,6 +51,13 @@ RC_GTEST_PROP(TurnBy, KeepsTheDigitsOfSmallAngles, ()) {
               2.0 * ulp_of_one * std::abs(phi));
     RC_ASSERT(std::abs(static_cast<double>(2.0L * half * half - turn.versine)) <=
               2.0 * ulp_of_one * turn.versine);
+    // φ − sin φ = φ³/6 − φ⁵/120 …
+    const long double q = static_cast<long double>(phi) * phi;
+    long double lag = 0.0L;
+    for (int n = 19; n >= 3; n -= 2) lag = q / (n * (n - 1.0L)) * (1.0L - lag);
+    lag *= phi;
+    RC_ASSERT(std::abs(static_cast<double>(lag - turn.lag)) <=
+              2.0 * ulp_of_one * std::abs(turn.lag));
 }
 
 RC_GTEST_PROP(TurnBy, IsTheUnitCircleForLargeAngles, ()) {

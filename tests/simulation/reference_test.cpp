@@ -65,12 +65,29 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     expect_same_trajectory(on_circle(mixture_dish()), 10000, tuning(3));
     expect_same_trajectory(on_circle(paper_dish(20, 0.0, 0.0)), 10000, tuning());
 }
+// There the frame of the skins outlasts the corners; in the second, which shakes its discs together
+// first, only at times.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAThinDish) {
+    const int events = sanitized ? 500 : 5000;
+    for (const double container_radius : {45.0, 18.0}) {
+        const InitialState thin =
+            state_of({unit_disc()}, 101, container_radius,
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 1.0);
+        expect_same_trajectory(thin, events, tuning(NeighbourSearch::lists));
+        expect_same_trajectory(on_circle(thin), events, tuning(NeighbourSearch::lists));
+    }
+}
 // Far from the origin places are known less well; a small turn is a long way.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
     for (const double amplitude : {1e-3, 30.0, 1e6}) {
         for (const std::size_t n : {28u, 48u}) {
             const InitialState scene = on_circle(paper_dish(n), amplitude);
             expect_same_trajectory(scene, sanitized ? 500 : 3000, tuning());
+            Simulation simulation(scene);
+            double deepest = 0.0;
+            for (int event = 0; event < 3000; ++event)
+                deepest = larger(deepest, simulation.step().overlap);
+            EXPECT_LT(deepest, 1e-13 * (amplitude + scene.container_radius)) << amplitude;
         }
     }
 }

@@ -146,10 +146,12 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 /// other times. An event of theirs that now comes later leaves its disc to be predicted again at
 /// the time it held, which is early enough for whatever comes next. In the middle of a turning leg
 /// only the skin does.
-SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving leaving) {
+SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving leaving,
+                                bool in_new_frame = true) {
     ColdDisc& cold = state.cold(i);
     const bool turning = state.on_turning_leg();
-    if ((cold.partner == i && !turning) || cold.partner == leaves_skin) cold.partner = no_event;
+    if ((cold.partner == i && !turning) || (cold.partner == leaves_skin && in_new_frame))
+        cold.partner = no_event;
     const PendingEvent held{pending_time(state, i), i, cold.partner};
     if (turning) [[unlikely]] {
         if (cold.partner == i)
@@ -200,9 +202,58 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     }
 }
 
+/// In the old frame, for the eight discs from `begin` on: the wall alone. Who was far from it and
+/// still is has no event that could have changed.
+SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin, double reach,
+                                       const Vec2& from_container, double t) {
+    using Eight = Lanes<8>;
+    const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
+    std::uint32_t who[8];
+    alignas(64) double X[8], Y[8], skin_radius[8], radius[8], beyond[8], wall[8];
+    unsigned were_far = 0;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        who[k] = k < count ? begin + k : state.size;
+        const std::uint32_t i = k < count ? begin + k : begin;
+        const Skin& skin = state.skins[i];
+        X[k] = skin.X;
+        Y[k] = skin.Y;
+        skin_radius[k] = skin.skin_radius;
+        radius[k] = state.discs[i].radius;
+        were_far |= static_cast<unsigned>(state.discs[i].far_from_wall) << k;
+    }
+    beyond_reach(Eight(reach),
+                 in_lanes<8>(from_container) + BasicVec2<Eight>{Eight::load(X), Eight::load(Y)},
+                 Eight::load(skin_radius), Eight::load(radius))
+        .store(beyond);
+    const unsigned far = lanes_below(beyond, 0.0);
+    unsigned near = ~(far & were_far) & ((1u << count) - 1u);
+    if (near == 0) return;
+    const Others<8> discs = load_others<8>(state, who);
+    (state.on_turning_leg() ? earliest_wall_times<8>(state, discs.flight.position_at(Eight(t)),
+                                                     discs.flight.velocity, discs.radius, t)
+                            : wall_times<8>(state, discs.flight, discs.radius))
+        .store(wall);
+    for (; near != 0; near &= near - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctz(near));
+        const unsigned is_far = far >> k & 1u;
+        state.discs[begin + k].far_from_wall = is_far & 1u;
+        renew_leaving(state, begin + k, {wall[k] + far_wait[is_far], never}, false);
+    }
+}
+
 /// At a corner of the path only what depends on the container's motion is predicted anew.
 static void renew_all_leaving(EngineState& state, double t) {
-    for (std::uint32_t i = 0; i < state.size; i += 8) renew_eight(state, i, t);
+    if (!frame_still_serves(state)) {
+        renew_comoving_frame(state, state.comoving_frame.position_at(t), t);
+        for (std::uint32_t i = 0; i < state.size; i += 8) renew_eight(state, i, t);
+        return;
+    }
+    begin_stretch(state, t);
+    const double reach = reach_far_from_wall(state, t);
+    const Vec2 from_container =
+        state.comoving_frame.position_at(t) - state.legs[state.leg].position_at(t);
+    for (std::uint32_t i = 0; i < state.size; i += 8)
+        renew_walls_of_eight(state, i, reach, from_container, t);
 }
 
 /// At the end of the swirl the discs' clocks have restarted, and so does the frame's. Its origin is
@@ -223,15 +274,12 @@ static void renew_all(EngineState& state, const Vec2& origin) {
 SWIRL_INLINE void leg_ended(EngineState& state, double t) {
     const Vec2 origin = state.comoving_frame.position_at(t);
     if (state.leg == 0) return renew_all(state, origin);
-    renew_comoving_frame(state, origin, t);
     renew_all_leaving(state, t);
 }
 
 /// Of a turning leg: the discs have turned with the container, and so does the frame.
 [[gnu::noinline]] static void stretch_ended(EngineState& state) {
-    const double t = state.stretch_end;
-    renew_comoving_frame(state, state.comoving_frame.position_at(t), t);
-    renew_all_leaving(state, t);
+    renew_all_leaving(state, state.stretch_end);
 }
 
 }  // namespace lists

@@ -38,6 +38,14 @@ SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
 /// On a turning leg the co-moving frame is renewed this often per turn, as on the paper's polygon.
 inline constexpr double stretches_per_turn = 30.0;
 
+static void begin_stretch(EngineState& state, double t) {
+    const Leg& leg = state.legs[state.leg];
+    state.stretch_end = leg.end;
+    if (leg.turning != 0.0)
+        state.stretch_end =
+            smaller(leg.end, t + 2.0 * pi / (stretches_per_turn * magnitude(leg.turning)));
+}
+
 /// From time t on the co-moving frame has the discs' mean velocity. The pack circles in the dish
 /// with the swirl, so this is where most discs stay near; and in a large dish, where the wall is
 /// far, they do not follow the container at all. On a turning leg it lasts for a stretch.
@@ -46,26 +54,33 @@ static void renew_comoving_frame(EngineState& state, const Vec2& origin, double 
     for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
     state.comoving_frame = {origin, (1.0 / state.size) * sum, t};
     state.rebuilds_in_frame = 0;
-    const Leg& leg = state.legs[state.leg];
-    state.stretch_end = leg.end;
-    if (leg.turning != 0.0)
-        state.stretch_end =
-            smaller(leg.end, t + 2.0 * pi / (stretches_per_turn * magnitude(leg.turning)));
+    begin_stretch(state, t);
 }
 
-/// Whether the discs fly with each other rather than with the frame: in a fast dish all have
-/// followed the container long before the next leg, and lists would be rebuilt for ever.
-static bool frame_is_left_behind(const EngineState& state) {
+/// How much the discs fly with each other rather than with the frame: the energy of their mean
+/// motion against it, over that of their motion against each other.
+static double lag_of_frame(const EngineState& state) {
     Vec2 sum{0.0, 0.0};
-    for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
-    const Vec2 mean = (1.0 / state.size) * sum;
-    double with_each_other = 0.0;
+    double squares = 0.0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        const Vec2 v = state.discs[i].velocity - mean;
-        with_each_other += dot(v, v);
+        const Vec2 v = state.discs[i].velocity - state.comoving_frame.velocity;
+        sum = sum + v;
+        squares += dot(v, v);
     }
-    const Vec2 drift = state.comoving_frame.velocity - mean;
-    return dot(drift, drift) * state.size > with_each_other;
+    const double together = dot(sum, sum) / state.size;
+    return together / larger(squares - together, 0.0);
+}
+
+/// Then lists would be rebuilt for ever: in a fast dish all have followed the container long before
+/// the next leg.
+static bool frame_is_left_behind(const EngineState& state) { return lag_of_frame(state) > 1.0; }
+
+/// At a corner of the path the frame is renewed, and with it when each disc leaves its skin. Where
+/// discs hardly follow the container, as in a thin dish, that is most of the work and changes
+/// little; then it is left as it is.
+inline constexpr double bearable_lag = 0.05;
+static bool frame_still_serves(const EngineState& state) {
+    return lag_of_frame(state) < bearable_lag;
 }
 
 /// How far from the centre of the container a disc may reach without touching the wall, with room
