@@ -83,6 +83,14 @@ std::string in_words(const CLI::App& app, const CLI::ParseError& error) {
     return sentence + " Try `" + name + " --help`.";
 }
 
+/// Several arguments of one kind are "VIDEO..." in the usage, not "films(1x)".
+class HelpFormat : public CLI::Formatter {
+    std::string make_option_usage(const CLI::Option* option) const override {
+        return option->get_expected_max() > 1 ? option->get_type_name() + "..."
+                                              : CLI::Formatter::make_option_usage(option);
+    }
+};
+
 /// What one kind of target asks of the parser.
 struct AddTo {
     CLI::App& app;
@@ -142,6 +150,7 @@ Call parse(int argc, char** argv) {
         "swirl");
     app.set_version_flag("--version", version());
     app.require_subcommand(0, 1);
+    app.formatter(std::make_shared<HelpFormat>());
     app.get_formatter()->column_width(column_of_descriptions);
     const auto subcommands = std::make_shared<std::deque<std::pair<CLI::App*, Subcommand>>>();
     for (const Command* command : Command::all()) {

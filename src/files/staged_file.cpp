@@ -79,6 +79,7 @@ void StagedFile::open(Mode mode) {
                         path_.string()));
     if (mode == Mode::create) return begin_anew();
     committed_ = size_ = static_cast<std::uint64_t>(about.st_size);
+    new_ = size_ == 0;
     if (load_journal() && mode == Mode::change) commit();
 }
 

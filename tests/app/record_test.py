@@ -377,18 +377,17 @@ class Disk(InFolder):
 
     def test_a_folder_that_vanishes_is_an_error_and_no_crash(self):
         folder = self.path("f")
-        run = ["run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.1",
-               "--checkpoint", folder + "/c"]
-        for more in ([], ["--trajectory", folder + "/t.h5"]):
-            os.mkdir(folder)
-            self.assertIn("No such file or directory",
-                          self.disturbed(run + more, lambda: shutil.rmtree(folder)))
-        sweep = ["sweep", "--discs", "5:48", "--seeds", "1000", "--events", "10000", "--out", folder]
 
         def vanish():
             while os.path.exists(folder):
                 shutil.rmtree(folder, ignore_errors=True)  # while it is being written to
 
+        run = ["run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.1",
+               "--checkpoint", folder + "/c"]
+        for more in ([], ["--trajectory", folder + "/t.h5"]):
+            os.mkdir(folder)
+            self.assertIn("No such file or directory", self.disturbed(run + more, vanish))
+        sweep = ["sweep", "--discs", "5:48", "--seeds", "1000", "--events", "10000", "--out", folder]
         self.assertIn("No such file or directory", self.disturbed(sweep, vanish))
 
     def test_a_folder_that_turns_read_only_is_an_error_and_no_crash(self):

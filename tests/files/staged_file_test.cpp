@@ -106,6 +106,25 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
         EXPECT_EQ(opened(journal.size(), copied), std::string(size, 'b')) << copied << " copied";
 }
 
+// Also where it is not the one who created it who writes first.
+TEST(StagedFile, IsEmptyUntilItsFirstCommitWhoeverOpensIt) {
+    const Scratch scratch;
+    const auto path = scratch / "f";
+    { StagedFile(path, Mode::create).commit(); }
+    for (const std::size_t size : {20'000u, 50'000u}) {
+        StagedFile file(path, Mode::change);
+        write_generation(file, 0, size);
+        EXPECT_EQ(std::filesystem::file_size(path), 0u);
+    }
+    EXPECT_EQ(content(path), "");
+    {
+        StagedFile file(path, Mode::change);
+        write_generation(file, 1, 20'000);
+        file.commit();
+    }
+    EXPECT_EQ(content(path), std::string(20'000, 'b'));
+}
+
 TEST(StagedFile, SurvivesKillsAtRandomMoments) {
     const Scratch scratch;
     const auto path = scratch / "f";
