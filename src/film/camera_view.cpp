@@ -63,23 +63,12 @@ std::vector<Preset> presets() {
     return {{"laboratory", laboratory}, {"telephone", telephone}, {"bad", bad}, {"steel", steel}};
 }
 
-std::array<double, 9> product(const std::array<double, 9>& a, const std::array<double, 9>& b) {
-    std::array<double, 9> c{};
+Rotation product(const Rotation& a, const Rotation& b) {
+    Rotation c{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
             for (std::size_t k = 0; k < 3; ++k) c[3 * i + j] += a[3 * i + k] * b[3 * k + j];
     return c;
-}
-
-/// Rodrigues' formula.
-std::array<double, 9> rotation_by(const std::array<double, 3>& w) {
-    const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    if (angle < 1e-12) return {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const double x = w[0] / angle, y = w[1] / angle, z = w[2] / angle;
-    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
-    return {c + d * x * x,     d * x * y - s * z, d * x * z + s * y,
-            d * x * y + s * z, c + d * y * y,     d * y * z - s * x,
-            d * x * z - s * y, d * y * z + s * x, c + d * z * z};
 }
 
 /// Nearly normal, with variance 1: the sum of four uniform numbers.

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "swirl/draw/canvas.hpp"
+#include "swirl/draw/rotation.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/physics/snapshot.hpp"
 
@@ -69,7 +70,6 @@ class CameraView {
     const std::array<double, 3>& turned(std::size_t i) const { return turned_[i]; }
 
   private:
-    using Rotation = std::array<double, 9>;
     struct Wave {
         std::array<double, 3> k;
         double phase;

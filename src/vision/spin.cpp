@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "swirl/draw/rotation.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/run/all_cores.hpp"
@@ -23,19 +24,7 @@ constexpr double seen_share = 0.75;  // of the radius: nearer to the limb textur
 constexpr double least_match = 0.5;
 constexpr double least_error = 0.2;  // of a centre, pixels: the film's own figure is a lower bound
 
-using Rotation = std::array<double, 9>;
 using Vector = std::array<double, 3>;
-
-/// Rodrigues' formula.
-Rotation rotation_by(const Vector& w) {
-    const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    if (angle < 1e-12) return {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const double x = w[0] / angle, y = w[1] / angle, z = w[2] / angle;
-    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
-    return {c + d * x * x,     d * x * y - s * z, d * x * z + s * y,
-            d * x * y + s * z, c + d * y * y,     d * y * z - s * x,
-            d * x * z - s * y, d * y * z + s * x, c + d * z * z};
-}
 
 Vector turned(const Rotation& r, const Vector& p) {
     return {r[0] * p[0] + r[1] * p[1] + r[2] * p[2], r[3] * p[0] + r[4] * p[1] + r[5] * p[2],
