@@ -47,7 +47,8 @@ class Dish {
     void settle() {
         if (found_) pass();
     }
-    /// Of each disc, by the paper's criterion, some frames ago; none in the first frames.
+    /// Of each disc, by the paper's criterion, some frames ago; none in the first frames, and none
+    /// where nothing is measured.
     bool is_pinned(std::size_t i) const {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.knows() && found.pinned()[i] != 0;
@@ -132,6 +133,8 @@ class Dish {
         found_ = true;
         while (rotation_times_.next(snapshot_, path_, event_.clock))
             rotation_now().sample_by_time(snapshot_);
+        // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
+        if (measured_.empty()) return;
         const bool watched = observes();
         while (observation_times_.next(snapshot_, path_, event_.clock)) {
             const Snapshot& now = observed();
