@@ -244,17 +244,8 @@ def page(folder, about, films, figures):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
-        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
-              "draws the figures and writes report.html from what `swirl experiment --out FOLDER` "
-              "left there", file=sys.stderr)
-        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
-    folder = sys.argv[1]
-    try:
-        with open(os.path.join(folder, "experiment.json"), encoding="utf-8") as file:
-            about = json.load(file)
-    except FileNotFoundError:
-        sys.exit(f"There is no '{folder}/experiment.json'; `swirl experiment` writes it.")
+    folder, about = report.described_folder("experiment.json", "swirl experiment",
+                                            "draws the figures and writes report.html")
     films = style.read(os.path.join(folder, "films.csv"))
     points = style.read(os.path.join(folder, "points.csv"))
     profiles = style.tables.read(os.path.join(folder, "profiles.csv"))

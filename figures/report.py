@@ -372,18 +372,22 @@ def write(path, text):
     os.replace(aside, path)
 
 
-def main():
+def described_folder(name, command, what):
+    """The folder that the call names, and what `command` wrote of itself there as NAME."""
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
-              "writes report.md and report.html from what `swirl paper --out FOLDER` left there",
-              file=sys.stderr)
+              f"{what} from what `{command} --out FOLDER` left there", file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     folder = sys.argv[1]
     try:
-        with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
-            about = json.load(file)
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            return folder, json.load(file)
     except FileNotFoundError:
-        sys.exit(f"There is no '{folder}/paper.json'; `swirl paper` writes it.")
+        sys.exit(f"There is no '{folder}/{name}'; `{command}` writes it.")
+
+
+def main():
+    folder, about = described_folder("paper.json", "swirl paper", "writes report.md and report.html")
     judged = judge(folder)
     write(os.path.join(folder, "report.md"), markdown(about, judged, crossings_of_one_setting(folder)))
     write(os.path.join(folder, "report.html"), page(folder, about, judged))

@@ -130,26 +130,21 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
     return std::make_unique<Recording>(std::move(series));
 }
 
-/// Without those that frames cannot tell: refused where they were asked for by name.
-std::vector<std::string> told_by_frames(const SnapshotSeries& series,
-                                        const std::vector<std::string>& names, bool all) {
-    std::vector<std::string> told;
+/// What frames cannot tell, where it was asked for by name.
+void refuse_untold(const std::vector<std::string>& names, bool tracked) {
     for (const std::string& name : names) {
         const MeasurementKind& kind = *find_measurement(name);
-        const bool untold = kind.needs_events || (kind.needs_tracks && !holds_tracks(series));
-        if (!untold) told.push_back(name);
-        if (!untold || all) continue;
         if (kind.needs_events)
             throw WrongCall(fmt::format(
                 "measure has '{}' in its list, which needs every collision, and frames do not hold "
                 "them; swirl.run(measure=\"{}\") can tell.",
                 name, name));
-        throw WrongCall(fmt::format(
-            "The discs are never the same for {} frames in a row, so '{}' cannot be told of them; "
-            "density, flow, profile, radial, temperature, order and packing can.",
-            PinnedLoose::width + 1, name));
+        if (kind.needs_tracks && !tracked)
+            throw WrongCall(fmt::format(
+                "The discs are never the same for {} frames in a row, so '{}' cannot be told of "
+                "them; density, flow, profile, radial, temperature, order and packing can.",
+                PinnedLoose::width + 1, name));
     }
-    return told;
 }
 
 py::tuple estimate_tuple(const Estimate& e) {
@@ -162,7 +157,9 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
         throw WrongCall(fmt::format("skip is {}, but it must be 0 or more swirls.", skip));
     if (recording.size() == 0) throw WrongCall("The recording holds no frames.");
     const SnapshotSeries& series = recording.series();
-    const auto told = told_by_frames(series, names, all);
+    const bool tracked = holds_tracks(series);
+    if (!all) refuse_untold(names, tracked);
+    const auto told = measurable(names, tracked);
     const Snapshot last = series.frame(series.frames - 1);
     if (last.time() < skip * last.period)
         throw WrongCall(fmt::format("skip {} leaves no frame.", skip));

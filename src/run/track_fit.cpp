@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "swirl/math/median.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/measure/dish_fit.hpp"
 #include "swirl/run/failure.hpp"
@@ -22,13 +23,6 @@ constexpr std::size_t many_frames = 50, many_discs = 8;
 // Worth a remark.
 constexpr double loose_fit = 0.15;       // radii
 constexpr double phase_tolerance = 3.0;  // degrees
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 template <class Holds>
 double share(const std::vector<double>& values, Holds holds) {

@@ -10,14 +10,6 @@ namespace swirl {
 
 namespace {
 
-/// Puts them in another order.
-double median_of(std::vector<double>& values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 inline float between_pixels(const cv::Mat& picture, float x, float y) {
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
@@ -68,7 +60,7 @@ void weigh(std::vector<RayEdge>& edges, std::vector<double>& sharpness) {
     constexpr double power = 0.6, most = 4.0;
     sharpness.clear();
     for (const RayEdge& e : edges) sharpness.push_back(e.weight);
-    const double middle = median_of(sharpness);
+    const double middle = median(sharpness);
     for (RayEdge& e : edges)
         e.weight = middle > 0.0 ? std::pow(std::min(e.weight / middle, most), power) : 1.0;
 }
@@ -105,8 +97,6 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
 
 }  // namespace
 
-double median(std::vector<double> values) { return median_of(values); }
-
 double onset(const std::vector<double>& values, double width) {
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -131,7 +121,7 @@ double gradient_noise(const cv::Mat& picture) {
         for (int column = 1; column + 1 < picture.cols; column += 3)
             slopes.push_back(std::abs(0.5 * double(p[column + 1] - p[column - 1])));
     }
-    return median_of(slopes) / 0.6745;
+    return median(slopes) / 0.6745;
 }
 
 std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
@@ -150,7 +140,7 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
     if (sample.empty()) return {};
     std::vector<double> copy = sample;
     // For noise of standard deviation σ in both derivatives the median length is 1.18 σ.
-    const double noise = median_of(copy) / 1.18;
+    const double noise = median(copy) / 1.18;
     const auto high = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() * 97 / 100);
     std::nth_element(sample.begin(), high, sample.end());
     const auto least = static_cast<float>(std::max({3.5 * noise, 0.12 * *high, 0.25}));
@@ -302,7 +292,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         {  // a start that half of the rays cannot move: the median of the distances
             sizes.clear();
             for (const RayEdge& e : edges) sizes.push_back(e.distance - fit.radius);
-            if (settings.free_radius) d[2] = median_of(sizes);
+            if (settings.free_radius) d[2] = median(sizes);
         }
         if (by_limb) weigh(edges, sizes);
         double scale = window;
@@ -326,7 +316,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse))
                 return by_limb ? steep : fit;
             for (int r = 0; r < 3; ++r) d[r] = x[r];
-            scale = std::max(1.4826 * median_of(sizes), 0.15);
+            scale = std::max(1.4826 * median(sizes), 0.15);
             scale = std::min(scale, window);
         }
         const double limit = 1.5 * settings.window;
@@ -349,7 +339,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         if (on > 0) fit.rest = fit_rest / double(on);
         fit.support = std::max(fit.support, double(on) / settings.rays);
         if (on < 6) return by_limb ? steep : fit;
-        fit.contrast = median_of(weights);
+        fit.contrast = median(weights);
         fit.residual = std::sqrt(square / double(on - 2));
         fit.error = fit.residual * std::sqrt(0.5 * (inverse[0] + inverse[1]));
         fit.good = true;

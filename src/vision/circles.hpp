@@ -18,14 +18,13 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "swirl/math/median.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/vision/limb.hpp"
 
 namespace swirl {
 
 inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
-/// The middle one, of two in the middle the larger; 0 of none.
-double median(std::vector<double> values);
 /// Where the values become dense, looked at with windows of twice this width.
 double onset(const std::vector<double>& values, double width);
 
