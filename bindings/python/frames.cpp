@@ -16,6 +16,7 @@ void Frames::begin(const Snapshot& s) {
     container_radius = s.container_radius;
     on_floor = s.on_floor;
     are_spheres = s.are_spheres();
+    lie_flat = s.lie_flat;
     radius = s.radius;
     mass = s.mass;
     inertia = s.inertia;
@@ -76,6 +77,7 @@ Snapshot Frames::frame(std::size_t k) const {
     s.period = period;
     s.container_radius = container_radius;
     s.on_floor = on_floor;
+    s.lie_flat = lie_flat;
     s.container_centre = {container_centre[2 * k], container_centre[2 * k + 1]};
     s.container_velocity = {container_velocity[2 * k], container_velocity[2 * k + 1]};
     if (are_spheres)

@@ -15,7 +15,7 @@ namespace swirl::python {
 struct Frames {
     std::size_t discs = 0;
     double period = 0.0, container_radius = 0.0;
-    bool on_floor = false, are_spheres = false;
+    bool on_floor = false, are_spheres = false, lie_flat = false;
     std::vector<double> radius, mass, inertia;  // [disc]
     std::vector<std::int64_t> swirls;           // [frame]
     std::vector<double> clock, time;

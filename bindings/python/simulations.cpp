@@ -75,8 +75,8 @@ py::tuple rotation_of(const Look& look) {
 /// Columns as bytes and back, for pickle: StateWriter's (files/state_archive.hpp).
 template <class Visitor>
 void visit_columns(Frames& f, Visitor&& visit) {
-    visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.radius, f.mass,
-          f.inertia, f.swirls, f.clock, f.time, f.container_centre, f.container_velocity,
+    visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,
+          f.mass, f.inertia, f.swirls, f.clock, f.time, f.container_centre, f.container_velocity,
           f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);
 }
 py::bytes bytes_of(const Frames& frames) {
@@ -619,10 +619,9 @@ std::unique_ptr<Dish> make_dish(const py::dict& parameters, const std::optional<
                                 const std::optional<Numbers>& path_times) {
     const RunConfig config = resolve(texts_of(parameters));
     const bool own = given || path;
-    if (own && config.body == Shape::sphere)
+    if (own && config.shape() != Shape::disc)
         throw WrongCall(
-            "body is sphere, but only discs can begin at places or follow a path of "
-            "one's own.");
+            "Only discs without a floor can begin at places or follow a path of one's own.");
     if (path_times && !path) throw WrongCall("path_times needs the path of which it is.");
     std::atomic<bool> stop = false;
     InitialState scene;

@@ -286,7 +286,8 @@ void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const SceneContent& content) {
     const Snapshot& now = content.now;
     const FrameAt at(now, view.frame);
-    const bool balls = style.orientation && !now.turned.empty() && !content.backdrop;
+    const bool balls =
+        style.orientation && now.are_balls() && !now.turned.empty() && !content.backdrop;
     const Quaternion frame = turn_by(0.0, 0.0, at.orientation(0.0));
     for (std::size_t i = 0; i < now.size(); ++i) {
         const double radius = view.pixels_per_unit * now.radius[i];

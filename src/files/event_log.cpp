@@ -78,6 +78,8 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
         file.create_group("/floor");
         file.write("/floor/velocity", velocity, {floor.velocity.size(), 2});
         file.set_attribute("/floor", "deceleration", floor.floor.deceleration);
+        if (floor.floor.bodies_lie_flat)
+            file.set_attribute("/floor", "lie_flat", std::vector<std::int64_t>{1});
     }
     file.create_group(parameters);
     for (const auto& [name, text] : provenance) file.write(parameters + "/" + name, text);
@@ -196,7 +198,8 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     if (spheres) {
         vertical_impulse_ = column("vertical_impulse");
         floor_.emplace();
-        floor_->floor.deceleration = file_->number_attribute("/floor", "deceleration");
+        floor_->floor = {file_->number_attribute("/floor", "deceleration"),
+                         file_->has_attribute("/floor", "lie_flat")};
         const auto velocity = file_->column("/floor/velocity").read<double>();
         for (std::size_t k = 0; k + 1 < velocity.size(); k += 2)
             floor_->velocity.push_back({velocity[k], velocity[k + 1]});
@@ -306,8 +309,8 @@ void Replay::apply(const Event& event) {
     if (event.kind == EventKind::path_vertex) return pass_vertex(event);
     if (event.kind == EventKind::begins_to_roll) {
         if (!floor_) return;
-        discs_.at(event.i) =
-            set_rolling(discs_[event.i], motions_[event.i], floor_->velocity.at(leg_));
+        discs_.at(event.i) = set_rolling(discs_[event.i], motions_[event.i], floor_->floor,
+                                         floor_->velocity.at(leg_));
         return let_fly(event.i);
     }
     const Vec2 tangent{event.normal.y, -event.normal.x};

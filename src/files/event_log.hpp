@@ -13,8 +13,8 @@
 //     tangential_impulse f64  on j along (normal_y, −normal_x)
 //     sticks     u8    1: the contact's slip was stopped, 0: it slid
 //   Of spheres besides: /initial/rolling_spin f64[N][2]; /events/vertical_impulse f64; /floor
-//                velocity f64[M][2] on each of the M legs of the path, attribute deceleration, μ_f
-//                g
+//                velocity f64[M][2] on each of the M legs of the path, attribute deceleration,
+//                μ_f g; of coins, which are written likewise, also the attribute lie_flat
 //   /parameters  attributes: period, swirl_end, container_radius, complete; texts: provenance
 //
 // Replaying. A disc moves uniformly between its events, from the state it got at its last one:

@@ -71,6 +71,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
         fixed_.resize_for_spheres(radius.size());
         fixed_.turned.resize(radius.size());
         fixed_.on_floor = file_->integers_attribute(parameters, "floor").at(0) == 1;
+        fixed_.lie_flat = file_->has_attribute(parameters, "lie_flat");
     }
     fixed_.resize(radius.size());
     fixed_.radius = radius;

@@ -18,7 +18,8 @@
 //       events (i64)                     events executed before the frame
 //       container_x, container_y, container_vx, container_vy
 //   /parameters                          attributes: period, container_radius, complete (0 or 1);
-//                                        of spheres floor (0 or 1);
+//                                        of spheres and coins floor (0 or 1); of coins
+//                                        lie_flat (1);
 //                                        texts: one dataset for each entry of the provenance
 //
 // Units: length = disc radius, mass = disc mass, speed of the container = 1. All columns float64,

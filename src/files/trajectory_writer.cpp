@@ -243,6 +243,7 @@ void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& 
     file.set_attribute(parameters, "container_radius", first.container_radius);
     if (first.are_spheres())
         file.set_attribute(parameters, "floor", std::vector<std::int64_t>{first.on_floor});
+    if (first.lie_flat) file.set_attribute(parameters, "lie_flat", std::vector<std::int64_t>{1});
 }
 
 // --- the file's side -----------------------------------------------------------------------------

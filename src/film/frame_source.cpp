@@ -140,7 +140,7 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
             if (stop && stop->load(std::memory_order_relaxed))
                 throw Interrupted("Stopped before the moment that was to be shown.");
         };
-        if (config.body == Shape::sphere) {
+        if (config.shape() != Shape::disc) {
             const auto spheres = std::make_shared<FollowedSpheres>(config, stop);
             refuse_stopped();
             return [spheres](double swirls) { return spheres->at(swirls); };

@@ -1,6 +1,6 @@
-// Spheres that roll and slide on the floor of the dish. (The paper's experiment has spheres; its
-// simulation has discs that nothing rubs from below.) The floor moves with the velocity u of the
-// container and does not turn.
+// Spheres that roll and slide on the floor of the dish, and coins that slide on it. (The paper's
+// experiment has spheres; its simulation has discs that nothing rubs from below.) The floor moves
+// with the velocity u of the container and does not turn.
 //
 //        ___            The sphere touches the floor at −R ẑ, where it slips at the rate
 //      /  ω  \              c = v − u + ω × (−R ẑ) = v − u − R ω × ẑ
@@ -18,6 +18,12 @@
 //     Δv = Δu / (1 + m R²/I), 2/7 Δu for a solid sphere.
 // ω_z is no business of the floor: a point has no lever.
 //
+// A coin is a disc that lies flat on the floor, which has no lever to turn it over. It slips at
+// c = v − u, so all is as above without the turning: dc/dt = −μ_f g ĉ, and it comes to rest on the
+// floor, v = u, after |c| / (μ_f g); that is the event at which a sphere begins to roll. Then
+// the floor takes it along, up to the end of the leg. What the floor does to the spin of a coin
+// (its rim rubs too, and hinders sliding less while it turns) is left out.
+//
 // Limits: one coefficient for sliding and sticking, no resistance to rolling, none to pivoting; a
 // floor that does not turn its velocity while somebody slides: polygons, not the exact circle.
 // Without a floor (μ_f g = 0) a sphere flies as a disc does.
@@ -29,8 +35,9 @@
 
 namespace swirl {
 
-/// What the engine's bodies are. A disc has one spin and no floor; a sphere has three.
-enum class Shape : unsigned char { disc, sphere };
+/// What the engine's bodies are. A disc has one spin and no floor; a sphere has three spins; a coin
+/// is a disc on a floor.
+enum class Shape : unsigned char { disc, sphere, coin };
 
 /// Moments of inertia of spheres.
 inline constexpr double solid_sphere_inertia(double mass, double radius) {
@@ -41,7 +48,8 @@ inline constexpr double shell_inertia(double mass, double radius) {
 }
 
 struct Floor {
-    double deceleration = 0.0;  // μ_f g, of a body that slides without turning; 0 is no floor
+    double deceleration = 0.0;     // μ_f g, of a body that slides without turning; 0 is no floor
+    bool bodies_lie_flat = false;  // coins
 };
 
 /// Uniformly accelerated motion, as Flight is uniform: the state held at `time`.
@@ -63,6 +71,7 @@ struct Parabola {
 /// What the floor does to a sphere until something else happens to it.
 struct FloorMotion {
     Vec2 acceleration{0.0, 0.0};
+    Vec2 spin_rate{0.0, 0.0};       // (dω_x/dt, dω_y/dt)
     double begins_to_roll = never;  // when it no longer slides; never, if it does not slide
 };
 
@@ -81,29 +90,32 @@ SWIRL_INLINE constexpr double slip_factor(double mass, double radius, double ine
     return 1.0 + mass * radius * radius / inertia;
 }
 
+/// (dω_x/dt, dω_y/dt).
+SWIRL_INLINE constexpr Vec2 rolling_spin_rate(const Vec2& acceleration, double mass, double radius,
+                                              double inertia) {
+    const double rate = mass * radius / inertia;
+    return {rate * acceleration.y, -(rate * acceleration.x)};
+}
+
 /// From the stored state alone.
 SWIRL_INLINE FloorMotion floor_motion(const Disc& d, const Floor& floor,
                                       const Vec2& floor_velocity) {
     if (floor.deceleration == 0.0) return {};
+    // A coin at rest on the floor has the spin of a sphere that rolls with it: none.
     const Vec2 rolls = spin_of_rolling(d.velocity - floor_velocity, d.radius);
     if (d.rolling_spin.x == rolls.x && d.rolling_spin.y == rolls.y) return {};
     const Vec2 c = slip_on_floor(d, floor_velocity);
     const double slip = square_root(dot(c, c));
     if (slip == 0.0) return {};
-    return {(-floor.deceleration / slip) * c,
+    const Vec2 a = (-floor.deceleration / slip) * c;
+    if (floor.bodies_lie_flat) return {a, {0.0, 0.0}, d.time + slip / floor.deceleration};
+    return {a, rolling_spin_rate(a, d.mass, d.radius, d.inertia),
             d.time + slip / (floor.deceleration * slip_factor(d.mass, d.radius, d.inertia))};
 }
 
 /// The sphere with its flight.
 SWIRL_INLINE constexpr Parabola<double> parabola(const Disc& d, const FloorMotion& motion) {
     return {d.position, d.velocity, motion.acceleration, d.time};
-}
-
-/// (dω_x/dt, dω_y/dt).
-SWIRL_INLINE constexpr Vec2 rolling_spin_rate(const Vec2& acceleration, double mass, double radius,
-                                              double inertia) {
-    const double rate = mass * radius / inertia;
-    return {rate * acceleration.y, -(rate * acceleration.x)};
 }
 
 /// The same sphere, brought up to date.
@@ -113,16 +125,16 @@ SWIRL_INLINE constexpr Disc moved_to(const Disc& d, const FloorMotion& motion, d
     after.position = parabola(d, motion).position_at(t);
     after.velocity = parabola(d, motion).velocity_at(t);
     after.angle = d.angle + elapsed * d.spin;
-    after.rolling_spin = d.rolling_spin + elapsed * rolling_spin_rate(motion.acceleration, d.mass,
-                                                                      d.radius, d.inertia);
+    after.rolling_spin = d.rolling_spin + elapsed * motion.spin_rate;
     after.time = t;
     return after;
 }
 
-/// The end of sliding, at its time: from now on it rolls, exactly.
+/// The end of sliding, at its time: from now on it rolls, or rests on the floor, exactly.
 SWIRL_INLINE constexpr Disc set_rolling(const Disc& d, const FloorMotion& motion,
-                                        const Vec2& floor_velocity) {
+                                        const Floor& floor, const Vec2& floor_velocity) {
     Disc after = moved_to(d, motion, motion.begins_to_roll);
+    if (floor.bodies_lie_flat) after.velocity = floor_velocity;
     after.rolling_spin = spin_of_rolling(after.velocity - floor_velocity, d.radius);
     return after;
 }

@@ -36,8 +36,11 @@ struct Snapshot {
     // begins with one for each sphere; else it is empty, and costs nothing.
     std::vector<Quaternion> turned;
     bool on_floor = false;  // it pushes, so that the centre of mass does not move uniformly
+    bool lie_flat = false;  // coins, which have the columns of spheres and no spin but one
 
+    /// Or coins.
     bool are_spheres() const { return !ax.empty(); }
+    bool are_balls() const { return are_spheres() && !lie_flat; }
     std::size_t size() const { return x.size(); }
     double time() const { return static_cast<double>(swirls) * period + clock; }
 
@@ -57,8 +60,12 @@ struct Snapshot {
     /// with nothing between.
     Quaternion quaternion(std::size_t i) const { return quaternion(i, clock); }
     Quaternion quaternion(std::size_t i, double t) const {
-        return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i],
-                          rolling_spin_rate({ax[i], ay[i]}, mass[i], radius[i], inertia[i]));
+        return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i], spin_rate(i));
+    }
+    /// (dω_x/dt, dω_y/dt) of a sphere.
+    Vec2 spin_rate(std::size_t i) const {
+        if (lie_flat) return {0.0, 0.0};
+        return rolling_spin_rate({ax[i], ay[i]}, mass[i], radius[i], inertia[i]);
     }
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
 
@@ -72,9 +79,10 @@ struct Snapshot {
     void up_to_date(Snapshot& now) const {
         now = *this;
         for (std::size_t i = 0; i < size(); ++i) {
-            const Vec2 a = are_spheres() ? Vec2{ax[i], ay[i]} : Vec2{0.0, 0.0};
             if (!turned.empty()) now.turned[i] = quaternion(i);
-            now.set(i, moved_to(disc(i), {a, never}, clock));
+            FloorMotion motion;
+            if (are_spheres()) motion = {{ax[i], ay[i]}, spin_rate(i), never};
+            now.set(i, moved_to(disc(i), motion, clock));
         }
     }
     Snapshot up_to_date() const {

@@ -76,8 +76,8 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
         c.discs, R, most, advice_on_room);
 }
 
-/// What spheres cannot do yet.
-std::optional<std::string> not_for_spheres(const RunConfig& c) {
+/// What is of spheres alone, and what nobody on a floor can do.
+std::optional<std::string> not_for_this_body(const RunConfig& c) {
     if (c.body == Shape::disc) {
         if (c.vertical_disc != 1.0)
             return fmt::format(
@@ -89,18 +89,11 @@ std::optional<std::string> not_for_spheres(const RunConfig& c) {
                 "--vertical-wall is {}, but discs do not slip vertically; --body sphere would be "
                 "right.",
                 c.vertical_wall);
-        if (!c.floor) return {};
-        return "--floor is sliding, but discs have no floor; --body sphere would be right, or "
-               "--floor none.";
     }
-    if (c.path == PathShape::circle)
-        return "--path is circle, but on it the friction of the floor would turn while a sphere "
+    if (c.path == PathShape::circle && c.shape() != Shape::disc)
+        return "--path is circle, but on it the friction of the floor would turn while a body "
                "slides, and its flight be no parabola; --path polygon would be right.";
-    if (c.discs <= static_cast<std::int64_t>(most_spheres)) return {};
-    return fmt::format(
-        "--discs is {}, but of spheres no more than {} can be simulated: all pairs of them are "
-        "looked at.",
-        c.discs, most_spheres);
+    return {};
 }
 
 std::optional<std::string> warmup_too_long(const RunConfig& c) {
@@ -127,7 +120,7 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto answer = out_of_range(config)) return answer;
     if (auto answer = out_of_proportion(config)) return answer;
     if (auto answer = does_not_fit(config)) return answer;
-    if (auto answer = not_for_spheres(config)) return answer;
+    if (auto answer = not_for_this_body(config)) return answer;
     return warmup_too_long(config);
 }
 
@@ -154,8 +147,8 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
         c.container_radius,
         {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_disc},
         {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_wall},
-        c.body,
-        {c.floor ? c.floor_friction * c.gravity : 0.0}};
+        c.shape(),
+        {c.floor ? c.floor_friction * c.gravity : 0.0, c.shape() == Shape::coin}};
 }
 
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {

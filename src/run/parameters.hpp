@@ -53,7 +53,7 @@ struct RunConfig {
     double mass = 1.0, radius = 1.0;
     double inertia = paper_inertia;  // of one disc, not divided by m r²
     Shape body = Shape::disc;
-    bool floor = false;  // that spheres slide and roll on
+    bool floor = false;  // that spheres slide and roll on, and coins slide
     double floor_friction = experiment_floor_friction, gravity = experiment_gravity;
     double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
     double container_radius = paper_container_radius;
@@ -78,6 +78,8 @@ struct RunConfig {
     std::uint64_t seed = 1;
 
     double omega() const { return 2.0 * pi / period; }
+    /// Discs on a floor are coins.
+    Shape shape() const { return body == Shape::disc && floor ? Shape::coin : body; }
 };
 
 /// From a random start, rotation and density forget their past within a few swirls when both
@@ -270,8 +272,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .highest = largest_value},
     {.name = "floor",
      .form = "none|sliding",
-     .description = "what spheres lie on: nothing that rubs, or a floor on which they slide and "
-                    "roll",
+     .description = "what they lie on: nothing that rubs, or a floor on which spheres slide and "
+                    "roll and discs (coins) slide",
      .group = parameter_group::discs,
      .read = read_floor,
      .write = write_floor,
@@ -280,7 +282,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "floor_friction",
      .symbol = "μ_f",
      .form = "NUMBER",
-     .description = "with --floor sliding: friction of spheres with the floor",
+     .description = "with --floor sliding: friction with the floor",
      .group = parameter_group::discs,
      .member = &RunConfig::floor_friction,
      .lowest = smallest_value,
@@ -292,7 +294,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "g",
      .unit = "length / time²",
      .form = "NUMBER",
-     .description = "with --floor sliding: what presses spheres on the floor",
+     .description = "with --floor sliding: what presses them on the floor",
      .group = parameter_group::discs,
      .member = &RunConfig::gravity,
      .lowest = smallest_value,

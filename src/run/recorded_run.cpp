@@ -105,7 +105,7 @@ class Recorder {
 
     RunResult operator()(RunControl control) {
         control.resume = std::move(resumed_);
-        control.orientations = !files_.trajectory.empty() && config_.body == Shape::sphere;
+        control.orientations = !files_.trajectory.empty() && config_.shape() != Shape::disc;
         Run run(config_, std::move(control));
         if (shorter_)
             if (const auto trouble = run.trouble_with_length(*shorter_))

@@ -85,7 +85,8 @@ std::string with_error(double mean, double error) {
 
 std::string sense_of_rotation(const Estimate& e) {
     if (std::isnan(e.mean)) return "have no rotation about their own centre";
-    const double uncertain = std::isnan(e.error) ? 0.0 : 2.0 * e.error;
+    constexpr double rounding = 1e-12;
+    const double uncertain = std::isnan(e.error) ? rounding : std::max(2.0 * e.error, rounding);
     if (std::fabs(e.mean) <= uncertain) return "stall";
     return e.mean > 0.0 ? "rotate" : "counterrotate";
 }
@@ -123,8 +124,9 @@ std::string report(const RunResult& r) {
                      with_commas(r.events.disc_wall), body, with_commas(r.events.path_vertex),
                      r.events.begins_to_roll == 0
                          ? ""
-                         : fmt::format(", {} times one begins to roll",
-                                       with_commas(r.events.begins_to_roll))));
+                         : fmt::format(", {} times one {}", with_commas(r.events.begins_to_roll),
+                                       r.config.shape() == Shape::coin ? "stops on the floor"
+                                                                       : "begins to roll")));
     line("periods",
          fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
                      r.warmup, r.config.warmup_found ? " (found automatically)" : ""));

@@ -51,7 +51,8 @@ class Reference {
     const Leg& leg() const { return state_.path.legs[leg_]; }
 
   private:
-    bool are_spheres() const { return state_.shape == Shape::sphere; }
+    /// Or coins.
+    bool are_spheres() const { return state_.shape != Shape::disc; }
     /// What the floor does to sphere i from now on.
     void note_motion(std::uint32_t i) {
         if (are_spheres()) motions_[i] = floor_motion(disc(i), state_.floor, leg().velocity);
@@ -139,7 +140,7 @@ class Reference {
     }
 
     Event begin_to_roll(std::uint32_t i) {
-        state_.discs[i] = set_rolling(disc(i), motions_[i], leg().velocity);
+        state_.discs[i] = set_rolling(disc(i), motions_[i], state_.floor, leg().velocity);
         note_motion(i);
         return {swirls_, disc(i).time, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
     }

@@ -135,11 +135,35 @@ struct Spheres {
     }
     SWIRL_INLINE static Event begin_to_roll(EngineState& state, std::uint32_t i, double t) {
         store(state, i,
-              set_rolling(load(state, i), state.spheres[i].motion, state.legs[state.leg].velocity));
+              set_rolling(load(state, i), state.spheres[i].motion, state.floor,
+                          state.legs[state.leg].velocity));
         ++state.begun_to_roll;
         return {state.swirls, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
     }
 };
+
+/// What a search is for: discs, unless it says otherwise.
+template <class Search>
+struct BodiesOf {
+    using Type = Discs;
+};
+template <class Search>
+requires requires { typename Search::Bodies; }
+struct BodiesOf<Search> {
+    using Type = typename Search::Bodies;
+};
+template <class Search>
+using Bodies = typename BodiesOf<Search>::Type;
+
+template <class Search>
+SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
+    return Bodies<Search>::have_floor && event.partner == the_floor;
+}
+/// Whether a pending event does, or was invalidated.
+template <class Search>
+SWIRL_INLINE bool happens(const EngineState& state, const PendingEvent& event) {
+    return is_of_floor<Search>(event) || state.is_valid(event);
+}
 
 /// Discs i < j meet at time t.
 template <class Bodies>

@@ -118,10 +118,17 @@ bool is_thin_gas(const InitialState& scene) {
            });
 }
 
-bool are_spheres(const InitialState& scene) { return scene.shape == Shape::sphere; }
+/// Or coins: what a floor may accelerate.
+bool are_spheres(const InitialState& scene) { return scene.shape != Shape::disc; }
 
 NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, const Tuning& tuning,
                                std::uint32_t few) {
+    if (are_spheres(scene)) {
+        const bool wanted = tuning.neighbours == NeighbourSearch::best ||
+                            tuning.neighbours == NeighbourSearch::all_pairs;
+        return wanted && scene.discs.size() <= SpheresSideBySide::most ? NeighbourSearch::all_pairs
+                                                                       : NeighbourSearch::cells;
+    }
     const bool few_enough = scene.discs.size() <= few;
     switch (tuning.neighbours) {
         case NeighbourSearch::all_pairs:
@@ -142,6 +149,15 @@ NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, co
 
 }  // namespace
 
+const EventLoop& loop_for(const InitialState& scene, NeighbourSearch neighbours,
+                          const EventLoops& loops) {
+    const std::size_t last = scene.discs.size() - 1;
+    const bool all_pairs = neighbours == NeighbourSearch::all_pairs;
+    if (are_spheres(scene)) return all_pairs ? loops.few_spheres[last / 16] : loops.many_spheres;
+    if (all_pairs) return loops.all_pairs[last / 8];
+    return neighbours == NeighbourSearch::cells ? loops.cells : loops.lists;
+}
+
 struct Simulation::Storage {
     const EventLoop* loop;
     std::vector<Leg> legs;
@@ -150,13 +166,13 @@ struct Simulation::Storage {
     EngineState state{};
 
     Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
-    void allocate(std::size_t size, NeighbourSearch neighbours);
+    void allocate(const InitialState& scene, NeighbourSearch neighbours);
     void lay_grids(const InitialState& scene, const Radii& radii, int cells_per_side);
     double lay_grid(Grid& grid, double least_width, double side);
     void lay_lists(const InitialState& scene, const Radii& radii);
     void lay_cells(const InitialState& scene);
     void place(const InitialState& scene);
-    void allocate_spheres(std::size_t size);
+    void lay_cells_of_spheres(const InitialState& scene, const Radii& radii);
     void place_spheres(const InitialState& scene);
 };
 
@@ -167,10 +183,7 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
     const NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
-    loop = are_spheres(scene)                         ? &loops.few_spheres[(state.size - 1) / 16]
-           : neighbours == NeighbourSearch::all_pairs ? &loops.all_pairs[(state.size - 1) / 8]
-           : neighbours == NeighbourSearch::cells     ? &loops.cells
-                                                      : &loops.lists;
+    loop = &loop_for(scene, neighbours, loops);
     state.legs = legs.data();
     state.leg_count = static_cast<std::uint32_t>(legs.size());
     state.leg = progress.leg;
@@ -194,21 +207,18 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
             ? list_capacity(smaller(radii.largest / radii.smallest, ratio_without_tail))
             : 0;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
-    state.prefetches = state.size > 4000;
-    if (are_spheres(scene)) {
-        allocate_spheres(scene.discs.size());
-        place(scene);
-        place_spheres(scene);
-        loop->start(state);
-        return;
-    }
-    allocate(scene.discs.size(), neighbours);
+    state.prefetches = state.size > 4000 && !are_spheres(scene);
+    allocate(scene, neighbours);
     place(scene);
-    if (neighbours == NeighbourSearch::lists) {
+    if (are_spheres(scene)) {
+        place_spheres(scene);
+        if (neighbours == NeighbourSearch::cells) lay_cells_of_spheres(scene, radii);
+    } else if (neighbours == NeighbourSearch::lists) {
         lay_grids(scene, radii, tuning.cells_per_side);
         lay_lists(scene, radii);
+    } else if (neighbours == NeighbourSearch::cells) {
+        lay_cells(scene);
     }
-    if (neighbours == NeighbourSearch::cells) lay_cells(scene);
     if (tuning.is_stopped) {
         state.caller = &tuning.is_stopped;
         state.is_stopped = [](const void* caller) {
@@ -219,11 +229,16 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.is_stopped = nullptr;
 }
 
-void Simulation::Storage::allocate(std::size_t size, NeighbourSearch neighbours) {
+void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch neighbours) {
+    const std::size_t size = scene.discs.size();
     state.discs = memory.add<HotDisc>(size + 1);
     state.cold_discs = memory.add<unsigned char>((size + 1) * state.cold_bytes);
+    if (are_spheres(scene)) state.spheres = memory.add<SphereState>(size);
     if (neighbours == NeighbourSearch::all_pairs) {
-        state.side_by_side = memory.add<SideBySide>(1);
+        if (are_spheres(scene))
+            state.spheres_side_by_side = memory.add<SpheresSideBySide>(1);
+        else
+            state.side_by_side = memory.add<SideBySide>(1);
         return;
     }
     state.skins = memory.add<Skin>(size);
@@ -351,6 +366,15 @@ void Simulation::Storage::lay_cells(const InitialState& scene) {
         memory.add<Cell>(static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side);
 }
 
+/// Three spheres' worth of area on average, no narrower than one of them (many_spheres.hpp).
+void Simulation::Storage::lay_cells_of_spheres(const InitialState& scene, const Radii& radii) {
+    const double R = scene.container_radius;
+    state.cell_origin = -R;
+    state.grid_count = 1;
+    lay_grid(state.grids[0],
+             larger(2.0 * radii.largest, square_root(3.0 * pi * R * R / state.size)), 2.0 * R);
+}
+
 void Simulation::Storage::place(const InitialState& scene) {
     std::map<std::array<double, 3>, std::uint32_t> rows;
     for (std::uint32_t i = 0; i < state.size; ++i) {
@@ -377,13 +401,6 @@ void Simulation::Storage::place(const InitialState& scene) {
     }
 }
 
-void Simulation::Storage::allocate_spheres(std::size_t size) {
-    state.discs = memory.add<HotDisc>(size + 1);
-    state.cold_discs = memory.add<unsigned char>((size + 1) * state.cold_bytes);
-    state.spheres = memory.add<SphereState>(size);
-    state.spheres_side_by_side = memory.add<SpheresSideBySide>(1);
-}
-
 void Simulation::Storage::place_spheres(const InitialState& scene) {
     const Vec2 floor_velocity = legs[state.leg].velocity;
     for (std::uint32_t i = 0; i < state.size; ++i) {
@@ -391,6 +408,7 @@ void Simulation::Storage::place_spheres(const InitialState& scene) {
         state.spheres[i] = {floor_motion(d, scene.floor, floor_velocity), d.rolling_spin,
                             d.last_collision};
     }
+    if (state.spheres_side_by_side == nullptr) return;
     SpheresSideBySide& all = *state.spheres_side_by_side;
     for (std::uint32_t k = 0; k < SpheresSideBySide::most; ++k) {
         all.x[k] = all.y[k] = all.X[k] = all.Y[k] = std::numeric_limits<double>::quiet_NaN();
@@ -469,6 +487,7 @@ Snapshot Simulation::snapshot() const {
     else
         s.resize(size());
     s.on_floor = state.spheres != nullptr && state.floor.deceleration != 0.0;
+    s.lie_flat = state.floor.bodies_lie_flat;
     s.period = state.period;
     s.container_radius = state.container_radius;
     for (std::size_t i = 0; i < s.size(); ++i) {

@@ -32,7 +32,7 @@ struct Progress {
 };
 
 /// How the discs are found that a disc may meet: all of them; those on its list; those in its cell
-/// and in the cells around. `best` is what is fastest for the scene.
+/// and in the cells around. `best` is what is fastest for the scene. Spheres have no lists.
 enum class NeighbourSearch : std::uint8_t { best, all_pairs, lists, cells };
 
 /// Changes the speed, never a bit.
@@ -41,7 +41,7 @@ struct Tuning {
     int cells_per_side = 0;
     Width width = Width::best;
     /// A search that the scene does not allow (all pairs for many, cells for very unequal discs or
-    /// on a turning path) gives way to lists.
+    /// on a turning path) gives way to lists; of spheres, to cells.
     NeighbourSearch neighbours = NeighbourSearch::best;
     /// Asked now and then while a simulation is made, which takes seconds where there are millions
     /// of discs. Once it has said yes, the simulation knows where its discs are and no more: no
@@ -59,12 +59,9 @@ struct LoopCounts {
     const char* width = "";
 };
 
-/// All pairs of spheres are looked at; there are no lists of theirs yet.
-inline constexpr std::size_t most_spheres = 64;
-
 class Simulation {
   public:
-    /// Of spheres no more than `most_spheres`, and on a polygon.
+    /// Spheres on a polygon only.
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "swirl/files/table.hpp"
@@ -33,13 +34,13 @@ double median(std::vector<double> values) {
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-enum class Kind { dish, gas, large_dish };
+enum class Kind { dish, gas, large_dish, spheres };
 
 struct BenchScene {
     const char* name;
     Kind kind;
     std::int64_t discs;
-    double packing;  // of the gas and the large dish
+    double packing;  // of what is not in the paper's dish
     std::optional<double> target, ratio_target;
     bool plain;
     bool only_full;
@@ -48,7 +49,12 @@ struct BenchScene {
 // The paper's dish at N = 48: 48 / 8.6².
 constexpr double paper_packing = 48.0 / (paper_container_radius * paper_container_radius);
 
+// The experiment's at N = 48.
+constexpr double spheres_packing =
+    48.0 / (experiment_container_radius * experiment_container_radius);
+
 constexpr const char* dense_gas = "gas, packing 0.7";
+constexpr const char* spheres = "spheres, mu = 0.2";
 
 const std::vector<BenchScene>& bench_scenes() {
     static const std::vector<BenchScene> all = {
@@ -61,6 +67,9 @@ const std::vector<BenchScene>& bench_scenes() {
         {dense_gas, Kind::gas, 1000000, 0.70, 2e6, {}, false, true},
         {"gas, packing 0.2", Kind::gas, 1000, 0.20, 2.5e6, {}, true, false},
         {"large dish, mu = 1", Kind::large_dish, 100000, paper_packing, 1.5e6, {}, false, false},
+        {spheres, Kind::spheres, 48, spheres_packing, 1.5e6, 10.0, true, false},
+        {spheres, Kind::spheres, 500, spheres_packing, {}, {}, true, false},
+        {spheres, Kind::spheres, 100000, spheres_packing, {}, {}, false, true},
     };
     return all;
 }
@@ -71,11 +80,19 @@ void check(const std::atomic<bool>* stop) {
 
 InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     const auto n = static_cast<double>(scene.discs);
-    const double mu = scene.kind == Kind::gas ? 0.0 : 1.0;
+    const bool rolls = scene.kind == Kind::spheres;
+    const double mu = scene.kind == Kind::gas ? 0.0 : rolls ? experiment_friction : 1.0;
     InitialState initial{{}, {}, 0.0, {mu}, {mu}};
     initial.path = scene.kind == Kind::gas
                        ? still_path(10.0)
                        : polygon_path(paper_amplitude, paper_period, paper_sides);
+    if (rolls) {
+        initial.path = polygon_path(experiment_amplitude, experiment_period, paper_sides);
+        for (Surface* surface : {&initial.disc_surface, &initial.wall_surface})
+            *surface = {mu, experiment_restitution, 0.0, RunConfig{}.contact_duration};
+        initial.shape = Shape::sphere;
+        initial.floor.deceleration = experiment_floor_friction * experiment_gravity;
+    }
     initial.container_radius =
         scene.kind == Kind::dish ? paper_container_radius : square_root(n / scene.packing);
     const std::vector<double> radii(static_cast<std::size_t>(scene.discs), 1.0);
@@ -88,13 +105,16 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     const double speed = scene.kind == Kind::gas ? 1.0 : 0.1;
     for (const Vec2& centre : *centres)
         initial.discs.push_back({leg.start + centre, leg.velocity + random.in_disc(speed), 0.0, 0.0,
-                                 0.0, 1.0, 1.0, paper_inertia});
+                                 0.0, 1.0, 1.0,
+                                 rolls ? solid_sphere_inertia(1.0, 1.0) : paper_inertia});
     return initial;
 }
 
 /// How many events until the start is forgotten: ten collisions a disc, or a few swirls.
 std::uint64_t settling(const BenchScene& scene) {
     if (scene.kind == Kind::dish) return scene.discs < 10 ? 5000 : 100000;
+    if (scene.kind == Kind::spheres)
+        return static_cast<std::uint64_t>((scene.discs > 1000 ? 20 : 1000) * scene.discs);
     return static_cast<std::uint64_t>(5 * scene.discs);
 }
 
@@ -114,7 +134,7 @@ double rate_over(double seconds, const Run& run, const Count& count) {
 /// The plain loop with vectors of one width.
 struct PlainRunner {
     std::string name;  // of the width
-    PlainLoop loop;
+    std::function<Event()> step;
     bool collisions_only;
     int batch;  // events between two looks at the clock
     double events = 0.0;
@@ -123,7 +143,7 @@ struct PlainRunner {
     void take_a_turn(double seconds) {
         const auto run = [this] {
             for (int k = 0; k < batch; ++k) {
-                const bool vertex = loop.step().kind == EventKind::path_vertex;
+                const bool vertex = step().kind == EventKind::path_vertex;
                 events += vertex && collisions_only ? 0.0 : 1.0;
             }
         };
@@ -140,12 +160,17 @@ std::vector<PlainRunner> plain_runners(const InitialState& initial, Simulation& 
     while (last.kind != EventKind::path_vertex || engine.progress().leg != 0) last = engine.step();
     InitialState settled = initial;
     for (std::size_t i = 0; i < settled.discs.size(); ++i) settled.discs[i] = engine.disc(i);
+    const int batch = scene.discs > 100 ? 1 : 500;
+    if (scene.kind == Kind::spheres)
+        return {{"scalar", [loop = Reference(settled)]() mutable { return loop.step(); }, false,
+                 batch}};
     std::vector<PlainRunner> runners;
     for (const auto& [name, width] :
          {std::pair{"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}})
         if (has_width(width))
-            runners.push_back({name, PlainLoop(settled, width), scene.kind == Kind::gas,
-                               scene.discs > 100 ? 1 : 500});
+            runners.push_back({name,
+                               [loop = PlainLoop(settled, width)]() mutable { return loop.step(); },
+                               scene.kind == Kind::gas, batch});
     return runners;
 }
 

@@ -69,12 +69,12 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
     expect_same_discs(replay.discs(), simulation);
 }
 
-TEST(EventLog, ReplaysSpheresOnAFloorAndWithoutOneBitForBit) {
-    for (const double deceleration : {1.92, 0.0}) {
+TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
+    for (const Floor floor : {Floor{1.92}, Floor{0.0}, Floor{1.92, true}}) {
         const Scratch scratch;
         InitialState scene = mixed_dish();
-        scene.shape = Shape::sphere;
-        scene.floor.deceleration = deceleration;
+        scene.shape = floor.bodies_lie_flat ? Shape::coin : Shape::sphere;
+        scene.floor = floor;
         scene.disc_surface.restitution = scene.wall_surface.restitution = 0.9;
         scene.disc_surface.contact_duration = scene.wall_surface.contact_duration = 1e-3;
         Simulation simulation(scene);
@@ -89,7 +89,7 @@ TEST(EventLog, ReplaysSpheresOnAFloorAndWithoutOneBitForBit) {
         EventLogReader log(scratch / "events.h5");
         Replay replay(log.initial(), log.swirl_end(), log.floor());
         for (const Event& event : log.read(0, 20'000)) replay.apply(event);
-        EXPECT_EQ(simulation.events().begins_to_roll > 0, deceleration > 0.0);
+        EXPECT_EQ(simulation.events().begins_to_roll > 0, floor.deceleration > 0.0);
         expect_same_discs(replay.discs(), simulation);
     }
 }

@@ -23,7 +23,7 @@ Disc rolling_sphere(const Vec2& velocity) {
 /// Slides until it rolls.
 Disc settled(const Disc& d, const Floor& floor, const Vec2& u = {0.0, 0.0}) {
     const FloorMotion motion = floor_motion(d, floor, u);
-    return motion.begins_to_roll == never ? d : set_rolling(d, motion, u);
+    return motion.begins_to_roll == never ? d : set_rolling(d, motion, floor, u);
 }
 
 Disc draw_sphere() {
@@ -35,9 +35,10 @@ Disc draw_sphere() {
 TEST(Floor, ASphereSetSlidingRollsAtFiveSeventhsOfItsSpeed) {
     const double v = 1.4, deceleration = 0.3;
     const Disc start = sphere({v, 0.0});
-    const FloorMotion motion = floor_motion(start, {deceleration}, {0.0, 0.0});
+    const Floor floor{deceleration};
+    const FloorMotion motion = floor_motion(start, floor, {0.0, 0.0});
     EXPECT_NEAR(motion.begins_to_roll, 2.0 * v / (7.0 * deceleration), rounding);
-    const Disc rolls = set_rolling(start, motion, {0.0, 0.0});
+    const Disc rolls = set_rolling(start, motion, floor, {0.0, 0.0});
     EXPECT_NEAR(rolls.velocity.x, 5.0 / 7.0 * v, rounding);
     EXPECT_NEAR(rolls.position.x, 12.0 * v * v / (49.0 * deceleration), rounding);
     EXPECT_NEAR(rolls.rolling_spin.y, 5.0 / 7.0 * v, rounding);
@@ -108,14 +109,35 @@ RC_GTEST_PROP(Floor, FrictionActsAgainstTheSlipAndStopsItInTime, ()) {
                        floor.deceleration) < 1e-12);
 }
 
+// A coin stops as a block does that slides on a table: after v/(μ_f g), v²/(2 μ_f g) further on.
+TEST(Floor, ACoinSetSlidingStopsOnTheFloorAndKeepsItsSpin) {
+    const double v = 1.4, deceleration = 0.3;
+    const Vec2 u{0.25, -0.5};
+    Disc start = sphere({u.x + v, u.y});
+    start.spin = 0.7;
+    const Floor floor{deceleration, true};
+    const FloorMotion motion = floor_motion(start, floor, u);
+    EXPECT_NEAR(motion.begins_to_roll, v / deceleration, rounding);
+    const Disc rests = set_rolling(start, motion, floor, u);
+    EXPECT_EQ(rests.velocity.x, u.x);
+    EXPECT_EQ(rests.velocity.y, u.y);
+    EXPECT_EQ(rests.spin, 0.7);
+    EXPECT_EQ(dot(rests.rolling_spin, rests.rolling_spin), 0.0);
+    const double time = motion.begins_to_roll;
+    EXPECT_NEAR(rests.position.x, u.x * time + v * v / (2.0 * deceleration), 20.0 * rounding);
+    EXPECT_NEAR(rests.position.y, u.y * time, 20.0 * rounding);
+    EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
+}
+
 // The force acts along a line through the point on the floor, so the angular momentum about a line
 // on the floor along it is untouched: m R v + I ω for both directions.
 RC_GTEST_PROP(Floor, AngularMomentumAboutTheLineOfFloorContactIsConserved, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
-    const FloorMotion motion = floor_motion(d, {draw(0.01, 3.0)}, u);
+    const Floor floor{draw(0.01, 3.0)};
+    const FloorMotion motion = floor_motion(d, floor, u);
     RC_PRE(motion.begins_to_roll != never);
-    const Disc rolls = set_rolling(d, motion, u);
+    const Disc rolls = set_rolling(d, motion, floor, u);
     const auto about_floor = [](const Disc& s) {
         return Vec2{s.mass * s.radius * s.velocity.x + s.inertia * s.rolling_spin.y,
                     s.mass * s.radius * s.velocity.y - s.inertia * s.rolling_spin.x};
@@ -139,7 +161,7 @@ RC_GTEST_PROP(Floor, EnergyFallsInTheFrameOfTheFloorByTheWorkOfTheSlip, ()) {
     const Vec2 c = slip_on_floor(d, u);
     const double way = 0.5 * std::hypot(c.x, c.y) * (motion.begins_to_roll - d.time);
     const double loss = d.mass * floor.deceleration * way;
-    RC_ASSERT(std::abs(energy(d) - energy(set_rolling(d, motion, u)) - loss) <
+    RC_ASSERT(std::abs(energy(d) - energy(set_rolling(d, motion, floor, u)) - loss) <
               1e-12 * (1.0 + energy(d)));
 }
 

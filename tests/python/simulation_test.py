@@ -226,7 +226,7 @@ two = [[1.0, 0.0], [4.0, 0.0]]
     (dict(position=two, inertia=[1, 0]), "inertia is 0 of a disc"),
     (dict(position=two, discs=2), "discs is given, but the discs are those of position"),
     (dict(velocity=two), "velocity is given for each disc, but not their position"),
-    (dict(position=two, body="sphere"), "body is sphere"),
+    (dict(position=two, body="sphere"), "Only discs without a floor"),
     (dict(path=[[0, 0]]), "needs two"), (dict(path=[[1, 1], [1, 1]]), "the same point"),
     (dict(path=[[0, 0], [1, 0], [1, 0]]), "no two vertices be the same"),
     (dict(path=two, path_times=[0, 20]), "times must ascend"),

@@ -174,10 +174,11 @@ TEST(RunParameters, ThePresetIsTheExperimentAndWhatIsGivenBesidesWins) {
               config_json(resolve({{"preset", "experiment"}, {"events", "1e6"}})));
 }
 TEST(RunParameters, WhatSpheresCannotDoIsRefused) {
-    EXPECT_THAT(refusal({{"floor", "sliding"}}), testing::HasSubstr("--body sphere"));
+    EXPECT_THAT(refusal({{"floor", "sliding"}, {"path", "circle"}}),
+                testing::HasSubstr("parabola"));
+    EXPECT_THAT(refusal({{"floor", "sliding"}, {"vertical_disc", "0"}}),
+                testing::HasSubstr("do not slip vertically"));
     EXPECT_THAT(refusal({{"body", "sphere"}, {"path", "circle"}}), testing::HasSubstr("parabola"));
-    EXPECT_THAT(refusal({{"body", "sphere"}, {"discs", "65"}, {"container_radius", "20"}}),
-                testing::HasSubstr("no more than 64"));
     EXPECT_THAT(refusal({{"body", "sphere"}, {"floor", "rough"}}), testing::HasSubstr("limit"));
 }
 

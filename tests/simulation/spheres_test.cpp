@@ -18,6 +18,26 @@ InitialState sphere_dish(std::size_t n, double deceleration = 1.92, double mu = 
     scene.floor.deceleration = deceleration;
     return scene;
 }
+/// The same of discs that lie flat on the floor.
+InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
+    InitialState scene = sphere_dish(n, deceleration);
+    for (Disc& d : scene.discs) d.inertia = solid_inertia(d.mass, d.radius);
+    scene.shape = Shape::coin;
+    scene.floor.bodies_lie_flat = true;
+    return scene;
+}
+/// More than are looked at in pairs, as dense as the paper's 48, or thin.
+InitialState many_spheres(std::size_t n, double packing, double deceleration) {
+    const double R = std::sqrt(static_cast<double>(n) / packing),
+                 scale = R / paper_container_radius;
+    InitialState scene = state_of(
+        {unit_disc(solid_sphere_inertia(1.0, 1.0)), {{0, 0}, {0, 0}, 0, 0, 0, 0.8, 0.5, 0.128}}, n,
+        R, polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides), 0.2, 0.3);
+    scene.disc_surface = scene.wall_surface = {0.2, 0.9, 0.0, 1e-3};
+    scene.shape = Shape::sphere;
+    scene.floor.deceleration = deceleration;
+    return scene;
+}
 /// Three kinds of sphere, solid and hollow.
 InitialState sphere_mixture() {
     InitialState scene = mixture_dish(30);
@@ -45,6 +65,21 @@ TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitOnAllFloors) {
     for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
         expect_same_trajectory(sphere_dish(28, deceleration), 4000, {0, GetParam()});
+}
+TEST_P(SpheresInEveryWidth, TheSearchThroughCellsIsTheReferenceBitForBit) {
+    for (const std::size_t n : {1u, 2u, 5u, 28u, 55u})
+        expect_same_trajectory(sphere_dish(n), 3000, {0, GetParam(), NeighbourSearch::cells});
+    expect_same_trajectory(sphere_mixture(), 5000, {0, GetParam(), NeighbourSearch::cells});
+    expect_same_trajectory(sphere_dish(28, 0.0), 3000, {0, GetParam(), NeighbourSearch::cells});
+    for (const double packing : {0.6, 0.1})
+        for (const double deceleration : {0.0, 0.5})
+            expect_same_trajectory(many_spheres(90, packing, deceleration), 2000, {0, GetParam()});
+}
+TEST_P(SpheresInEveryWidth, CoinsAreTheReferenceBitForBit) {
+    for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
+        for (const double deceleration : {0.1, 1.92})
+            for (const std::size_t n : {1u, 5u, 48u})
+                expect_same_trajectory(coin_dish(n, deceleration), 3000, {0, GetParam(), search});
 }
 INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth, every_width(), width_name);
 TEST(Spheres, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
@@ -111,6 +146,41 @@ TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
         EXPECT_EQ(dated.held_at[i], dated.clock);
         EXPECT_EQ(dated.position(i).x, fresh.position(i).x);
         EXPECT_EQ(dated.vx[i], fresh.velocity(i).x);
+    }
+}
+
+// The two searches, where the reference would take too long.
+TEST(Spheres, CellsAndAllPairsAgreeBitForBitOverManySwirls) {
+    for (const InitialState& scene : {sphere_dish(48), coin_dish(48), sphere_dish(40, 0.05)}) {
+        Simulation pairs(scene), cells(scene, {}, {0, Width::best, NeighbourSearch::cells});
+        pairs.run(200000);
+        cells.run(200000);
+        EXPECT_EQ(pairs.state_hash(), cells.state_hash());
+    }
+}
+TEST(Spheres, ManyResumedInTheMiddleOfALegContinueBitForBit) {
+    const InitialState scene = many_spheres(300, 0.7, 1.0);
+    Simulation whole(scene), first(scene);
+    whole.run(30000);
+    first.run(12345);
+    InitialState saved = scene;
+    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
+    Simulation resumed(saved, first.progress());
+    resumed.run(30000 - 12345);
+    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
+// A coin that never meets the wall is soon at rest on the floor, leg after leg.
+TEST(Spheres, ACoinThatNeverMeetsTheWallGoesWithTheFloor) {
+    InitialState scene = coin_dish(1);
+    scene.discs[0].position = scene.path.legs[0].start;
+    scene.discs[0].velocity = scene.path.legs[0].velocity;
+    Simulation simulation(scene);
+    for (std::size_t k = 1; k < 15; ++k) {
+        ASSERT_EQ(simulation.step().kind, EventKind::path_vertex);
+        ASSERT_EQ(simulation.step().kind, EventKind::begins_to_roll);
+        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.legs[k].velocity.x);
+        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.legs[k].velocity.y);
     }
 }
 

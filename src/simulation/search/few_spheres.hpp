@@ -14,54 +14,24 @@
 // are taken longer than they are by far more than rounding, so that it does not matter how they
 // were computed.
 //
-// Of eight contacts at once it is told which do not happen, or happen between equally accelerated
-// spheres; the few that are left, mostly one or two, are quartics and solved one by one
-// (contact_time.hpp).
-//
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
 #pragma once
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/contact_time.hpp"
-#include "swirl/simulation/internal_check.hpp"
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/resolve.hpp"
 #include "swirl/simulation/search/all_pairs.hpp"
 #include "swirl/simulation/search/prediction.hpp"
+#include "swirl/simulation/search/sphere_meetings.hpp"
 #include "swirl/simulation/search/state.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace few_spheres {
 
-using all_pairs::Eight, all_pairs::set;
-
-/// Eight of those who may be met, one behind the other.
-struct alignas(64) EightOthers {
-    double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], radius[8], rolls[8];
-
-    SWIRL_INLINE Parabola<Eight> flight() const {
-        return {{Eight::load(x), Eight::load(y)},
-                {Eight::load(vx), Eight::load(vy)},
-                {Eight::load(ax), Eight::load(ay)},
-                Eight::load(time)};
-    }
-    SWIRL_INLINE void put(int lane, const SpheresSideBySide& all, std::uint32_t k) {
-        x[lane] = all.x[k];
-        y[lane] = all.y[k];
-        vx[lane] = all.vx[k];
-        vy[lane] = all.vy[k];
-        ax[lane] = all.ax[k];
-        ay[lane] = all.ay[k];
-        time[lane] = all.time[k];
-        radius[lane] = all.radius[k];
-        rolls[lane] = all.rolls[k];
-    }
-};
-SWIRL_INLINE Parabola<Eight> eight_times(const Parabola<double>& p) {
-    return {in_lanes<8>(p.position), in_lanes<8>(p.velocity), in_lanes<8>(p.acceleration),
-            Eight(p.time)};
-}
+using all_pairs::set;
+using spheres::Eight, spheres::EightOthers, spheres::EightTimes, spheres::earlier_meeting;
 
 /// Columns that are loaded by eights are stored by eights too (set): a wide load right behind a
 /// narrow store waits for it. The others are not.
@@ -92,19 +62,6 @@ SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     set(all.reach, i, way * 1.000001 + 0x1p-30 * state.container_radius);
 }
 
-SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i) {
-    return state.spheres[i].motion.begins_to_roll;
-}
-
-/// When spheres i and k meet, of whom no more is known than that it takes the quartic.
-[[gnu::noinline]] static double meeting_by_quartic(const EngineState& state, std::uint32_t i,
-                                                   std::uint32_t k) {
-    const Encounter<double> e(Spheres::flight(state, i), Spheres::flight(state, k),
-                              begins_to_roll_at(state, i), begins_to_roll_at(state, k),
-                              state.discs[i].radius + state.discs[k].radius);
-    return e.now + contact_on_parabolas(e.s, e.v, e.g, e.sum_of_radii, e.horizon);
-}
-
 /// Bit k is set if sphere k may be met.
 template <int G>
 SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t i) {
@@ -121,46 +78,42 @@ SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t 
     return lanes_equal(beyond, 0.0) & everybody & ~(std::uint64_t{1} << i);
 }
 
-/// Whom sphere i meets first. Says when.
+SWIRL_INLINE void put(EightOthers& others, int lane, const SpheresSideBySide& all,
+                      std::uint32_t k) {
+    others.x[lane] = all.x[k];
+    others.y[lane] = all.y[k];
+    others.vx[lane] = all.vx[k];
+    others.vy[lane] = all.vy[k];
+    others.ax[lane] = all.ax[k];
+    others.ay[lane] = all.ay[k];
+    others.time[lane] = all.time[k];
+    others.radius[lane] = all.radius[k];
+    others.rolls[lane] = all.rolls[k];
+    others.who[lane] = k;
+}
+
+/// Whom sphere i meets first. Says when. (Not inlined, here and below: a call is nothing beside it,
+/// and the loops are compiled in a third of the time.)
 template <int G>
-SWIRL_INLINE double predict_meeting(EngineState& state, std::uint32_t i) {
+[[gnu::noinline]] static double predict_meeting(EngineState& state, std::uint32_t i) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
-    const Parabola<Eight> mine = eight_times(Spheres::flight(state, i));
-    const Eight rolls(begins_to_roll_at(state, i)), radius(state.discs[i].radius);
+    const EightTimes mine(state, i);
     PendingEvent first{never, i, 0};
     for (std::uint64_t left = within_reach<G>(state, i); left != 0;) {
         EightOthers others;
-        std::uint32_t who[8];
         int count = 0;
-        for (; left != 0 && count < 8; left &= left - 1, ++count) {
-            who[count] = static_cast<std::uint32_t>(__builtin_ctzll(left));
-            others.put(count, all, who[count]);
-        }
-        for (int lane = count; lane < 8; ++lane) others.put(lane, all, who[0]);
-        const Encounter<Eight> e(mine, others.flight(), rolls, Eight::load(others.rolls),
-                                 radius + Eight::load(others.radius));
-        const Eight wait = e.wait_or_quartic();
-        alignas(64) double times[8];
-        (e.now + wait).store(times);
-        for (unsigned open = lanes_equal(wait, ask_the_quartic); open != 0; open &= open - 1) {
-            const int lane = __builtin_ctz(open);
-            if (lane < count) times[lane] = meeting_by_quartic(state, i, who[lane]);
-        }
-        // The others come in the order of their numbers, and the first of those at once counts.
-        for (int lane = 0; lane < count; ++lane)
-            if (times[lane] < first.time) first = {times[lane], i, who[lane]};
+        for (; left != 0 && count < 8; left &= left - 1, ++count)
+            put(others, count, all, static_cast<std::uint32_t>(__builtin_ctzll(left)));
+        for (int lane = count; lane < 8; ++lane) put(others, lane, all, others.who[0]);
+        first = earlier_meeting(state, mine, others, count, first);
     }
     note_partner(state, first);
     all.meeting[i] = first.time;
     return first.time;
 }
 
-SWIRL_INLINE double predict_wall(EngineState& state, std::uint32_t i) {
-    const double time =
-        time_of_wall_contact(Spheres::flight(state, i), begins_to_roll_at(state, i),
-                             state.legs[state.leg], state.container_radius - state.discs[i].radius);
-    state.spheres_side_by_side->wall[i] = time;
-    return time;
+[[gnu::noinline]] static void predict_wall(EngineState& state, std::uint32_t i) {
+    state.spheres_side_by_side->wall[i] = spheres::wall_time(state, i);
 }
 
 /// Of the meeting, the wall and the beginning to roll, what comes first.
@@ -183,7 +136,7 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 
 /// Looks at everybody's pending events and writes down which comes first.
 template <int G>
-SWIRL_INLINE void find_next(EngineState& state) {
+[[gnu::noinline]] static void find_next(EngineState& state) {
     SpheresSideBySide& all = *state.spheres_side_by_side;
     Eight first[G];
     for (int g = 0; g < G; ++g) first[g] = Eight::load(all.first + 8 * g);
@@ -268,23 +221,7 @@ struct FewSpheres {
         }
         few_spheres::find_next<G>(state);
     }
-    /// In the build that checks: nobody overlaps, and nobody is outside.
-    static void check(const EngineState& state, double t) {
-        if (state.overlapped_at_start) return;
-        constexpr double rounding = 1e-10;
-        for (std::uint32_t i = 0; i < state.size; ++i) {
-            const Vec2 at = Spheres::position_at(state, i, t);
-            const Vec2 centre = at - state.legs[state.leg].position_at(t);
-            promise::no_disc_is_outside_the_container(square_root(dot(centre, centre)) +
-                                                          state.discs[i].radius <=
-                                                      state.container_radius * (1.0 + rounding));
-            for (std::uint32_t k = i + 1; k < state.size; ++k) {
-                const Vec2 s = Spheres::position_at(state, k, t) - at;
-                const double contact = state.discs[i].radius + state.discs[k].radius;
-                promise::no_two_discs_overlap(square_root(dot(s, s)) >= contact * (1.0 - rounding));
-            }
-        }
-    }
+    static void check(const EngineState& state, double t) { spheres::check(state, t); }
 };
 
 }  // namespace SWIRL_TARGET

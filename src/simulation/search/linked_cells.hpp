@@ -71,7 +71,7 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
 
 /// Everything that may happen to D discs, asked at time t.
 template <Held held, int D>
-SWIRL_INLINE void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
+[[gnu::noinline]] static void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
     Candidates candidates[D];
     Lanes<8> contacts[D];
     for (int d = 0; d < D; ++d) collect_candidates(state, who[d], candidates[d]);

@@ -251,6 +251,7 @@ struct EventLoops {
     EventLoop all_pairs[SideBySide::most / 8];
     std::uint32_t few;  // up to this many discs, all pairs are the faster (docs/performance.md)
     EventLoop few_spheres[SpheresSideBySide::most / 16];  // for up to 16, 32 … spheres
+    EventLoop many_spheres;
 };
 
 extern const EventLoops event_loops_baseline;

@@ -11,7 +11,10 @@
 // would wait for the store to leave the processor's store buffer.
 //
 // Two equal times are mostly both partners of one collision, each with it as its pending event. If
-// they are different events, their order decides (pending_event.hpp).
+// they are different events, their order decides (pending_event.hpp). Of discs that is asked when
+// it happens, which is rare. Spheres that rolled undisturbed when the floor changed its velocity
+// begin to roll again at the same instant, hundreds of them; so in their tournament the winner of
+// a row is the first in order (`in_order`).
 #pragma once
 
 #include "swirl/math/lanes.hpp"
@@ -71,8 +74,27 @@ SWIRL_INLINE void empty_queue(EngineState& state) {
     }
 }
 
+SWIRL_INLINE PendingEvent pending_event(const EngineState& state, std::uint32_t disc, double time) {
+    return {time, disc, state.cold(disc).partner};
+}
+/// Of those in a row whose bits are set, who comes first in order. The row has the level below
+/// `level`, and begins at `row`.
+[[gnu::noinline]] static std::uint32_t first_in_order_of(const EngineState& state,
+                                                         std::uint32_t level, std::uint32_t row,
+                                                         unsigned equal, double time) {
+    PendingEvent first{time, state.size, the_floor};
+    for (; equal != 0; equal &= equal - 1) {
+        const std::uint32_t place = row + __builtin_ctz(equal);
+        const std::uint32_t disc = level > 1 ? state.level_winners[level - 1][place] : place;
+        const PendingEvent other = pending_event(state, disc, time);
+        if (is_first_in_order(other, first)) first = other;
+    }
+    return first.disc;
+}
+
 /// Leaves a disc without an event: its place goes to the next in its row, on every level where it
 /// had won.
+template <bool in_order = false>
 SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
     double* const places = state.level_times[0] + (disc & ~7u);
     Lanes<8> row = with_lane(Lanes<8>::load(places), disc & 7u, never);
@@ -81,8 +103,11 @@ SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
     for (std::uint32_t level = 1; level < state.levels; ++level) {
         if (state.level_winners[level][place >> 3] != disc) return;
         const double time = smallest(row);
-        std::uint32_t winner = (place & ~7u) + __builtin_ctz(lanes_equal(row, time));
+        const unsigned equal = lanes_equal(row, time);
+        std::uint32_t winner = (place & ~7u) + __builtin_ctz(equal);
         if (level > 1) winner = state.level_winners[level - 1][winner];
+        if (in_order && (equal & (equal - 1)) != 0 && time != never)
+            winner = first_in_order_of(state, level, place & ~7u, equal, time);
         if (state.prefetches) prefetch_winner(state, level, winner);
         place >>= 3;
         double* const times = state.level_times[level] + (place & ~7u);
@@ -93,6 +118,7 @@ SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
 }
 
 /// Gives a disc that has none, or a later one, an event at the given time.
+template <bool in_order = false>
 SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
     for (std::uint32_t level = 0;; ++level) {
@@ -100,7 +126,16 @@ SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
         with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
         if (level > 0) state.level_winners[level][place] = disc;
         place >>= 3;
-        if (level + 1 == state.levels || !(time < state.level_times[level + 1][place])) return;
+        if (level + 1 == state.levels) return;
+        const double before = state.level_times[level + 1][place];
+        if (in_order && time == before) {
+            const std::uint32_t winner = state.level_winners[level + 1][place];
+            if (!is_first_in_order(pending_event(state, disc, time),
+                                   pending_event(state, winner, time)))
+                return;
+        } else if (!(time < before)) {
+            return;
+        }
     }
 }
 
@@ -109,13 +144,17 @@ SWIRL_INLINE double pending_time(const EngineState& state, std::uint32_t disc) {
 }
 
 /// The pending event that comes first, or one of those that do.
+template <bool in_order = false>
 SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
     const std::uint32_t top = state.levels - 1;
     const Lanes<8> row = Lanes<8>::load(state.level_times[top]);
     const double time = smallest(row);
-    const std::uint32_t lane = __builtin_ctz(lanes_equal(row, time));
-    const std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
-    return {time, disc, state.cold(disc).partner};
+    const unsigned equal = lanes_equal(row, time);
+    const std::uint32_t lane = __builtin_ctz(equal);
+    std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
+    if (in_order && (equal & (equal - 1)) != 0 && time != never)
+        disc = first_in_order_of(state, top + 1, 0, equal, time);
+    return pending_event(state, disc, time);
 }
 
 /// Among all pending events that come at the same time as `first`, the first in order; the slow
@@ -129,7 +168,7 @@ SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
             first = first_of_equals(state, level - 1, child, first);
             continue;
         }
-        const PendingEvent other{first.time, child, state.cold(child).partner};
+        const PendingEvent other = pending_event(state, child, first.time);
         if (is_first_in_order(other, first)) first = other;
     }
     return first;
@@ -172,9 +211,10 @@ SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& fou
 }
 
 /// Gives a disc that has none a pending event.
+template <bool in_order = false>
 SWIRL_INLINE void put_in(EngineState& state, const PendingEvent& event) {
     note_partner(state, event);
-    put_in(state, event.disc, event.time);
+    put_in<in_order>(state, event.disc, event.time);
 }
 
 }  // namespace SWIRL_TARGET

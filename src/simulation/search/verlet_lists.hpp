@@ -49,7 +49,7 @@ SWIRL_INLINE PendingEvent earliest_beyond_eight(const EngineState& state, Pendin
 /// Everything that may happen to D discs, asked at time t; one step at a time for all of them, so
 /// that the processor works on one while it waits for the other.
 template <Held held, int D>
-SWIRL_INLINE void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
+[[gnu::noinline]] static void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
     Others<8> others[D];
     Lanes<8> contacts[D];
     Leaving leaving[D];

@@ -5,6 +5,7 @@
 #include "swirl/simulation/search/all_pairs.hpp"
 #include "swirl/simulation/search/few_spheres.hpp"
 #include "swirl/simulation/search/linked_cells.hpp"
+#include "swirl/simulation/search/many_spheres.hpp"
 #include "swirl/simulation/search/verlet_lists.hpp"
 
 namespace swirl {
@@ -19,7 +20,8 @@ constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
             event_loop<LinkedCells>(width),
             {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},
             few,
-            {few_spheres, few_spheres, few_spheres, few_spheres}};
+            {few_spheres, few_spheres, few_spheres, few_spheres},
+            event_loop<ManySpheres>(width)};
 #else
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
@@ -28,7 +30,8 @@ constexpr EventLoops event_loops(const char* width, std::uint32_t few) {
              event_loop<AllPairs<5>>(width)},
             few,
             {event_loop<FewSpheres<2>>(width), event_loop<FewSpheres<4>>(width),
-             event_loop<FewSpheres<6>>(width), event_loop<FewSpheres<8>>(width)}};
+             event_loop<FewSpheres<6>>(width), event_loop<FewSpheres<8>>(width)},
+            event_loop<ManySpheres>(width)};
 #endif
 }
 
