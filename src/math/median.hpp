@@ -1,3 +1,4 @@
+// The middle of many numbers, which few wild ones among them do not move.
 #pragma once
 
 #include <algorithm>
