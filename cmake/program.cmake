@@ -25,7 +25,9 @@ if(SWIRL_PRECOMPILED)
 endif()
 
 # What is not the engine is compiled for less time: -O1 where nothing waits for it, -O2 for what is
-# done at every frame. The level changes no bit.
+# done at every frame. The level changes no bit. The compiler gets a few files of a floor at once,
+# since headers and their templates are most of the work; so no two of them may have the same
+# name in their unnamed namespaces (tests/floors).
 function(swirl_settings target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
   if(SWIRL_PRECOMPILED AND NOT target STREQUAL "swirl_draw") # which uses none of them
@@ -37,6 +39,7 @@ function(swirl_floor floor level)
   file(GLOB sources CONFIGURE_DEPENDS src/${floor}/*.cpp)
   add_library(swirl_${floor} STATIC ${sources})
   target_link_libraries(swirl_${floor} ${ARGN})
+  set_target_properties(swirl_${floor} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   swirl_settings(swirl_${floor} ${level})
 endfunction()
 
@@ -44,6 +47,9 @@ swirl_floor(files -O2
   PUBLIC swirl_measure swirl_simulation nlohmann_json::nlohmann_json fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
 target_include_directories(swirl_files SYSTEM PRIVATE ${hdf5_include})
+# Their classes have members of types that nobody else may see.
+set_source_files_properties(src/files/hdf5.cpp src/files/trajectory_writer.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_floor(draw -O2 PUBLIC swirl_measure PkgConfig::cairo)
 swirl_floor(run -O2 PUBLIC swirl_files)
 swirl_floor(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
@@ -69,8 +75,7 @@ string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 set_source_files_properties(src/run/version.cpp PROPERTIES COMPILE_DEFINITIONS
   "SWIRL_BUILD=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off\"")
 
-# The command line: one file per subcommand, of which the compiler gets a few at once: their headers
-# are most of the work.
+# The command line: one file per subcommand.
 file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
 add_executable(swirl ${app_sources})
 target_link_libraries(swirl PRIVATE swirl_paper CLI11::CLI11)

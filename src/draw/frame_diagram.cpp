@@ -12,7 +12,7 @@ namespace swirl {
 
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double once_round = 2.0 * std::numbers::pi;
 
 /// An arrow along a circle about the view's centre, from an angle on; counter-clockwise as seen, if
 /// `turn` is positive.
@@ -96,13 +96,13 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     // Lab: the path of C, and how far the wall reaches, as dots.
     std::vector<Vec2> path;
     for (int k = 0; k < 120; ++k)
-        path.push_back(
-            {amplitude * std::cos(full_turn * k / 120), amplitude * std::sin(full_turn * k / 120)});
+        path.push_back({amplitude * std::cos(once_round * k / 120),
+                        amplitude * std::sin(once_round * k / 120)});
     draw_dish(canvas, views[0], style, empty);
     draw_points(canvas, views[0], style, {.now = empty, .path = path});
     cairo_new_sub_path(cairo);
     cairo_arc(cairo, views[0].centre.x, views[0].centre.y,
-              scale * (radius * (1.0 + wall_thickness) + amplitude), 0.0, full_turn);
+              scale * (radius * (1.0 + wall_thickness) + amplitude), 0.0, once_round);
     const double dots[2] = {0.0, 5.0 * line};
     cairo_set_dash(cairo, dots, 2, 0.0);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
@@ -112,16 +112,16 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     cairo_set_dash(cairo, nullptr, 0, 0.0);
     // Of M, a quarter of a turn ahead of where it is.
     draw_bent_arrow(canvas, views[0], radius * (1.0 + wall_thickness) + amplitude,
-                    std::atan2(centre.y, centre.x) + full_turn / 8.0, full_turn / 9.0, 2.4 * line,
+                    std::atan2(centre.y, centre.x) + once_round / 8.0, once_round / 9.0, 2.4 * line,
                     theme.faint_ink);
-    draw_bent_arrow(canvas, views[0], amplitude, std::atan2(centre.y, centre.x) + full_turn / 8.0,
-                    full_turn / 4.0, 2.0 * line, theme.ink);
+    draw_bent_arrow(canvas, views[0], amplitude, std::atan2(centre.y, centre.x) + once_round / 8.0,
+                    once_round / 4.0, 2.0 * line, theme.ink);
 
     draw_dish(canvas, views[1], style, empty);
     draw_points(canvas, views[1], style, {.now = empty});
     for (int k = 0; k < 3; ++k)
-        draw_bent_arrow(canvas, views[1], 0.9 * radius, full_turn * (k / 3.0 + 1.0 / 12.0),
-                        -full_turn / 6.5, 2.4 * line, theme.ink);
+        draw_bent_arrow(canvas, views[1], 0.9 * radius, once_round * (k / 3.0 + 1.0 / 12.0),
+                        -once_round / 6.5, 2.4 * line, theme.ink);
 
     draw_dish(canvas, views[2], style, empty);
     if (disc < now.size() && now.period > 0.0) {
@@ -132,7 +132,7 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
         const Vec2 place = views[2].on_page(p);
         const double r = scale * now.radius[disc];
         cairo_new_sub_path(cairo);
-        cairo_arc(cairo, place.x, place.y, r, 0.0, full_turn);
+        cairo_arc(cairo, place.x, place.y, r, 0.0, once_round);
         canvas.set(distinct_colors[2]);
         cairo_fill(cairo);
         // Velocity and force on scales of their own; the force is 2Ω|v|, to the right of v.

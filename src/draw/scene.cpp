@@ -21,7 +21,7 @@ constexpr Vec2 nowhere{std::numeric_limits<double>::quiet_NaN(),
 constexpr double smallest_marked_radius = 3.5;
 constexpr double smallest_outlined_radius = 2.5;
 
-std::size_t name_of(const SceneContent& content, std::size_t i) {
+std::size_t number_of(const SceneContent& content, std::size_t i) {
     return content.ids.size() == content.now.size() ? static_cast<std::size_t>(content.ids[i]) : i;
 }
 
@@ -47,7 +47,7 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, const Fra
             return sequential_color(std::sqrt(dot(c, c)) / style.full_speed);
         }
         case Coloring::id:
-            return distinct_colors[name_of(content, i) % distinct_colors.size()];
+            return distinct_colors[number_of(content, i) % distinct_colors.size()];
         case Coloring::none:
             break;
     }

@@ -13,7 +13,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::string_view kind = "swirl checkpoint ";
+constexpr std::string_view this_kind = "swirl checkpoint ";
 constexpr std::string_view first_line = "swirl checkpoint 6\n";
 
 std::string number(std::uint64_t n) { return {reinterpret_cast<const char*>(&n), sizeof n}; }
@@ -49,14 +49,14 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& why) {
         throw FileError(fmt::format("'{}' {}.", path.string(), why));
     };
-    if (!rest.starts_with(kind)) refuse("is not a checkpoint of swirl");
+    if (!rest.starts_with(this_kind)) refuse("is not a checkpoint of swirl");
     const std::size_t line = rest.find('\n');
     if (rest.substr(0, line + 1) != first_line)
         refuse(fmt::format(
             "is a checkpoint in format {}, but this program reads format {}; resume it with the "
             "program that wrote it",
-            rest.substr(kind.size(), std::min<std::size_t>(line, 40) - kind.size()),
-            first_line.substr(kind.size(), first_line.size() - kind.size() - 1)));
+            rest.substr(this_kind.size(), std::min<std::size_t>(line, 40) - this_kind.size()),
+            first_line.substr(this_kind.size(), first_line.size() - this_kind.size() - 1)));
     const std::string damaged =
         "is damaged: its checksum does not fit its content; it was cut off or changed";
     if (rest.size() < first_line.size() + 24) refuse(damaged);

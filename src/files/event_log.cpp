@@ -5,14 +5,15 @@
 #include <algorithm>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/h5md.hpp"
 #include "swirl/files/recording.hpp"
 
 namespace swirl {
 namespace {
 
 constexpr std::uint64_t chunk = 16384;
-constexpr std::chrono::milliseconds flush_interval(1000);
-const std::string parameters = "/parameters";
+constexpr std::chrono::milliseconds events_wait(1000);
+using h5md::parameters;
 
 std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y) {
     std::vector<double> both;
@@ -146,7 +147,7 @@ void EventLogWriter::empty_buffer() {
         append<double>(c.vertical_impulse, buffer_,
                        [](const Event& e) { return e.impulse.vertical; });
     buffer_.clear();
-    if (std::chrono::steady_clock::now() - last_flush_ < flush_interval) return;
+    if (std::chrono::steady_clock::now() - last_flush_ < events_wait) return;
     file_->flush();
     last_flush_ = std::chrono::steady_clock::now();
 }

@@ -25,19 +25,6 @@ struct JournalHead {
 };
 constexpr char journal_magic[8] = {'s', 'w', 'i', 'r', 'l', 'j', 'n', '1'};
 
-bool write_at(int file, std::uint64_t offset, const void* bytes, std::size_t size) {
-    const char* p = static_cast<const char*>(bytes);
-    while (size > 0) {
-        const ssize_t done = ::pwrite(file, p, size, static_cast<off_t>(offset));
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return false;
-        p += done;
-        offset += static_cast<std::uint64_t>(done);
-        size -= static_cast<std::size_t>(done);
-    }
-    return true;
-}
-
 void close_if_open(int& file) {
     if (file >= 0) ::close(file);
     file = -1;
@@ -165,7 +152,8 @@ void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
 }
 
 void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
-    if (!write_at(file_, offset, bytes, size)) fail("could not be written");
+    if (!write_at(file_, offset, {static_cast<const char*>(bytes), size}))
+        fail("could not be written");
 #ifdef __linux__
     // The disk may begin: a commit then finds little left to do.
     if ((not_yet_sent_ += size) < 8 * 1024 * 1024) return;
@@ -232,7 +220,8 @@ void StagedFile::write_journal() {
     std::memcpy(head.magic, journal_magic, 8);
     std::memcpy(bytes.data(), &head, sizeof head);
     journal_counts_ = true;
-    if (!write_at(journal_, 0, bytes.data(), bytes.size())) fail("could not be written");
+    if (!write_at(journal_, 0, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+        fail("could not be written");
     if (::fdatasync(journal_) != 0) fail("has a journal that could not be brought onto the disk");
 }
 

@@ -6,14 +6,15 @@
 #include <cmath>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/h5md.hpp"
 #include "swirl/files/series.hpp"
 
 namespace swirl {
 namespace {
 
-const std::string particles = "/particles/trajectory";
-const std::string observables = "/observables";
-const std::string parameters = "/parameters";
+using h5md::observables;
+using h5md::parameters;
+using h5md::particles;
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/h5md.hpp"
 #include "swirl/files/recording.hpp"
 #include "swirl/files/repeat_stream.hpp"
 #include "swirl/files/trajectory.hpp"
@@ -22,9 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Words = std::vector<std::uint64_t>;
 
-const std::string particles = "/particles/trajectory";
-const std::string observables = "/observables";
-const std::string parameters = "/parameters";
+using h5md::observables;
+using h5md::parameters;
+using h5md::particles;
 
 constexpr std::chrono::milliseconds flush_interval(500);
 

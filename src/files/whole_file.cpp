@@ -36,6 +36,10 @@ bool is_aside_of(std::string_view name, std::string_view target) {
     return digits.find_first_not_of("0123456789abcdef") == digits.npos;
 }
 
+constexpr std::size_t buffer_size = 1 << 20;
+
+}  // namespace
+
 bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written =
@@ -47,10 +51,6 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
     }
     return true;
 }
-
-constexpr std::size_t buffer_size = 1 << 20;
-
-}  // namespace
 
 std::string system_reason() { return std::generic_category().message(errno); }
 

@@ -64,4 +64,7 @@ void sync_folder_of(const std::filesystem::path& path);
 /// Why the last system call failed, in words.
 std::string system_reason();
 
+/// All of it, however often the system has to be asked; false if it refuses, errno says why.
+bool write_at(int file, std::uint64_t offset, std::string_view bytes);
+
 }  // namespace swirl

@@ -15,12 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Point {
+struct PointOfFigure5b {
     Friction friction;
     std::int64_t discs;
 };
 
-FigureOutcome finish(const std::string& name, const std::vector<Point>& points,
+FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>& points,
                      const std::vector<Json>& results, const std::filesystem::path& out) {
     Table table(joined({"setting", "mu_disc", "mu_wall", "discs"}, rotation_columns()));
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -51,8 +51,8 @@ FigureOutcome finish(const std::string& name, const std::vector<Point>& points,
     return outcome;
 }
 
-std::vector<Point> points_of_5b(const PaperSettings& settings) {
-    std::vector<Point> points;
+std::vector<PointOfFigure5b> points_of_5b(const PaperSettings& settings) {
+    std::vector<PointOfFigure5b> points;
     for (const Friction& friction : frictions_of_5b)
         for (const std::int64_t n : numbers_of_discs(settings)) points.push_back({friction, n});
     return points;
@@ -63,8 +63,9 @@ std::vector<Point> points_of_5b(const PaperSettings& settings) {
 FigurePlan plan_figure_5b(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
-    std::vector<Point> points = points_of_5b(settings);
-    for (const Point& p : points) plan.points.push_back(point(settings, p.friction, p.discs));
+    std::vector<PointOfFigure5b> points = points_of_5b(settings);
+    for (const PointOfFigure5b& p : points)
+        plan.points.push_back(point(settings, p.friction, p.discs));
     // Where ϖ has its minimum, and rises again.
     for (const std::int64_t n : numbers_beyond(settings)) {
         points.push_back({high_friction, n});
@@ -81,12 +82,12 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
 static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
-    std::vector<Point> points;
+    std::vector<PointOfFigure5b> points;
     for (const Friction& friction : frictions_of_5b)
         for (const std::int64_t n :
              settings.quick ? sparse_numbers(settings) : numbers_of_discs(settings))
             points.push_back({friction, n});
-    for (const Point& p : points) {
+    for (const PointOfFigure5b& p : points) {
         RunConfig config = paper_config(settings, p.friction, p.discs);
         config.warmup = settings.swirls(settings.quick ? 150 : 300, 2);
         const auto measured = static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) /

@@ -26,7 +26,7 @@ struct Ball {
     double radius, mu, restitution;
 };
 
-RunConfig config_of(const PaperSettings& settings, const Ball& ball) {
+RunConfig ball_run(const PaperSettings& settings, const Ball& ball) {
     RunConfig config;
     config.discs = 1;
     config.radius = ball.radius;
@@ -55,7 +55,7 @@ Estimate gamma_of(const RunConfig& config, const RunControl& control) {
 }
 
 PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
-    const RunConfig config = config_of(settings, ball);
+    const RunConfig config = ball_run(settings, ball);
     const int seeds = settings.seeds();
     return {fmt::format("ball_R{}_mu{}_e{}_{}of{}periods_{}seeds_seed{}", ball.radius, ball.mu,
                         ball.restitution, *config.warmup, *config.periods, seeds, config.seed),

@@ -31,7 +31,7 @@ FigurePlan picture_plan(const std::string& stem, const std::string& finding, Dra
     return plan;
 }
 
-RunConfig paper_run(std::int64_t discs, std::uint64_t seed) {
+RunConfig pictured_run(std::int64_t discs, std::uint64_t seed) {
     RunConfig config;
     config.discs = discs;
     config.seed = seed;
@@ -40,7 +40,7 @@ RunConfig paper_run(std::int64_t discs, std::uint64_t seed) {
 
 PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
     PictureConfig config;
-    config.sources = {simulated(paper_run(48, seed))};
+    config.sources = {simulated(pictured_run(48, seed))};
     config.appearance.frames = {frame};
     config.appearance.theme = light_theme();
     config.appearance.size = {1000, 1000};
@@ -51,7 +51,7 @@ PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& 
 }
 
 void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
-    const Snapshot s = simulated(paper_run(28, seed)).open()(20.13);
+    const Snapshot s = simulated(pictured_run(28, seed)).open()(20.13);
     // The disc nearest to a place where its arrows have room, right of C.
     const FrameAt at(s, Frame::m);
     std::size_t chosen = 0;

@@ -70,7 +70,7 @@ Variant friction(double mu) {
             [mu](RunConfig& c) { c.mu_disc = c.mu_wall = mu; }};
 }
 
-struct Point {
+struct VariantPoint {
     std::size_t variant;
     std::int64_t spheres;
 };
@@ -96,7 +96,7 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
                          const std::vector<std::int64_t>& numbers) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
-    std::vector<Point> points;
+    std::vector<VariantPoint> points;
     for (std::size_t v = 0; v < variants.size(); ++v)
         for (const std::int64_t n : numbers) {
             RunConfig config = experiment(settings, n);
@@ -157,9 +157,9 @@ constexpr std::array<std::pair<const char*, const char*>, 14> seen{{
     {"rolling", "vertical_power"},
 }};
 
-std::string first_and_last(const std::vector<Point>& points, const std::vector<Json>& results,
-                           std::size_t variant, const char* measurement, const char* quantity,
-                           const char* words) {
+std::string at_both_ends(const std::vector<VariantPoint>& points, const std::vector<Json>& results,
+                         std::size_t variant, const char* measurement, const char* quantity,
+                         const char* words) {
     std::string text = words;
     std::vector<std::size_t> known;
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -229,7 +229,7 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
     for (const std::int64_t n : fewer_numbers(settings))
         if (n >= 24) numbers.push_back(n);
     const std::vector<Variant> variants{friction(0.15), friction(0.5)};
-    std::vector<Point> points;
+    std::vector<VariantPoint> points;
     for (std::size_t v = 0; v < variants.size(); ++v)
         for (const std::int64_t n : numbers) {
             RunConfig config = experiment(settings, n);
@@ -259,8 +259,8 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
         for (std::size_t v = 0; v < variants.size(); ++v)
             outcome.findings.push_back(
                 fmt::format("spheres, {}: {}.", variants[v].words,
-                            first_and_last(points, results, v, "slip", "pinned_region",
-                                           "slip parameter of the pinned")));
+                            at_both_ends(points, results, v, "slip", "pinned_region",
+                                         "slip parameter of the pinned")));
         outcome.files.push_back(out / "figure_spheres_pinned.csv");
         table.write(outcome.files.back());
         return outcome;

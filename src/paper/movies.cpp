@@ -34,7 +34,7 @@ struct Video {
     std::optional<RollingBall> model;
 };
 
-RunConfig paper_run(std::int64_t discs, double mu_disc, double mu_wall, std::uint64_t seed) {
+RunConfig filmed_run(std::int64_t discs, double mu_disc, double mu_wall, std::uint64_t seed) {
     RunConfig config;
     config.discs = discs;
     config.mu_disc = mu_disc;
@@ -120,7 +120,7 @@ Video video_of(const System& system, int version, Frame frame,
         config.start = 0.0;
     } else {
         const RunConfig run =
-            paper_run(version == 0 ? 28 : 48, system.mu_disc, system.mu_wall, settings.seed);
+            filmed_run(version == 0 ? 28 : 48, system.mu_disc, system.mu_wall, settings.seed);
         video.caption = fmt::format("N = {}", run.discs);
         video.name = "numerical-" + place + "-" + lower(system.title) +
                      (version == 0 ? "-rotating" : "-counterrotating");
@@ -158,11 +158,11 @@ std::vector<Video> all_videos(const PaperMoviesSettings& settings) {
     return videos;
 }
 
-std::string key_of(const Video& video) { return "movie-" + video.name; }
+std::string movie_key(const Video& video) { return "movie-" + video.name; }
 
 /// The rotation that was found in it, if an earlier call has made this very movie.
 std::optional<double> finished_before(const PaperParts& parts, const Video& video) {
-    const auto part = parts.recall(key_of(video));
+    const auto part = parts.recall(movie_key(video));
     if (!part) return {};
     const Json& result = (*part)["result"];
     std::error_code missing;
@@ -301,7 +301,7 @@ PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
             }
             rotations.push_back(rotation_in(video));
             parts.remember(
-                key_of(video),
+                movie_key(video),
                 {{"movie", video.settings},
                  {"bytes", fs::file_size(video.config.out)},
                  {"rotation", rotations.back()}},

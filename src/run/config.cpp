@@ -12,24 +12,24 @@
 namespace swirl {
 namespace {
 
-std::optional<std::string> outside(const char* name, double value, double from, double to) {
+std::optional<std::string> out_of_interval(const char* name, double value, double from, double to) {
     if (value >= from && value <= to) return {};
     return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
 }
 
 /// Ranges that depend on other parameters.
 std::optional<std::string> out_of_proportion(const RunConfig& c) {
-    if (auto answer = outside("--contact-duration", c.contact_duration, 0.0, c.period))
+    if (auto answer = out_of_interval("--contact-duration", c.contact_duration, 0.0, c.period))
         return answer;
     if (!c.mixture) return {};
     if (c.mixture->count < 1 || c.mixture->count > c.discs)
         return fmt::format(
             "the count in --mixture is {}, but it must be a whole number from 1 to {}.",
             c.mixture->count, c.discs);
-    if (auto answer =
-            outside("the radius in --mixture", c.mixture->radius, smallest_value, largest_value))
+    if (auto answer = out_of_interval("the radius in --mixture", c.mixture->radius, smallest_value,
+                                      largest_value))
         return answer;
-    return outside("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
+    return out_of_interval("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
 }
 
 constexpr const char* advice_on_room =

@@ -69,6 +69,26 @@ def code_of(file):
     return re.sub(r"//[^\n]*", " ", text)
 
 
+# Floors of whose files the compiler gets a few at once (the command line, too, whose files write
+# one function for each kind of call).
+COMPILED_AT_ONCE = ("files", "draw", "run", "study", "film", "vision", "paper")
+DEFINITIONS = (
+    # A function, up to its brace; a type; a constant.
+    r"^(?!return|namespace|using|\s|template|\})[\w:<>&*,\[\]. ]*?[\w>&*\]] [*&]?(\w+)\([^;{}]*?\)"
+    r"(?: const| noexcept)? \{",
+    r"^(?:struct|class|enum|enum class) (\w+)",
+    r"^(?:static )?(?:constexpr|const) [\w:<>*, ]*?(\w+)(?:\[[^\]]*\])? ?[={(]",
+)
+
+
+def names_of_its_own(text):
+    """What a file defines in its unnamed namespaces."""
+    code = re.sub(r'R"\((?:.|\n)*?\)"', '""', text)
+    return {name
+            for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
+            for definition in DEFINITIONS for name in re.findall(definition, own, re.M)}
+
+
 class Floors(unittest.TestCase):
     def test_every_folder_of_src_is_a_floor(self):
         found = {name for name in os.listdir(os.path.join(SOURCE, "src"))
@@ -118,6 +138,17 @@ class Floors(unittest.TestCase):
                 self.assertEqual(words & FORBIDDEN_WORDS, set(), file)
                 self.assertNotRegex(code_of(file), r"std::\w*_distribution", file)
                 self.assertNotRegex(code_of(file), r"std::\w*(random_device|mt19937)", file)
+
+    def test_files_compiled_at_once_do_not_take_each_other_s_names(self):
+        # A second function of one name would be a redefinition at best; with other parameters it
+        # could be called in the place of the first without a word (cmake/program.cmake).
+        for floor in COMPILED_AT_ONCE:
+            where = {}
+            for file in sources(floor):
+                if file.endswith(".cpp"):
+                    for name in names_of_its_own(text_of(file)):
+                        where.setdefault(name, set()).add(os.path.basename(file))
+            self.assertEqual({n: f for n, f in where.items() if len(f) > 1}, {}, floor)
 
     def test_headers_are_included_once_and_open_with_what_they_are(self):
         for floor in BELOW:
