@@ -10,6 +10,20 @@ namespace swirl {
 
 inline constexpr double pi = 3.14159265358979323846;
 
+/// v, turned by k right angles.
+SWIRL_INLINE constexpr Vec2 quarter_turns(std::int64_t k, const Vec2& v) {
+    switch (k & 3) {
+        case 0:
+            return v;
+        case 1:
+            return {-v.y, v.x};
+        case 2:
+            return {-v.x, -v.y};
+        default:
+            return {v.y, -v.x};
+    }
+}
+
 /// (cos 2πu, sin 2πu), within 2⁻⁵² of the truth for |u| ≤ 1. `u` counts turns, so that quarter
 /// turns are exact: u = k/4 + f with |f| ≤ 1/8, then the Taylor series of the remaining angle
 /// φ = 2πf, |φ| ≤ π/4, where the first term left out is below φ¹⁸/18! = 2·10⁻¹⁸.
@@ -24,16 +38,7 @@ SWIRL_INLINE constexpr Vec2 unit_circle(double u) {
         s = 1.0 - s * q / (n * (n + 1.0));
     }
     s = s * phi;
-    switch (k & 3) {
-        case 0:
-            return {c, s};
-        case 1:
-            return {-s, c};
-        case 2:
-            return {-c, -s};
-        default:
-            return {s, -c};
-    }
+    return quarter_turns(k, {c, s});
 }
 
 /// sin φ, 1 − cos φ, and φ − sin φ, with all digits of small angles.
@@ -66,16 +71,7 @@ SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
     const auto k = static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
     const Turn turn = small_turn((quarters - static_cast<double>(k)) * (pi / 2.0));
     const double c = 1.0 - turn.versine, s = turn.sine;
-    switch (k & 3) {
-        case 0:
-            return {c, s};
-        case 1:
-            return {-s, c};
-        case 2:
-            return {-c, -s};
-        default:
-            return {s, -c};
-    }
+    return quarter_turns(k, {c, s});
 }
 
 /// For any angle.

@@ -106,13 +106,9 @@ SWIRL_INLINE void predict_all_walls(EngineState& state) {
     const bool turning = state.on_turning_leg();
     all.wall_is_earliest = turning ? ~std::uint64_t{0} : 0;
     all.walls_asked_at = state.clock;
-    const Eight now(state.clock);
     for (int g = 0; g < G; ++g) {
         const Others<8> discs = load_eight(all, g);
-        const Eight time =
-            turning ? earliest_wall_times<8>(state, discs.flight.position_at(now),
-                                             discs.flight.velocity, discs.radius, state.clock)
-                    : wall_times<8>(state, discs.flight, discs.radius);
+        const Eight time = soonest_wall_times<8>(state, discs.flight, discs.radius, state.clock);
         larger(time, Eight::load(all.nobody + 8 * g)).store(all.wall + 8 * g);
     }
 }

@@ -185,10 +185,7 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     const BasicVec2<Eight> offset = at - in_lanes<8>(frame.position_at(t)) - centre;
     const BasicVec2<Eight> drift = discs.flight.velocity - in_lanes<8>(frame.velocity);
     alignas(64) double wall[8], skin[8], beyond[8];
-    (state.on_turning_leg()
-         ? earliest_wall_times<8>(state, at, discs.flight.velocity, discs.radius, t)
-         : wall_times<8>(state, discs.flight, discs.radius))
-        .store(wall);
+    soonest_wall_times<8>(state, discs.flight, discs.radius, t).store(wall);
     (Eight(t) + time_to_leave(offset, drift, Eight::load(inner_radius))).store(skin);
     const Vec2 from_container = frame.position_at(t) - state.legs[state.leg].position_at(t);
     beyond_reach(Eight(reach_far_from_wall(state, t)), in_lanes<8>(from_container) + centre,
@@ -229,10 +226,7 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin, 
     unsigned near = ~(far & were_far) & ((1u << count) - 1u);
     if (near == 0) return;
     const Others<8> discs = load_others<8>(state, who);
-    (state.on_turning_leg() ? earliest_wall_times<8>(state, discs.flight.position_at(Eight(t)),
-                                                     discs.flight.velocity, discs.radius, t)
-                            : wall_times<8>(state, discs.flight, discs.radius))
-        .store(wall);
+    soonest_wall_times<8>(state, discs.flight, discs.radius, t).store(wall);
     for (; near != 0; near &= near - 1) {
         const auto k = static_cast<std::uint32_t>(__builtin_ctz(near));
         const unsigned is_far = far >> k & 1u;

@@ -191,6 +191,16 @@ SWIRL_INLINE Lanes<W> earliest_wall_times(EngineState& state, const BasicVec2<La
            Lanes<W>(1.0 - bound.margin) * smaller(wait_for_parabola(a, dot(s, u), room), h);
 }
 
+/// When W discs, asked at time t, reach the wall; or, on a turning leg, what they do not reach it
+/// before.
+template <int W>
+SWIRL_INLINE Lanes<W> soonest_wall_times(EngineState& state, const Flight<Lanes<W>>& flights,
+                                         const Lanes<W>& radii, double t) {
+    if (!state.on_turning_leg()) return wall_times<W>(state, flights, radii);
+    return earliest_wall_times<W>(state, flights.position_at(Lanes<W>(t)), flights.velocity, radii,
+                                  t);
+}
+
 /// Of one disc or two.
 template <int D>
 SWIRL_INLINE Lanes<2> earliest_wall_times(EngineState& state, const std::uint32_t (&who)[D],
