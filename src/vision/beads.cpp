@@ -6,6 +6,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/vision/mean_ball.hpp"
 
 namespace swirl {
 
@@ -351,6 +352,37 @@ void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, con
 
 }  // namespace
 
+namespace {
+
+std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
+                                    const BeadLook& look) {
+    std::vector<NearCircle> others;
+    for (const Bead& b : all)
+        if (&b != &self && b.sure && length(b.centre - self.centre) < 6.0 * look.radius())
+            others.push_back(
+                {b.centre, look.lens.seen_radius(b.centre, look.kinds[b.kind].radius)});
+    return others;
+}
+
+/// Between the place of its edge and that of the mean ball.
+void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleFit& rim,
+                 const BeadLook& look) {
+    const MeanBall& mean = *look.mean_ball;
+    const MeanBall::Excess excess = mean.excess(picture.sharp, rim, beads);
+    std::vector<Vec2> places;
+    for (Bead& b : beads) {
+        const auto fit = mean.fit(excess, b.centre, b.kind, sure_others(beads, b, look));
+        places.push_back(fit.good ? fit.centre : b.centre);
+    }
+    for (std::size_t k = 0; k < beads.size(); ++k) {
+        beads[k].centre =
+            (1.0 - mean.counts()) * beads[k].centre + mean.counts() * places[k];
+        beads[k].error = std::max(beads[k].error, mean.error());
+    }
+}
+
+}  // namespace
+
 std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
                                    std::size_t kind, const std::vector<Bead>& others) {
     constexpr double farthest = 0.45, step = 0.15;  // radii
@@ -416,6 +448,7 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
     }
     // Their exact places.
     for (Bead& bead : kept) place(bead, kept, picture, look);
+    if (look.mean_ball) by_the_mean(kept, picture, rim, look);
     return kept;
 }
 

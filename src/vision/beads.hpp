@@ -11,6 +11,7 @@
 //            whoever knows where a disc should be
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,8 @@
 #include "swirl/vision/lens.hpp"
 
 namespace swirl {
+
+class MeanBall;
 
 struct BeadKind {
     double radius = 0.0;     // pixels
@@ -35,6 +38,9 @@ struct BeadLook {
     Lens lens;
     double steepest = 1.0;  // where the brightness changes most, in radii: inside of a shaded limb
     std::vector<Limb> limbs;  // of each kind, with the blur of this film
+
+    /// Where edges alone are too poor (mean_ball.hpp).
+    std::shared_ptr<const MeanBall> mean_ball;
 
     double radius() const { return kinds.front().radius; }
 };

@@ -13,6 +13,7 @@
 #include "swirl/vision/beads.hpp"
 #include "swirl/vision/dish.hpp"
 #include "swirl/vision/link.hpp"
+#include "swirl/vision/mean_ball.hpp"
 #include "swirl/vision/video.hpp"
 
 namespace swirl {
@@ -81,6 +82,16 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
     found.look = survey_beads(fewer, rims);
+    // What discs look like on the mean, for films with poor edges.
+    std::vector<MeanBall::Example> examples;
+    for (const cv::Mat& picture : kept) {
+        const Picture sharp(picture, std::min(1.0, votes_radius / found.look.radius()),
+                            found.look.blur);
+        const CircleFit rim = find_rim(sharp, found.rim);
+        if (rim.good) examples.push_back({sharp.sharp, rim, find_beads(sharp, rim, found.look)});
+    }
+    if (auto mean = MeanBall::learned(examples, found.look))
+        found.look.mean_ball = std::make_shared<const MeanBall>(std::move(*mean));
     return found;
 }
 
