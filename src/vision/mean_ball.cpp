@@ -230,6 +230,13 @@ double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kin
     return all > 0.0 ? 1.0 - rest / all : 0.0;
 }
 
+double MeanBall::excess_at(const Excess& excess, const Vec2& place) const {
+    const int column = cvRound(place.x), row = cvRound(place.y);
+    if (column < 0 || row < 0 || column >= excess.level.cols || row >= excess.level.rows)
+        return double(nowhere);
+    return double(excess.level.at<float>(row, column));
+}
+
 MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_t kind,
                             const std::vector<NearCircle>& others) const {
     constexpr std::size_t n = 1 + modes + 2;
@@ -420,6 +427,8 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         mean.learn_ball(examples, places, kind);
     double least = overlap(examples, edges, places, 0.0, look);
     if (!(least > 0.0)) return std::nullopt;
+    constexpr double good_places = 0.05;  // pixels
+    if (least < good_places * good_places) return std::nullopt;
     const double alone = least;
     for (double counts = 0.1; counts < 1.05; counts += 0.1) {
         const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);

@@ -60,6 +60,7 @@ class MeanBall {
     double score(const Excess& excess, const Vec2& centre, std::size_t kind,
                  const std::vector<NearCircle>& others, int stride) const;
     double soft() const { return soft_; }
+    double excess_at(const Excess& excess, const Vec2& place) const;
 
   private:
     MeanBall() = default;
