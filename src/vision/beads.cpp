@@ -434,6 +434,7 @@ void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleF
         return best;
     };
     for (const Bead& b : beads) {
+        if (!mean.inside(excess, b.centre, b.kind)) continue;
         open.push_back({b, b.centre, 0.0});
         open.back().score = mean.score(excess, b.centre, b.kind, {}, 2);
     }
@@ -446,7 +447,7 @@ void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleF
             for (double x = -rim.radius; x < rim.radius; x += stride)
                 for (double y = -rim.radius; y < rim.radius; y += stride) {
                     Candidate c{{rim.centre + Vec2{x, y}, kind, 0.0, 0.0, false}, {}, 0.0};
-                    if (!within(rim, c.bead.centre, radius)) continue;
+                    if (!mean.inside(excess, c.bead.centre, kind)) continue;
                     if (!(mean.excess_at(excess, c.bead.centre) > 0.3 * mean.soft())) continue;
                     if (std::any_of(taken.begin(), taken.end(), [&](const Bead& t) {
                             return length(t.centre - c.bead.centre) < 0.8 * sum(t, c.bead);
@@ -484,10 +485,34 @@ void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleF
 
 }  // namespace
 
-std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
-                                   std::size_t kind, const std::vector<Bead>& others) {
+std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
+                                   const BeadLook& look, const Vec2& where, std::size_t kind,
+                                   const std::vector<Bead>& others) {
     constexpr double farthest = 0.45, step = 0.15;  // radii
     const double radius = look.kinds[kind].radius;
+    if (look.mean_ball) {
+        const MeanBall& mean = *look.mean_ball;
+        const MeanBall::Excess excess = mean.excess(picture.sharp, rim, others);
+        Bead best;
+        best.kind = kind;
+        for (double x = -2.0 * farthest; x <= 2.0 * farthest + 1e-9; x += step)
+            for (double y = -2.0 * farthest; y <= 2.0 * farthest + 1e-9; y += step) {
+                Bead trial = best;
+                trial.centre = where + radius * Vec2{x, y};
+                trial.support = mean.score(excess, trial.centre, kind,
+                                           sure_others(others, trial, look), 2);
+                if (trial.support > best.support) best = trial;
+            }
+        if (best.support < 0.7 * like_a_ball) return std::nullopt;
+        const auto fit = mean.fit(excess, best.centre, kind, sure_others(others, best, look));
+        if (fit.good) best.centre = fit.centre;
+        for (const Bead& other : others)
+            if (length(other.centre - best.centre) <
+                free_distance * (radius + look.kinds[other.kind].radius))
+                return std::nullopt;
+        best.error = 2.0 * mean.error();
+        return best;
+    }
     const RaySettings rays = rays_for(picture, look.steepest * radius);
     Bead best;
     best.kind = kind;

@@ -61,8 +61,10 @@ inline constexpr double survey_blur = 0.6;
 std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look);
 
 /// The disc that is known to be near there and was not found: the circle with most of an edge
-/// within half a radius of it that is in nobody's way, however little that is.
-std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
-                                   std::size_t kind, const std::vector<Bead>& others);
+/// within half a radius of it that is in nobody's way, however little that is. By the mean ball
+/// where there is one.
+std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
+                                   const BeadLook& look, const Vec2& where, std::size_t kind,
+                                   const std::vector<Bead>& others);
 
 }  // namespace swirl

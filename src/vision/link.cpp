@@ -55,6 +55,8 @@ class Linker {
     Vec2 flow_at(const Vec2& place, double time_from, double time_to) const;
     Vec2 expect(Track& track, double time) const;
     double first_turn(const std::vector<SeenDisc>& discs, double time) const;
+    void assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                const std::vector<Vec2>& expected, std::vector<int>& of) const;
     void take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
                       std::vector<int>& of);
     /// Where as many are sure as there are, nothing else is one.
@@ -145,6 +147,39 @@ double Linker::first_turn(const std::vector<SeenDisc>& discs, double time) const
     return turn;
 }
 
+/// Of one kind, so that the sum is least. Where as many are sure as there are, each is somebody: no
+/// gate, and who leapt farther than that did not leap at the cost of two others. Otherwise squares
+/// within a gate.
+void Linker::assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                    const std::vector<Vec2>& expected, std::vector<int>& of) const {
+    const bool complete = all_are_sure(discs, kind);
+    std::vector<std::size_t> rows, columns;
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+        if (tracks[t].kind == kind) rows.push_back(t);
+    for (std::size_t d = 0; d < discs.size(); ++d)
+        if (discs[d].kind == kind && (discs[d].sure || !complete)) columns.push_back(d);
+    if (rows.empty() || columns.empty()) return;
+    const double nobody = complete ? 1e6 : 1.0;
+    std::vector<std::vector<double>> cost(rows.size(), std::vector<double>(columns.size(), nobody));
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const Track& t = tracks[rows[r]];
+        const double gate = settings_.radii[kind] *
+                            std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const SeenDisc& disc = discs[columns[c]];
+            const double q = square(disc.place - expected[rows[r]]) / (gate * gate);
+            if (complete)
+                cost[r][c] = q < 1.0 ? q : 2.0 * std::sqrt(q) - 1.0;
+            else if (q < 1.0)
+                cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_costs));
+        }
+    }
+    const std::vector<int> column = best_assignment(cost);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < nobody)
+            of[columns[static_cast<std::size_t>(column[r])]] = static_cast<int>(rows[r]);
+}
+
 /// Circles that nobody explains are those who were lost, or who went astray to something that is no
 /// disc: again such that the sum of squares is least, within a reach that grows with the time.
 void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
@@ -199,30 +234,8 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
             tracks[t].expected.fill(expected[t]);
         }
     }
-    const auto gate_of = [&](const Track& t) {
-        return settings_.radii[t.kind] *
-               std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
-    };
-    std::vector<char> complete;
     for (std::size_t kind = 0; kind < settings_.radii.size(); ++kind)
-        complete.push_back(all_are_sure(discs, kind));
-    if (!tracks.empty() && !discs.empty()) {
-        std::vector<std::vector<double>> cost(tracks.size(),
-                                              std::vector<double>(discs.size(), 1.0));
-        for (std::size_t t = 0; t < tracks.size(); ++t) {
-            const double gate = gate_of(tracks[t]);
-            for (std::size_t d = 0; d < discs.size(); ++d) {
-                if (discs[d].kind != tracks[t].kind) continue;
-                if (!discs[d].sure && complete[discs[d].kind]) continue;
-                const double q = square(discs[d].place - expected[t]) / (gate * gate);
-                if (q < 1.0) cost[t][d] = std::min(0.999, q + (discs[d].sure ? 0.0 : unsure_costs));
-            }
-        }
-        const std::vector<int> column = best_assignment(cost);
-        for (std::size_t t = 0; t < tracks.size(); ++t)
-            if (column[t] >= 0 && cost[t][static_cast<std::size_t>(column[t])] < 1.0)
-                of[static_cast<std::size_t>(column[t])] = static_cast<int>(t);
-    }
+        assign(kind, discs, expected, of);
     take_up_lost(discs, expected, of);
     // What is known now.
     std::vector<char> found(tracks.size(), 0);

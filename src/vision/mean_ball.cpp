@@ -216,18 +216,22 @@ void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t 
 
 double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kind,
                        const std::vector<NearCircle>& others, int stride) const {
-    double rest = 0.0, all = 0.0;
-    std::size_t pixels = 0;
+    // What is hidden says nothing, for it or against it.
+    double rest = 0.0, all = 0.0, scaled = 1.0;
     each_pixel(excess, centre, kind, others, stride, [&](const Vec2& x, float e, double scale) {
         const auto t = double(on_grid(balls_[kind].level, (x.x - centre.x) / scale,
                                       (x.y - centre.y) / scale));
         rest += (double(e) - t) * (double(e) - t);
         all += t * t;
-        ++pixels;
+        scaled = scale;
     });
+    return (all - rest) * stride * stride / (balls_[kind].squares * scaled * scaled);
+}
+
+bool MeanBall::inside(const Excess& excess, const Vec2& centre, std::size_t kind) const {
+    constexpr double loose = 0.2;  // radii
     const double radius = balls_[kind].radius;
-    if (double(pixels) * stride * stride < 0.25 * 3.14 * radius * radius) return 0.0;
-    return all > 0.0 ? 1.0 - rest / all : 0.0;
+    return length(centre - excess.dish) + (1.0 - loose) * radius < reach_;
 }
 
 double MeanBall::excess_at(const Excess& excess, const Vec2& place) const {
@@ -328,6 +332,7 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
             if (weight.at<float>(row, column) > 0.5f)
                 ball.level.at<float>(row, column) =
                     sum.at<float>(row, column) / weight.at<float>(row, column);
+    ball.squares = std::max(cv::norm(ball.level, cv::NORM_L2SQR) * step * step, 1e-9);
     cv::Scharr(ball.level, ball.along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
     cv::Scharr(ball.level, ball.along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
 }
@@ -377,7 +382,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     const double contrast = median(contrasts);
     if (!(contrast > 3.0)) return std::nullopt;
     mean.soft_ = 0.38 * contrast;
-    for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, {}, {}, {}});
+    for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}, {}, {}});
 
     std::vector<std::vector<Vec2>> edges, places;
     for (const Example& e : examples) {

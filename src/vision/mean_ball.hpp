@@ -60,6 +60,7 @@ class MeanBall {
     double score(const Excess& excess, const Vec2& centre, std::size_t kind,
                  const std::vector<NearCircle>& others, int stride) const;
     double soft() const { return soft_; }
+    bool inside(const Excess& excess, const Vec2& centre, std::size_t kind) const;
     double excess_at(const Excess& excess, const Vec2& place) const;
 
   private:
@@ -73,7 +74,7 @@ class MeanBall {
                     const std::vector<NearCircle>& others, int stride, Use&& use) const;
 
     struct Look {  // of a kind
-        double radius = 0.0;
+        double radius = 0.0, squares = 1.0;
         cv::Mat level, along_x, along_y;
     };
     BeadLook look_;

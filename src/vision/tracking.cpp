@@ -252,6 +252,8 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
                     all[k].beads[d].centre - film.path.at(film.times[k]);
         if (here.empty()) continue;
         const Picture picture(grey, shrink, found.look.blur);
+        CircleFit rim = all[k].rim;
+        rim.centre = film.lens.seen(rim.good ? rim.centre : film.path.at(film.times[k]));
         std::vector<Bead> others;
         for (std::size_t d = 0; d < all[k].beads.size(); ++d)
             if (links.track[k][d] >= 0) {
@@ -260,8 +262,8 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
                 others.back().sure = true;
             }
         for (const Wanted& w : here) {
-            auto bead =
-                find_bead_near(picture, found.look, film.lens.seen(w.where), w.kind, others);
+            auto bead = find_bead_near(picture, rim, found.look, film.lens.seen(w.where), w.kind,
+                                       others);
             if (!bead) continue;
             bead->sure = true;
             others.push_back(*bead);
