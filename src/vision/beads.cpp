@@ -398,11 +398,11 @@ void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleF
     std::vector<Bead> taken;
     std::vector<Vec2> edges;  // of those taken
     const auto judged = [&](Candidate& c) {
-        const auto fit = mean.fit(excess, c.bead.centre, c.bead.kind,
-                                  sure_others(taken, c.bead, look));
+        const auto fit =
+            mean.fit(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
         if (fit.good) c.bead.centre = fit.centre;
-        c.score = mean.score(excess, c.bead.centre, c.bead.kind,
-                             sure_others(taken, c.bead, look), 1);
+        c.score =
+            mean.score(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
     };
     const auto sum = [&](const Bead& a, const Bead& b) {
         return look.kinds[a.kind].radius + look.kinds[b.kind].radius;
@@ -423,7 +423,8 @@ void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleF
     const auto best_open = [&] {
         std::size_t best = open.size();
         for (std::size_t k = 0; k < open.size(); ++k) {
-            if (open[k].score < like_a_ball || (best < open.size() && open[k].score <= open[best].score))
+            if (open[k].score < like_a_ball ||
+                (best < open.size() && open[k].score <= open[best].score))
                 continue;
             if (std::none_of(taken.begin(), taken.end(), [&](const Bead& t) {
                     return length(t.centre - open[k].bead.centre) <
@@ -499,8 +500,8 @@ std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
             for (double y = -2.0 * farthest; y <= 2.0 * farthest + 1e-9; y += step) {
                 Bead trial = best;
                 trial.centre = where + radius * Vec2{x, y};
-                trial.support = mean.score(excess, trial.centre, kind,
-                                           sure_others(others, trial, look), 2);
+                trial.support =
+                    mean.score(excess, trial.centre, kind, sure_others(others, trial, look), 2);
                 if (trial.support > best.support) best = trial;
             }
         if (best.support < 0.7 * like_a_ball) return std::nullopt;

@@ -23,8 +23,8 @@ struct Track {
     std::size_t kind = 0;
     Vec2 place{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
     double time = 0.0, time_before = 0.0;
-    int seen = 0;    // at how many times, up to 2
-    int missed = 0;  // pictures in a row
+    int seen = 0;     // at how many times, up to 2
+    int missed = 0;   // pictures in a row
     int doubted = 0;  // the same, or seen only as something that is not sure
     std::array<double, ways> misses{1.0, 1.0, 1.0,
                                     1.0, 1.0, 1.0};  // mean squared error of each way, in radii
@@ -192,9 +192,9 @@ void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<
         else if (discs[d].sure)
             free_discs.push_back(d);
     for (std::size_t t = 0; t < tracks.size(); ++t)
-        if (disc_of[t] < 0 ? tracks[t].missed > 0
-                           : !discs[static_cast<std::size_t>(disc_of[t])].sure &&
-                                 tracks[t].doubted > 0)
+        if (disc_of[t] < 0
+                ? tracks[t].missed > 0
+                : !discs[static_cast<std::size_t>(disc_of[t])].sure && tracks[t].doubted > 0)
             free_tracks.push_back(t);
     if (free_discs.empty() || free_tracks.empty()) return;
     constexpr double out_of_reach = 1e6;

@@ -5,13 +5,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "swirl/math/unit_circle.hpp"
+
 namespace swirl {
 
 namespace {
 
-constexpr float nowhere = -1e30f;  // no excess there
-constexpr double step = 0.5;       // of the mean ball's grid, pixels
-constexpr double beyond = 3.5;     // pixels that are looked at outside of the edge
+constexpr float nowhere = -1e30f;    // no excess there
+constexpr double step = 0.5;         // of the mean ball's grid, pixels
+constexpr double beyond = 3.5;       // pixels that are looked at outside of the edge
 constexpr double near_others = 2.5;  // pixels next to another ball that its blur reaches
 constexpr double gain_varies = 0.2, mode_varies = 0.15;
 constexpr std::size_t modes = 4;
@@ -21,16 +23,19 @@ constexpr double pixels_of_a_patch = 4.0;
 int half_of(double radius) { return static_cast<int>((radius + beyond + 1.5) / step) + 1; }
 
 /// Linear between the grid's points; x, y in pixels from the ball's middle.
-float on_grid(const cv::Mat& grid, double x, double y) {
+cv::Vec3f on_grid(const cv::Mat& grid, double x, double y) {
     const double half = 0.5 * (grid.cols - 1);
     const double u = std::clamp(x / step + half, 0.0, grid.cols - 1.001),
                  v = std::clamp(y / step + half, 0.0, grid.rows - 1.001);
     const int column = static_cast<int>(u), row = static_cast<int>(v);
     const auto p = static_cast<float>(u - column), q = static_cast<float>(v - row);
-    const float* above = grid.ptr<float>(row) + column;
-    const float* below = grid.ptr<float>(row + 1) + column;
-    return (1.0f - q) * ((1.0f - p) * above[0] + p * above[1]) +
-           q * ((1.0f - p) * below[0] + p * below[1]);
+    const cv::Vec3f* above = grid.ptr<cv::Vec3f>(row) + column;
+    const cv::Vec3f* below = grid.ptr<cv::Vec3f>(row + 1) + column;
+    const float a = (1.0f - q) * (1.0f - p), b = (1.0f - q) * p, c = q * (1.0f - p), d = q * p;
+    cv::Vec3f value;
+    for (int k = 0; k < 3; ++k)
+        value[k] = a * above[0][k] + b * above[1][k] + c * below[0][k] + d * below[1][k];
+    return value;
 }
 
 /// Solves A x = b, symmetric and positive, in place; false if it is not.
@@ -71,18 +76,18 @@ double overlap(const std::vector<MeanBall::Example>& examples,
     std::size_t pairs = 0;
     for (std::size_t k = 0; k < examples.size(); ++k) {
         const std::vector<Bead>& beads = examples[k].beads;
-        const auto place = [&](std::size_t i) {
-            return look.lens
-                .ideal({(1.0 - counts) * edges[k][i] + counts * ball[k][i],
-                        look.kinds[beads[i].kind].radius})
-                .centre;
-        };
+        std::vector<Vec2> places;
+        for (std::size_t i = 0; i < beads.size(); ++i)
+            places.push_back(look.lens
+                                 .ideal({(1.0 - counts) * edges[k][i] + counts * ball[k][i],
+                                         look.kinds[beads[i].kind].radius})
+                                 .centre);
         for (std::size_t a = 0; a < beads.size(); ++a)
             for (std::size_t b = a + 1; b < beads.size(); ++b) {
                 if (!beads[a].sure || !beads[b].sure) continue;
                 const double sum =
                     look.kinds[beads[a].kind].radius + look.kinds[beads[b].kind].radius;
-                const double gap = length(place(a) - place(b)) - sum;
+                const double gap = length(places[a] - places[b]) - sum;
                 if (std::abs(gap) > 0.125 * sum) continue;
                 ++pairs;
                 square += gap < 0.0 ? gap * gap : 0.0;
@@ -107,8 +112,7 @@ double MeanBall::lamp(const cv::Mat& sharp, const CircleFit& rim,
                     return length(b.centre - x) < look_.kinds[b.kind].radius + 4.0;
                 }))
                 continue;
-            ratios.push_back(
-                double(sharp.at<float>(row, column) / floor_.at<float>(row, column)));
+            ratios.push_back(double(sharp.at<float>(row, column) / floor_.at<float>(row, column)));
         }
     return ratios.size() < 30 ? 1.0 : median(ratios);
 }
@@ -196,21 +200,26 @@ void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t 
     const double reach = scale * radius + beyond;
     const int top = std::max(0, static_cast<int>(std::ceil(centre.y - reach))),
               bottom = std::min(excess.level.rows - 1, static_cast<int>(centre.y + reach));
+    std::vector<char> hidden;  // by others, of a row
     for (int row = top; row <= bottom; row += stride) {
         const double y = double(row) - centre.y;
         const double half = std::sqrt(std::max(0.0, reach * reach - y * y));
         const int from = std::max(0, static_cast<int>(std::ceil(centre.x - half))),
                   to = std::min(excess.level.cols - 1, static_cast<int>(centre.x + half));
-        const float* level = excess.level.ptr<float>(row);
-        for (int column = from; column <= to; column += stride) {
-            if (level[column] == nowhere) continue;
-            const Vec2 x{double(column), double(row)};
-            const bool hidden = std::any_of(others.begin(), others.end(), [&](const auto& o) {
-                const Vec2 d = x - o.centre;
-                return dot(d, d) < (o.radius + near_others) * (o.radius + near_others);
-            });
-            if (!hidden) use(x, level[column], scale);
+        if (to < from) continue;
+        hidden.assign(static_cast<std::size_t>(to - from + 1), 0);
+        for (const NearCircle& o : others) {
+            const double reach_of = o.radius + near_others, up = double(row) - o.centre.y;
+            if (std::abs(up) >= reach_of) continue;
+            const double wide = std::sqrt(reach_of * reach_of - up * up);
+            const int first = std::max(from, static_cast<int>(std::ceil(o.centre.x - wide))),
+                      last = std::min(to, static_cast<int>(std::floor(o.centre.x + wide)));
+            for (int c = first; c <= last; ++c) hidden[static_cast<std::size_t>(c - from)] = 1;
         }
+        const float* level = excess.level.ptr<float>(row);
+        for (int column = from; column <= to; column += stride)
+            if (level[column] != nowhere && !hidden[static_cast<std::size_t>(column - from)])
+                use(Vec2{double(column), double(row)}, level[column], scale);
     }
 }
 
@@ -219,8 +228,8 @@ double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kin
     // What is hidden says nothing, for it or against it.
     double rest = 0.0, all = 0.0, scaled = 1.0;
     each_pixel(excess, centre, kind, others, stride, [&](const Vec2& x, float e, double scale) {
-        const auto t = double(on_grid(balls_[kind].level, (x.x - centre.x) / scale,
-                                      (x.y - centre.y) / scale));
+        const auto t = double(
+            on_grid(balls_[kind].grid, (x.x - centre.x) / scale, (x.y - centre.y) / scale)[0]);
         rest += (double(e) - t) * (double(e) - t);
         all += t * t;
         scaled = scale;
@@ -242,7 +251,7 @@ double MeanBall::excess_at(const Excess& excess, const Vec2& place) const {
 }
 
 MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_t kind,
-                            const std::vector<NearCircle>& others) const {
+                            const std::vector<NearCircle>& others, int stride) const {
     constexpr std::size_t n = 1 + modes + 2;
     const Look& ball = balls_[kind];
     Fit fit;
@@ -253,11 +262,10 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
         std::array<double, n> b{};
         std::size_t pixels = 0;
         const Vec2 at = fit.centre;
-        each_pixel(excess, at, kind, others, 1, [&](const Vec2& x, float e, double scale) {
+        each_pixel(excess, at, kind, others, stride, [&](const Vec2& x, float e, double scale) {
             const double px = (x.x - at.x) / scale, py = (x.y - at.y) / scale;
-            const auto t = double(on_grid(ball.level, px, py)),
-                       tx = double(on_grid(ball.along_x, px, py)),
-                       ty = double(on_grid(ball.along_y, px, py));
+            const cv::Vec3f level = on_grid(ball.grid, px, py);
+            const auto t = double(level[0]), tx = double(level[1]), ty = double(level[2]);
             const double u = px / ball.radius, v = py / ball.radius;
             const std::array<double, n> j{t,
                                           t * u,
@@ -274,12 +282,13 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
             }
             ++pixels;
         });
-        if (double(pixels) < 0.25 * 3.14 * ball.radius * ball.radius) return fit;
+        if (double(pixels) * stride * stride < 0.25 * pi * ball.radius * ball.radius) return fit;
         for (std::size_t r = 0; r < n; ++r)
             for (std::size_t c = 0; c < r; ++c) a[r][c] = a[c][r];
         for (std::size_t k = 0; k <= modes; ++k) {
             const double varies = k == 0 ? gain_varies : mode_varies;
-            const double weight = variance_ * pixels_of_a_patch / (varies * varies);
+            const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride));
+            const double weight = variance_ * patch / (varies * varies);
             a[k][k] += weight;
             b[k] += weight * ((k == 0 ? 1.0 : 0.0) - made[k]);
         }
@@ -289,7 +298,7 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
         const Vec2 move{std::clamp(b[modes + 1], -most, most),
                         std::clamp(b[modes + 2], -most, most)};
         fit.centre = fit.centre + move;
-        if (length(move) < 0.02) break;
+        if (length(move) < (stride > 1 ? 0.1 : 0.03)) break;
     }
     fit.good = length(fit.centre - centre) < 0.4 * ball.radius;
     return fit;
@@ -326,15 +335,16 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
     }
     cv::GaussianBlur(sum, sum, {}, 0.7);
     cv::GaussianBlur(weight, weight, {}, 0.7);
-    ball.level = cv::Mat::zeros(side, side, CV_32F);
+    cv::Mat level = cv::Mat::zeros(side, side, CV_32F), along_x, along_y;
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column)
             if (weight.at<float>(row, column) > 0.5f)
-                ball.level.at<float>(row, column) =
+                level.at<float>(row, column) =
                     sum.at<float>(row, column) / weight.at<float>(row, column);
-    ball.squares = std::max(cv::norm(ball.level, cv::NORM_L2SQR) * step * step, 1e-9);
-    cv::Scharr(ball.level, ball.along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
-    cv::Scharr(ball.level, ball.along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
+    ball.squares = std::max(cv::norm(level, cv::NORM_L2SQR) * step * step, 1e-9);
+    cv::Scharr(level, along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
+    cv::Scharr(level, along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
+    cv::merge(std::vector<cv::Mat>{level, along_x, along_y}, ball.grid);
 }
 
 std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
@@ -350,8 +360,8 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         for (const Bead& b : e.beads)
             if (b.sure) {
                 ++number[b.kind];
-                reach = std::max(reach,
-                                 length(b.centre - e.rim.centre) + look.kinds[b.kind].radius);
+                reach =
+                    std::max(reach, length(b.centre - e.rim.centre) + look.kinds[b.kind].radius);
             }
         if (reach > 0.0) reaches.push_back(reach);
     }
@@ -371,10 +381,9 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
                     if (column + x < 0 || row + y < 0 || column + x >= e.sharp.cols ||
                         row + y >= e.sharp.rows)
                         continue;
-                    contrasts.push_back(
-                        look.polarity *
-                        (of_lamp * double(e.sharp.at<float>(row + y, column + x)) -
-                         double(mean.floor_.at<float>(row + y, column + x))));
+                    contrasts.push_back(look.polarity *
+                                        (of_lamp * double(e.sharp.at<float>(row + y, column + x)) -
+                                         double(mean.floor_.at<float>(row + y, column + x))));
                 }
         }
     }
@@ -382,7 +391,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     const double contrast = median(contrasts);
     if (!(contrast > 3.0)) return std::nullopt;
     mean.soft_ = 0.38 * contrast;
-    for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}, {}, {}});
+    for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
 
     std::vector<std::vector<Vec2>> edges, places;
     for (const Example& e : examples) {
@@ -409,15 +418,15 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
                 ys.push_back(fit.centre.y - edges[k][i].y);
                 double square = 0.0;
                 std::size_t pixels = 0;
-                mean.each_pixel(seen, fit.centre, e.beads[i].kind, others, 2,
-                                [&](const Vec2& x, float level, double scale) {
-                                    const Vec2 d = (1.0 / scale) * (x - fit.centre);
-                                    const auto rest =
-                                        double(level - on_grid(mean.balls_[e.beads[i].kind].level,
-                                                               d.x, d.y));
-                                    square += rest * rest;
-                                    ++pixels;
-                                });
+                mean.each_pixel(
+                    seen, fit.centre, e.beads[i].kind, others, 2,
+                    [&](const Vec2& x, float level, double scale) {
+                        const Vec2 d = (1.0 / scale) * (x - fit.centre);
+                        const auto rest =
+                            double(level - on_grid(mean.balls_[e.beads[i].kind].grid, d.x, d.y)[0]);
+                        square += rest * rest;
+                        ++pixels;
+                    });
                 if (pixels > 0) rests.push_back(square / double(pixels));
             }
         }
@@ -439,8 +448,6 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);
         if (square < least) least = square, mean.counts_ = std::min(counts, 1.0);
     }
-    if (std::getenv("SWIRL_DEBUG"))
-        std::fprintf(stderr, "alone %.4f least %.4f counts %.2f soft %.1f variance %.1f\n", alone, least, mean.counts_, mean.soft_, mean.variance_);
     // Who gains little is left with the edges, which are quicker.
     if (least > 0.7 * alone) return std::nullopt;
     // Half of the pairs are nearer than they are, by a distance's error, √2 a place's.

@@ -8,10 +8,10 @@
 //     e(x) = s tanh((I(x)/λ − F(x)) / s)         the excess, ± for dark discs
 //
 // says ball or floor, and little about the texture, s being a third or so of the usual contrast.
-// Its mean about the discs' places, T, is compared with each: e(x) ≈ T(x − p)(g + modes), four modes
-// of second order for shading and texture with a narrow prior, p by Gauss–Newton; neighbours and the
-// wall are left out. T is learned on the survey's pictures in a few rounds from the places of the
-// edges, whose common offset is kept: of its own the mean has none.
+// Its mean about the discs' places, T, is compared with each: e(x) ≈ T(x − p)(g + modes), four
+// modes of second order for shading and texture with a narrow prior, p by Gauss–Newton; neighbours
+// and the wall are left out. T is learned on the survey's pictures in a few rounds from the places
+// of the edges, whose common offset is kept: of its own the mean has none.
 //
 // Both places err independently, so a mean of them is better than either. How much each counts is
 // told by the film: hard discs do not lie in each other, and that share is taken with which they do
@@ -50,16 +50,16 @@ class MeanBall {
 
     struct Fit {
         Vec2 centre;
-        /// 1 less the share of the mean ball's squares by which the picture differs from it: 1 is a
-        /// ball, 0 the floor.
-        double score = 0.0;
         bool good = false;
     };
     Fit fit(const Excess& excess, const Vec2& centre, std::size_t kind,
-            const std::vector<NearCircle>& others) const;
+            const std::vector<NearCircle>& others, int stride = 1) const;
+    /// 1 less the share of the mean ball's squares by which the picture differs from it: 1 is a
+    /// ball, 0 the floor. With every `stride`th pixel of every `stride`th row.
     double score(const Excess& excess, const Vec2& centre, std::size_t kind,
                  const std::vector<NearCircle>& others, int stride) const;
     double soft() const { return soft_; }
+    /// Whether a ball there would lie in the dish.
     bool inside(const Excess& excess, const Vec2& centre, std::size_t kind) const;
     double excess_at(const Excess& excess, const Vec2& place) const;
 
@@ -75,7 +75,7 @@ class MeanBall {
 
     struct Look {  // of a kind
         double radius = 0.0, squares = 1.0;
-        cv::Mat level, along_x, along_y;
+        cv::Mat grid;  // T and its slopes, three floats
     };
     BeadLook look_;
     cv::Mat floor_;

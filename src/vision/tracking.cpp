@@ -262,8 +262,8 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
                 others.back().sure = true;
             }
         for (const Wanted& w : here) {
-            auto bead = find_bead_near(picture, rim, found.look, film.lens.seen(w.where), w.kind,
-                                       others);
+            auto bead =
+                find_bead_near(picture, rim, found.look, film.lens.seen(w.where), w.kind, others);
             if (!bead) continue;
             bead->sure = true;
             others.push_back(*bead);

@@ -186,6 +186,19 @@ class FilmTest(InFolder):
         self.assertGreater(wall, 0.05)
         self.assertLess(wall, 1.5)
 
+    def test_a_poor_film(self):
+        # Low contrast, noise, blur and compression: discs are known by what all look like.
+        film = self.path("film.mp4")
+        done = swirl("film-test", "--camera", "bad", "--discs", 28, "--length", 2, "--quality", 26,
+                     "--out", film, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        tracks, _ = self.track(film)
+        result = Comparison(film, tracks)
+        self.assertEqual(result.found["discs"], 28)
+        self.assertGreaterEqual(result.complete, 0.9)
+        self.assertLessEqual(result.exchanges, 2)
+        self.assertLess(result.rms, 0.65)  # pixels; 0.9 by the edges alone
+
     def test_a_mirrored_film_and_dark_discs(self):
         film = self.film("--mirrored", "--disc-level", 60, "--floor-level", 200, "--rim-level", 90,
                          "--table-level", 150, "--gloss", 120, "--texture", 0.1)
