@@ -570,6 +570,9 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.rim_off.push_back(
+            all[k].rim.good ? length(all[k].rim.centre - film.path.at(film.times[k])) : -1.0);
     film.rim_radius = quantile(rims, 0.5);
     film.rim_support = quantile(supports, 0.5);
 

@@ -49,6 +49,8 @@ struct TrackedFilm {
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     std::size_t rims_missed = 0;
     double rim_support = 0.0;
+    /// How far from the path the rim's centre was in each picture; below 0 where it was not seen.
+    std::vector<double> rim_off;
 
     bool bright = true;  // discs on a darker floor
     std::vector<TrackedKind> kinds;
