@@ -42,8 +42,14 @@ def draw(folder, pictures, number):
     style.save(drawing, os.path.join(folder, "figure_found.csv"))
 
 
-def degrees(radians):
-    return math.degrees(radians)
+def path_text(path):
+    """Circle or polygon, as far as can be told."""
+    if path["sides"]:
+        return f"a polygon of {path['sides']} sides, corners at {path['corners']:.2f} pixels"
+    most = path["sides_up_to_which_would_be_seen"]
+    if most >= 3:
+        return f"a circle, or a polygon of more than {most} sides"
+    return "a polygon cannot be told from a circle: too few pictures, or too rough a rim"
 
 
 def found_rows(found):
@@ -68,6 +74,7 @@ def found_rows(found):
             (f"Ω, rad/{unit}", value(omega, omega_error)),
             (f"period, {unit}", value(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
             ("sense", "clockwise in the picture" if path["clockwise"] else "counter-clockwise"),
+            ("path", path_text(path)),
             ("lens, distortion", value(lens["distortion"], lens["distortion_error"]))]
     if found["millimetres_per_pixel"]:
         rows.append(("scale", f"{found['millimetres_per_pixel']:.5f} mm a pixel"))

@@ -54,6 +54,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  discs       {}, {} on {} floor\n"
         "  dish        radius {:.2f} pixels, {:.3f} disc radii\n"
         "  swirl       centre {}, {}; amplitude {} pixels, {:.3f} disc radii; {}\n"
+        "  path        {}\n"
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
@@ -65,7 +66,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         with_error(film.path.centre.y, film.path.centre_error),
         with_error(film.path.amplitude, film.path.amplitude_error),
         film.path.amplitude / film.radius,
-        film.path.clockwise ? "clockwise in the picture" : "counter-clockwise",
+        film.path.clockwise ? "clockwise in the picture" : "counter-clockwise", shape_text(film),
         with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,
         with_error(film.path.omega, film.path.omega_error), unit,
         with_error(phase_of(film), film.path.phase_error * 180.0 / pi),

@@ -77,7 +77,11 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"phase", phase_of(film)},
               {"phase_error", degrees(film.path.phase_error)},
               {"clockwise", film.path.clockwise},
-              {"residual", film.path.residual}}},
+              {"residual", film.path.residual},
+              {"pictures_that_agree", film.path.used},
+              {"sides", film.sides > 0 ? Json(film.sides) : Json(nullptr)},
+              {"sides_up_to_which_would_be_seen", film.most_sides},
+              {"corners", film.sides > 0 ? Json(film.corners) : Json(nullptr)}}},
             {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
             {"quality",
              {{"touching_discs_are_apart", film.touching},
@@ -229,6 +233,15 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
                folder / "film.png");
     run_python_script("track.py", {folder.string()});
     return folder / "report.html";
+}
+
+std::string shape_text(const TrackedFilm& film) {
+    if (film.sides > 0)
+        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", film.sides,
+                           film.corners);
+    if (film.most_sides >= 3)
+        return fmt::format("a circle, or a polygon of more than {} sides", film.most_sides);
+    return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
 }
 
 double phase_of(const TrackedFilm& film) {

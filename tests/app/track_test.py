@@ -35,17 +35,11 @@ def places(path, x="x", y="y"):
     return found
 
 
-class Comparison:
-    """Tracks against the truth of a film."""
+class Judged:
+    """Places by name against the true ones: {frame: {name: (x, y)}} each."""
 
-    def __init__(self, film, tracks):
-        stem = film[:-len(".mp4")]
-        with open(stem + ".truth.json", encoding="utf-8") as file:
-            self.truth = json.load(file)
-        with open(tracks[:-len(".csv")] + ".camera.json", encoding="utf-8") as file:
-            self.found = json.load(file)
-        truth, found = places(stem + ".truth.csv", "x_ideal", "y_ideal"), places(tracks)
-        radius = self.truth["scale"]
+    def __init__(self, truth, found, about):
+        radius = about["scale"]
         errors, owner = [], {}
         self.exchanges = self.full = 0
         for frame, discs in truth.items():
@@ -63,13 +57,32 @@ class Comparison:
         self.frames = len(truth)
         self.complete = self.full / self.frames
         self.rms = math.sqrt(sum(e * e for e in errors) / len(errors) / 2.0)
-        periods = self.frames * self.truth["omega"] / (2.0 * math.pi)
-        self.exchanges_per_thousand = 1000.0 * self.exchanges / (self.truth["discs"] * periods)
+        periods = self.frames * about["omega"] / (2.0 * math.pi)
+        self.exchanges_per_thousand = 1000.0 * self.exchanges / (about["discs"] * periods)
+
+
+class Truth:
+    """What is beside a film."""
+
+    def __init__(self, film):
+        with open(film[:-len(".mp4")] + ".truth.json", encoding="utf-8") as file:
+            self.about = json.load(file)
+
+
+class Comparison(Judged):
+    """Tracks against the truth of a film."""
+
+    def __init__(self, film, tracks):
+        self.truth = Truth(film).about
+        with open(tracks[:-len(".csv")] + ".camera.json", encoding="utf-8") as file:
+            self.found = json.load(file)
+        super().__init__(places(film[:-len(".mp4")] + ".truth.csv", "x_ideal", "y_ideal"),
+                         places(tracks), self.truth)
         fps = self.found["fps"]
         self.omega = self.found["path"]["omega"] / fps / self.truth["omega"] - 1.0
         self.centre = math.dist(self.found["path"]["centre"], self.truth["centre"])
         self.amplitude = self.found["path"]["amplitude"] - self.truth["amplitude"]
-        self.radius = self.found["kinds"][0]["radius"] / radius - 1.0
+        self.radius = self.found["kinds"][0]["radius"] / self.truth["scale"] - 1.0
 
 
 class SpinComparison:
