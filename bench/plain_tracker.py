@@ -6,12 +6,12 @@ written down plainly, against the truth of the films.
     find   Crocker & Grier (1996): a band pass (a Gaussian less a moving mean of a disc's width, nothing
            below 0), local maxima of it as bright as the best, the brightness-weighted middle of a disc
            about each, moved until it stays. The diameter is told; of dark discs the negative is taken.
-           As many of the brightest maxima are kept as there are discs, which is told, too.
+           As many of the brightest maxima are kept as there are discs, which is told, too, and where
+           the dish is.
     link   the assignment with the least sum of squares between two pictures, in the lab, within a
            range that is told (a disc's radius); who is missing is remembered for three pictures.
 
-trackpy itself (0.6) does this with more care in places; the settings told here are the best of a user
-who knows the film. Nothing of the dish is found, and no error told.
+trackpy itself does this with more care in places. Nothing of the dish is found, and no error told.
 """
 
 import os
@@ -36,7 +36,7 @@ def pictures(film):
     return numpy.frombuffer(raw, numpy.uint8).reshape(-1, height, width)
 
 
-def find(picture, radius, number, dark):
+def find(picture, radius, number, dark, centre, dish):
     grey = picture.astype(float)
     if dark:
         grey = 255.0 - grey
@@ -47,6 +47,8 @@ def find(picture, radius, number, dark):
     smooth = ndimage.gaussian_filter(band, 0.5 * radius)
     maxima = (ndimage.maximum_filter(smooth, size=int(1.2 * radius)) == smooth) & (smooth > 0)
     rows, columns = numpy.nonzero(maxima)
+    inside = numpy.hypot(columns - centre[0], rows - centre[1]) < dish - 0.5 * radius
+    rows, columns = rows[inside], columns[inside]
     best = numpy.argsort(-smooth[rows, columns])[:number]
     reach = int(radius)
     y, x = numpy.mgrid[-reach:reach + 1, -reach:reach + 1]
@@ -105,8 +107,11 @@ def main():
             if done.returncode != 0:
                 sys.exit(done.stderr)
             truth = track_test.Truth(film)
-            found = [find(picture, truth.about["scale"], truth.about["discs"], name == "steel")
-                     for picture in pictures(film)]
+            dish = [(float(row["x_ideal"]), float(row["y_ideal"]))
+                    for row in track_test.rows(film[:-4] + ".dish.csv")]
+            found = [find(picture, truth.about["scale"], truth.about["discs"], name == "steel",
+                          centre, truth.about["container_radius"])
+                     for picture, centre in zip(pictures(film), dish)]
             # Of the picture, not of an ideal lens: plain tracking knows of none.
             judged = track_test.Judged(track_test.places(film[:-4] + ".truth.csv"),
                                        link(found, truth.about["scale"]), truth.about)

@@ -425,6 +425,32 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
         film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
+/// The longest stretch of pictures in each of which many discs are missing at once.
+struct Covered {
+    std::size_t begin = 0, end = 0;
+    double share = 0.0;  // of the discs, on the mean
+};
+Covered covered(const TrackedFilm& film) {
+    constexpr double many = 0.2;  // of the discs
+    constexpr std::size_t fewest = 3;
+    Covered longest, here;
+    for (std::size_t k = 0; k <= film.seen.size(); ++k) {
+        std::size_t missing = 0;
+        if (k < film.seen.size())
+            missing = film.number - static_cast<std::size_t>(std::count(
+                                        film.seen[k].begin(), film.seen[k].end(), std::uint8_t(1)));
+        if (missing >= fewest && double(missing) >= many * double(film.number)) {
+            if (here.end != k) here = {k, k, 0.0};
+            ++here.end;
+            here.share += double(missing) / double(film.number);
+        } else if (here.end - here.begin > longest.end - longest.begin) {
+            longest = here;
+        }
+    }
+    if (longest.end > longest.begin) longest.share /= double(longest.end - longest.begin);
+    return longest;
+}
+
 /// What looks wrong, with its likely cause.
 void warn(TrackedFilm& film) {
     const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
@@ -458,7 +484,15 @@ void warn(TrackedFilm& film) {
             "Discs come {:.2f} pixels farther out than the rim that is seen, of {:.2f} pixels "
             "radius; where they are stopped is taken for the dish.",
             film.reach - film.rim_radius, film.rim_radius));
-    if (film.complete < 0.9)
+    const Covered hand = covered(film);
+    const bool hidden = hand.end - hand.begin >= 4;
+    if (hidden)
+        say(fmt::format(
+            "In pictures {} to {} about {:.0f} % of the discs are missing at once: something was "
+            "in "
+            "front of the dish, a hand perhaps. Their names before and after may not agree.",
+            hand.begin, hand.end - 1, 100.0 * hand.share));
+    if (film.complete < 0.9 && !hidden)
         say(fmt::format(
             "All {} discs are seen in only {:.1f} % of the pictures: more even light, less glare, "
             "a sharper picture or a shorter exposure would help{}.",

@@ -148,8 +148,19 @@ class FilmTest(InFolder):
 
     def test_from_a_film_to_the_rotation(self):
         film = self.film()
-        tracks, said = self.track(film, "--json", self.path("found.json"))
+        tracks, said = self.track(film, "--json", self.path("found.json"), "--report",
+                                  self.path("report"))
         self.assertIn("20 discs", said)
+        with open(self.path("report/report.html"), encoding="utf-8") as file:
+            report = file.read()
+        for part in ("What was found", "20, bright", "pictures with all discs", "Over time",
+                     "counter-clockwise", "data:image/png;base64,", "swirl track"):
+            self.assertIn(part, report)
+        with open(self.path("found.json"), encoding="utf-8") as file:
+            path = json.load(file)["path"]
+        self.assertIn(path["sides"], (30, None))  # the run's, if it can be told
+        for row in rows(self.path("report/pictures.csv")):
+            self.assertLessEqual(int(row["seen"]) + int(row["filled"]) + int(row["missing"]), 20)
         result = Comparison(film, tracks)
         self.assertEqual(result.found["discs"], 20)
         self.assertTrue(result.found["discs_are"] == "bright")
@@ -275,6 +286,12 @@ class FilmTest(InFolder):
         self.assertLess(abs((found["path"]["phase"] - 90.0 + 180.0) % 360.0 - 180.0), 1.0)
         _, said = changed("two.mp4", "-vf", "split[a][b];[a][b]hstack", "-qp", "14")
         self.assertIn("second circle of the dish's size", said)
+        tracks, said = changed("hand.mp4", "-vf", "drawbox=x=0:y=0:w=110:h=240:color=0x9a8070:t=fill:"
+                               "enable='between(n,25,40)'", "-qp", "14")
+        self.assertIn("a hand perhaps", said)
+        after = places(tracks)
+        for frame in range(48, 70):
+            self.assertEqual(len(after[frame]), 20, frame)  # all are found again
         _, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",
                           "-qp", "14")
         self.assertIn("frame rate varies", said)
