@@ -14,9 +14,7 @@
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/app/tracked_film.hpp"
-#include "swirl/draw/label.hpp"
 #include "swirl/files/whole_file.hpp"
-#include "swirl/film/picture.hpp"
 #include "swirl/paper/experiment.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -66,17 +64,6 @@ nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string
 
 #ifdef SWIRL_CAMERA
 
-void draw_film(const TrackedFilm& tracked_film, const std::string& film, const fs::path& picture) {
-    PictureConfig config;
-    config.sources = {
-        tracked(tracked_film.tracks, tracked_film.scale(), escaped(name_of_film(film)), film)};
-    config.appearance.size = {720, 720};
-    config.appearance.coloring = Coloring::id;
-    config.at = config.sources.front().from.value_or(0.0);
-    config.out = picture.string();
-    make_picture(config);
-}
-
 /// Tracks the film unless that was done; returns the table.
 fs::path tracks_of(const ExperimentCall& call, const std::string& film, FilmedDish& dish) {
     const fs::path folder = fs::path(call.out) / "tracks";
@@ -90,18 +77,13 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& film, FilmedDi
                        read_whole_file(about) == identity;
     if (known) return table;
     ProgressLine line(dish.name, call.quiet);
-    TrackingSettings settings;
-    settings.film = film;
-    settings.fps = call.fps;
-    settings.most_pictures = call.frames.value_or(0);
-    settings.stop = &stop_signal();
-    settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
+    const TrackingSettings settings = tracking_settings(film, call.fps, call.frames, line);
     const TrackedFilm found = track_film(settings);
     std::optional<FilmSpins> spins;
     if (call.spin) spins = spins_of(found, settings);
     line.clear();
     write_tracks(found, {film, {}, {}}, table, spins ? &*spins : nullptr);
-    draw_film(found, film, picture);
+    draw_found(found, film, name_of_film(film), picture);
     write_output(about, identity);
     return table;
 }
@@ -169,10 +151,7 @@ FilmedDish filmed(const ExperimentCall& call, const std::string& film, bool smoo
 
 void check(const ExperimentCall& call) {
     if (call.out.empty()) throw WrongCall("There is nowhere for the report to go: give --out DIR.");
-    if (call.fps && !(*call.fps > 0.0))
-        throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *call.fps));
-    if (call.frames && !(*call.frames > 0))
-        throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *call.frames));
+    check_film_options(call.fps, call.frames);
     std::set<std::string> names;
     for (const auto* films : {&call.rough, &call.smooth})
         for (const std::string& film : *films)

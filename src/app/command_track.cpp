@@ -27,7 +27,7 @@ namespace {
 
 struct TrackCall {
     FilmSource source;
-    std::string out, json, overlay;
+    std::string out, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
     bool spin = false, quiet = false, overwrite = false;
@@ -54,6 +54,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  discs       {}, {} on {} floor\n"
         "  dish        radius {:.2f} pixels, {:.3f} disc radii\n"
         "  swirl       centre {}, {}; amplitude {} pixels, {:.3f} disc radii; {}\n"
+        "  path        {}\n"
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
@@ -65,7 +66,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         with_error(film.path.centre.y, film.path.centre_error),
         with_error(film.path.amplitude, film.path.amplitude_error),
         film.path.amplitude / film.radius,
-        film.path.clockwise ? "clockwise in the picture" : "counter-clockwise",
+        film.path.clockwise ? "clockwise in the picture" : "counter-clockwise", shape_text(film),
         with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,
         with_error(film.path.omega, film.path.omega_error), unit,
         with_error(phase_of(film), film.path.phase_error * 180.0 / pi),
@@ -114,16 +115,13 @@ void track(const TrackCall& call) {
         throw WrongCall("There is nowhere for the tracks to go: give --out FILE.csv.");
     if (!call.out.ends_with(".csv"))
         throw WrongCall(fmt::format("--out is '{}', but its name must end with .csv.", call.out));
-    if (call.fps && !(*call.fps > 0.0))
-        throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *call.fps));
+    check_film_options(call.fps, call.frames);
     if (call.discs && !(*call.discs > 0))
         throw WrongCall(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
     for (const auto& [name, given] : {std::pair("dish-diameter", call.source.dish_diameter),
                                       std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
             throw WrongCall(fmt::format("--{} is {}, but it must be above 0.", name, *given));
-    if (call.frames && !(*call.frames > 0))
-        throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *call.frames));
     refuse_unwritable(call.out);
     if (!call.overlay.empty()) {
         if (!movie_format(call.overlay))
@@ -133,17 +131,13 @@ void track(const TrackCall& call) {
         refuse_unwritable(call.overlay);
     }
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
+    if (!call.report.empty()) make_folder(call.report);
     if (!call.overwrite && std::filesystem::exists(call.out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
 
     ProgressLine line(call.source.film, call.quiet);
-    TrackingSettings settings;
-    settings.film = call.source.film;
-    settings.fps = call.fps;
+    TrackingSettings settings = tracking_settings(call.source.film, call.fps, call.frames, line);
     settings.discs = call.discs;
-    settings.most_pictures = call.frames.value_or(0);
-    settings.stop = &stop_signal();
-    settings.progress = [&](const std::string& what, double share) { line.show(share, what); };
     TrackedFilm film = track_film(settings);
     std::optional<FilmSpins> spins;
     if (call.spin) spins = spins_of(film, settings);
@@ -166,9 +160,13 @@ void track(const TrackCall& call) {
     const nlohmann::ordered_json json =
         write_tracks(film, call.source, call.out, spins ? &*spins : nullptr);
     if (!call.overlay.empty()) make_overlay(film, call);
+    std::filesystem::path report;
+    if (!call.report.empty()) report = write_film_report(film, call.source, json, call.report);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
-    if (!call.quiet) print_all(text_of(film, call));
+    if (!call.quiet)
+        print_all(text_of(film, call) +
+                  (report.empty() ? "" : fmt::format("wrote {}\n", report.string())));
 }
 
 #endif
@@ -191,6 +189,8 @@ void add_track_command(Subcommand& subcommand) {
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
     add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
+    add("--report", call->report, "DIR",
+        "a report of the film, DIR/report.html: what was found, how well, and where not");
     add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout");
     subcommand.add_flag("--spin", call->spin,
                         "how fast each disc turns, from its texture: columns spin (about the "

@@ -1,13 +1,22 @@
 #include "swirl/app/tracked_film.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "swirl/run/failure.hpp"
 #ifdef SWIRL_CAMERA
+#include "swirl/app/command_line.hpp"
 #include "swirl/app/output.hpp"
+#include "swirl/app/progress_line.hpp"
+#include "swirl/app/stop_signal.hpp"
 #include "swirl/app/track_options.hpp"
+#include "swirl/draw/label.hpp"
 #include "swirl/files/table.hpp"
+#include "swirl/film/picture.hpp"
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/paper/python_script.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
@@ -19,6 +28,14 @@ void throw_no_eyes() {
     throw Failure(
         "This build of swirl has no eyes: it was made without OpenCV. Install libopencv-core-dev "
         "and libopencv-imgproc-dev, and build again; ./swirl track does both.");
+}
+
+void check_film_options(const std::optional<double>& fps,
+                        const std::optional<std::int64_t>& frames) {
+    if (fps && !(*fps > 0.0))
+        throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *fps));
+    if (frames && !(*frames > 0))
+        throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *frames));
 }
 
 #ifdef SWIRL_CAMERA
@@ -60,7 +77,11 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"phase", phase_of(film)},
               {"phase_error", degrees(film.path.phase_error)},
               {"clockwise", film.path.clockwise},
-              {"residual", film.path.residual}}},
+              {"residual", film.path.residual},
+              {"pictures_that_agree", film.path.used},
+              {"sides", film.sides > 0 ? Json(film.sides) : Json(nullptr)},
+              {"sides_up_to_which_would_be_seen", film.most_sides},
+              {"corners", film.sides > 0 ? Json(film.corners) : Json(nullptr)}}},
             {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
             {"quality",
              {{"touching_discs_are_apart", film.touching},
@@ -122,7 +143,106 @@ Table table_of(const TrackedFilm& film, const FilmSpins* spins) {
     return table;
 }
 
+/// For each picture: what is there, and how well.
+Table pictures_of(const TrackedFilm& film) {
+    Table table(
+        {"picture", "time", "seen", "filled", "missing", "error", "deepest_overlap", "rim_off"});
+    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        std::int64_t seen = 0;
+        double square = 0.0, deepest = 0.0;
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            if (!film.seen[k][i]) continue;
+            ++seen;
+            square += film.errors[k][i] * film.errors[k][i];
+            for (std::size_t j = 0; j < i; ++j) {
+                const Vec2 d = f.position[i] - f.position[j];
+                if (film.seen[k][j])
+                    deepest = std::max(deepest, f.radius[i] + f.radius[j] - std::sqrt(dot(d, d)));
+            }
+        }
+        const auto there = static_cast<std::int64_t>(f.id.size());
+        table.add({f.number, film.times[k], seen, there - seen,
+                   static_cast<std::int64_t>(film.number) - there,
+                   seen > 0 ? std::sqrt(square / double(seen)) : 0.0, deepest, film.rim_off[k]});
+    }
+    return table;
+}
+
+/// For each disc: how often it was seen.
+Table discs_of(const TrackedFilm& film) {
+    struct Disc {
+        std::int64_t seen = 0, filled = 0, first = -1, last = -1;
+        double square = 0.0, radius = 0.0;
+    };
+    std::vector<Disc> discs(film.number);
+    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            Disc& disc = discs[static_cast<std::size_t>(f.id[i])];
+            disc.radius = f.radius[i];
+            ++(film.seen[k][i] ? disc.seen : disc.filled);
+            if (!film.seen[k][i]) continue;
+            if (disc.first < 0) disc.first = f.number;
+            disc.last = f.number;
+            disc.square += film.errors[k][i] * film.errors[k][i];
+        }
+    }
+    Table table({"particle", "radius", "seen", "filled", "first", "last", "error"});
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const Disc& d = discs[i];
+        table.add({static_cast<std::int64_t>(i), d.radius, d.seen, d.filled, d.first, d.last,
+                   d.seen > 0 ? std::sqrt(d.square / double(d.seen)) : 0.0});
+    }
+    return table;
+}
+
 }  // namespace
+
+TrackingSettings tracking_settings(const std::string& film, const std::optional<double>& fps,
+                                   const std::optional<std::int64_t>& frames, ProgressLine& line) {
+    TrackingSettings settings;
+    settings.film = film;
+    settings.fps = fps;
+    settings.most_pictures = frames.value_or(0);
+    settings.stop = &stop_signal();
+    settings.progress = [&line](const std::string& what, double share) { line.show(share, what); };
+    return settings;
+}
+
+void draw_found(const TrackedFilm& film, const std::string& file, const std::string& caption,
+                const std::filesystem::path& picture) {
+    PictureConfig config;
+    config.sources = {tracked(film.tracks, film.scale(), escaped(caption), file)};
+    config.appearance.size = {720, 720};
+    config.appearance.coloring = Coloring::id;
+    config.at = config.sources.front().from.value_or(0.0);
+    config.out = picture.string();
+    make_picture(config);
+}
+
+std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSource& source,
+                                        const Json& found, const std::filesystem::path& folder) {
+    make_folder(folder);
+    pictures_of(film).write(folder / "pictures.csv");
+    discs_of(film).write(folder / "discs.csv");
+    Json about = found;
+    about["command"] = command_line();
+    write_output(folder / "found.json", about.dump(2) + "\n");
+    draw_found(film, source.film, std::filesystem::path(source.film).filename().string(),
+               folder / "film.png");
+    run_python_script("track.py", {folder.string()});
+    return folder / "report.html";
+}
+
+std::string shape_text(const TrackedFilm& film) {
+    if (film.sides > 0)
+        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", film.sides,
+                           film.corners);
+    if (film.most_sides >= 3)
+        return fmt::format("a circle, or a polygon of more than {} sides", film.most_sides);
+    return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
+}
 
 double phase_of(const TrackedFilm& film) {
     const double phase = degrees(film.path.angle(film.times.front()));

@@ -3,13 +3,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace swirl {
 
+class ProgressLine;
 struct TrackedFilm;
+struct TrackingSettings;
 struct FilmSpins;
 
 /// Where the pictures are from, and what is known of them.
@@ -20,6 +23,27 @@ struct FilmSource {
 
 /// Throws Failure: this build has no OpenCV.
 [[noreturn]] void throw_no_eyes();
+
+/// Throws WrongCall: --fps and --frames must be above 0.
+void check_film_options(const std::optional<double>& fps,
+                        const std::optional<std::int64_t>& frames);
+
+/// What all who track a film set alike; `line` shows how far it is, and must outlive it.
+TrackingSettings tracking_settings(const std::string& film, const std::optional<double>& fps,
+                                   const std::optional<std::int64_t>& frames, ProgressLine& line);
+
+/// The film's first picture with the discs drawn over it.
+void draw_found(const TrackedFilm& tracked, const std::string& film, const std::string& caption,
+                const std::filesystem::path& picture);
+
+/// The report of one film, report.html, with the tables and the drawing that it is made of
+/// (found.json, pictures.csv, discs.csv, film.png, figure_found.png and .pdf). Returns its path.
+std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSource& source,
+                                        const nlohmann::ordered_json& found,
+                                        const std::filesystem::path& folder);
+
+/// Circle or polygon, as far as can be told.
+std::string shape_text(const TrackedFilm& film);
 
 /// The dish at the first picture, as one reads it off: from 0 to 360 degrees.
 double phase_of(const TrackedFilm& film);

@@ -6,6 +6,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/vision/mean_ball.hpp"
 
 namespace swirl {
 
@@ -15,6 +16,8 @@ constexpr double sure_support = 0.45, any_support = 0.16;
 /// Centres of hard discs are the sum of their radii apart; what is nearer than this share of it is
 /// the same disc twice.
 constexpr double least_distance = 0.8;
+/// By the mean ball: the score of a ball, and how near two of them may seem.
+constexpr double like_a_ball = 0.5, free_distance = 0.86;
 
 /// The edges inside the dish; its wall's own are left out.
 std::vector<EdgePixel> edges_inside(const Picture& picture, const CircleFit& rim) {
@@ -351,10 +354,166 @@ void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, con
 
 }  // namespace
 
-std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
-                                   std::size_t kind, const std::vector<Bead>& others) {
+namespace {
+
+/// The sure ones that hide some of what is looked at of another, but for itself.
+std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
+                                    const BeadLook& look) {
+    constexpr double looked_at = 7.0;  // pixels beyond both
+    std::vector<NearCircle> others;
+    const double own = look.kinds[self.kind].radius;
+    for (const Bead& b : all) {
+        const Vec2 d = b.centre - self.centre;
+        const double reach = own + look.kinds[b.kind].radius + looked_at;
+        if (&b != &self && b.sure && dot(d, d) < reach * reach)
+            others.push_back(
+                {b.centre, look.lens.seen_radius(b.centre, look.kinds[b.kind].radius)});
+    }
+    return others;
+}
+
+/// Between the place of its edge and that of the mean ball.
+void move_to_mean(Bead& bead, const Vec2& by_edge, const MeanBall::Excess& excess,
+                  const std::vector<Bead>& all, const BeadLook& look) {
+    const MeanBall& mean = *look.mean_ball;
+    const auto others = sure_others(all, bead, look);
+    const auto fit = mean.fit(excess, bead.centre, bead.kind, others);
+    const Vec2 place = fit.good ? fit.centre : bead.centre;
+    bead.centre = (1.0 - mean.counts()) * by_edge + mean.counts() * place;
+    bead.error = std::max(bead.error, mean.error());
+}
+
+/// Who looks like the mean ball, the best first, whether or not there is an edge; others that were
+/// found by their edges remain as candidates.
+void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleFit& rim,
+                 const BeadLook& look) {
+    const MeanBall& mean = *look.mean_ball;
+    const MeanBall::Excess excess = mean.excess(picture.sharp, rim, beads);
+    struct Candidate {
+        Bead bead;
+        Vec2 by_edge;
+        double score;
+    };
+    std::vector<Candidate> open;
+    std::vector<Bead> taken;
+    std::vector<Vec2> edges;  // of those taken
+    const auto judged = [&](Candidate& c) {
+        const auto fit =
+            mean.fit(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
+        if (fit.good) c.bead.centre = fit.centre;
+        c.score =
+            mean.score(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
+    };
+    const auto sum = [&](const Bead& a, const Bead& b) {
+        return look.kinds[a.kind].radius + look.kinds[b.kind].radius;
+    };
+    const auto take = [&](std::size_t k) {
+        Candidate c = open[k];
+        judged(c);
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+        c.bead.sure = true;
+        c.bead.support = c.score;
+        taken.push_back(c.bead);
+        edges.push_back(c.by_edge);
+        for (Candidate& o : open)
+            if (length(o.bead.centre - c.bead.centre) < 1.3 * sum(o.bead, c.bead))
+                o.score = mean.score(excess, o.bead.centre, o.bead.kind,
+                                     sure_others(taken, o.bead, look), 2);
+    };
+    const auto best_open = [&] {
+        std::size_t best = open.size();
+        for (std::size_t k = 0; k < open.size(); ++k) {
+            if (open[k].score < like_a_ball ||
+                (best < open.size() && open[k].score <= open[best].score))
+                continue;
+            if (std::none_of(taken.begin(), taken.end(), [&](const Bead& t) {
+                    return length(t.centre - open[k].bead.centre) <
+                           free_distance * sum(t, open[k].bead);
+                }))
+                best = k;
+        }
+        return best;
+    };
+    for (const Bead& b : beads) {
+        if (!mean.inside(excess, b.centre, b.kind)) continue;
+        open.push_back({b, b.centre, 0.0});
+        open.back().score = mean.score(excess, b.centre, b.kind, {}, 2);
+    }
+    for (std::size_t k; (k = best_open()) < open.size();) take(k);
+    // And where something lies that is no edge's.
+    while (taken.size() < look.number) {
+        Candidate best{};
+        for (std::size_t kind = 0; kind < look.kinds.size(); ++kind) {
+            const double radius = look.kinds[kind].radius, stride = 0.3 * radius;
+            for (double x = -rim.radius; x < rim.radius; x += stride)
+                for (double y = -rim.radius; y < rim.radius; y += stride) {
+                    Candidate c{{rim.centre + Vec2{x, y}, kind, 0.0, 0.0, false}, {}, 0.0};
+                    if (!mean.inside(excess, c.bead.centre, kind)) continue;
+                    if (!(mean.excess_at(excess, c.bead.centre) > 0.3 * mean.soft())) continue;
+                    if (std::any_of(taken.begin(), taken.end(), [&](const Bead& t) {
+                            return length(t.centre - c.bead.centre) < 0.8 * sum(t, c.bead);
+                        }))
+                        continue;
+                    c.score = mean.score(excess, c.bead.centre, kind,
+                                         sure_others(taken, c.bead, look), 2);
+                    if (c.score > best.score) best = c;
+                }
+        }
+        if (best.score < 0.5 * like_a_ball) break;
+        judged(best);
+        best.by_edge = best.bead.centre;
+        const bool free = std::none_of(taken.begin(), taken.end(), [&](const Bead& t) {
+            return length(t.centre - best.bead.centre) < free_distance * sum(t, best.bead);
+        });
+        if (!free || best.score < like_a_ball) break;
+        best.bead.error = mean.error();
+        open.push_back(best);
+        take(open.size() - 1);
+    }
+    for (std::size_t k = 0; k < taken.size(); ++k)
+        move_to_mean(taken[k], edges[k], excess, taken, look);
+    for (Candidate& c : open) {
+        const bool same = std::any_of(taken.begin(), taken.end(), [&](const Bead& t) {
+            return length(t.centre - c.bead.centre) < 0.25 * sum(t, c.bead);
+        });
+        if (same) continue;
+        c.bead.sure = false;
+        c.bead.support = std::max(c.score, 0.01);
+        taken.push_back(c.bead);
+    }
+    beads = std::move(taken);
+}
+
+}  // namespace
+
+std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
+                                   const BeadLook& look, const Vec2& where, std::size_t kind,
+                                   const std::vector<Bead>& others) {
     constexpr double farthest = 0.45, step = 0.15;  // radii
     const double radius = look.kinds[kind].radius;
+    if (look.mean_ball) {
+        const MeanBall& mean = *look.mean_ball;
+        const MeanBall::Excess excess = mean.excess(picture.sharp, rim, others);
+        Bead best;
+        best.kind = kind;
+        for (double x = -2.0 * farthest; x <= 2.0 * farthest + 1e-9; x += step)
+            for (double y = -2.0 * farthest; y <= 2.0 * farthest + 1e-9; y += step) {
+                Bead trial = best;
+                trial.centre = where + radius * Vec2{x, y};
+                trial.support =
+                    mean.score(excess, trial.centre, kind, sure_others(others, trial, look), 2);
+                if (trial.support > best.support) best = trial;
+            }
+        if (best.support < 0.7 * like_a_ball) return std::nullopt;
+        const auto fit = mean.fit(excess, best.centre, kind, sure_others(others, best, look));
+        if (fit.good) best.centre = fit.centre;
+        for (const Bead& other : others)
+            if (length(other.centre - best.centre) <
+                free_distance * (radius + look.kinds[other.kind].radius))
+                return std::nullopt;
+        best.error = 2.0 * mean.error();
+        return best;
+    }
     const RaySettings rays = rays_for(picture, look.steepest * radius);
     Bead best;
     best.kind = kind;
@@ -416,6 +575,7 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
     }
     // Their exact places.
     for (Bead& bead : kept) place(bead, kept, picture, look);
+    if (look.mean_ball) by_the_mean(kept, picture, rim, look);
     return kept;
 }
 

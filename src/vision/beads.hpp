@@ -11,6 +11,7 @@
 //            whoever knows where a disc should be
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,8 @@
 #include "swirl/vision/lens.hpp"
 
 namespace swirl {
+
+class MeanBall;
 
 struct BeadKind {
     double radius = 0.0;     // pixels
@@ -35,6 +38,9 @@ struct BeadLook {
     Lens lens;
     double steepest = 1.0;  // where the brightness changes most, in radii: inside of a shaded limb
     std::vector<Limb> limbs;  // of each kind, with the blur of this film
+
+    /// Where edges alone are too poor (mean_ball.hpp).
+    std::shared_ptr<const MeanBall> mean_ball;
 
     double radius() const { return kinds.front().radius; }
 };
@@ -55,8 +61,10 @@ inline constexpr double survey_blur = 0.6;
 std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look);
 
 /// The disc that is known to be near there and was not found: the circle with most of an edge
-/// within half a radius of it that is in nobody's way, however little that is.
-std::optional<Bead> find_bead_near(const Picture& picture, const BeadLook& look, const Vec2& where,
-                                   std::size_t kind, const std::vector<Bead>& others);
+/// within half a radius of it that is in nobody's way, however little that is. By the mean ball
+/// where there is one.
+std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
+                                   const BeadLook& look, const Vec2& where, std::size_t kind,
+                                   const std::vector<Bead>& others);
 
 }  // namespace swirl

@@ -327,4 +327,54 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     return path;
 }
 
+PathShape shape_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
+                   const DishPath& path) {
+    constexpr int least_sides = 3, fewest_a_side = 2;
+    constexpr double stands_out = 5.0, size_known_to = 0.35;
+    PathShape shape;
+    if (centres.size() < 16) return shape;
+    const double spans = (times.back() - times.front()) / double(times.size() - 1);
+    const int limit = static_cast<int>(2.0 * pi / (path.omega * spans) / fewest_a_side);
+    std::vector<double> rests, angles;
+    const double cut = std::max(5.0 * path.residual, 0.5);
+    for (const Vec2& c : centres) {
+        const Vec2 d = c - path.centre;
+        const double rest = length(d) - path.amplitude;
+        if (std::abs(rest) > cut) continue;
+        rests.push_back(rest);
+        angles.push_back(std::atan2(-d.y, d.x));
+    }
+    if (rests.size() < 16) return shape;
+    // Errors from what is left when the ellipse of a tilted camera is gone does not matter here:
+    // they are only too large with it.
+    double square = 0.0;
+    for (const double r : rests) square += r * r;
+    const auto m = double(rests.size());
+    const double error = std::sqrt(2.0 * square / m / m);
+    const auto harmonic = [&](int n) {
+        double c = 0.0, s = 0.0;
+        for (std::size_t k = 0; k < rests.size(); ++k) {
+            c += rests[k] * std::cos(n * angles[k]);
+            s += rests[k] * std::sin(n * angles[k]);
+        }
+        return 2.0 / m * std::sqrt(c * c + s * s);
+    };
+    double best = 0.0;
+    for (int n = least_sides; n <= limit; ++n) {
+        const double expected = 2.0 * path.amplitude / (double(n) * n);
+        if (expected < stands_out * error) break;
+        shape.most_sides = n;
+        const double found = harmonic(n);
+        if (found > stands_out * error && std::abs(found / expected - 1.0) < size_known_to &&
+            found > best)
+            best = found, shape.sides = n;
+    }
+    if (shape.sides > 0) {
+        const double half = pi / shape.sides;
+        const double mean = std::cos(half) / half * std::log(1.0 / std::cos(half) + std::tan(half));
+        shape.corners = path.amplitude / mean;
+    }
+    return shape;
+}
+
 }  // namespace swirl

@@ -23,8 +23,9 @@ struct Track {
     std::size_t kind = 0;
     Vec2 place{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
     double time = 0.0, time_before = 0.0;
-    int seen = 0;    // at how many times, up to 2
-    int missed = 0;  // pictures in a row
+    int seen = 0;     // at how many times, up to 2
+    int missed = 0;   // pictures in a row
+    int doubted = 0;  // the same, or seen only as something that is not sure
     std::array<double, ways> misses{1.0, 1.0, 1.0,
                                     1.0, 1.0, 1.0};  // mean squared error of each way, in radii
     std::array<Vec2, ways> expected{};
@@ -54,6 +55,18 @@ class Linker {
     Vec2 flow_at(const Vec2& place, double time_from, double time_to) const;
     Vec2 expect(Track& track, double time) const;
     double first_turn(const std::vector<SeenDisc>& discs, double time) const;
+    void assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                const std::vector<Vec2>& expected, std::vector<int>& of) const;
+    void take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
+                      std::vector<int>& of);
+    /// Where as many are sure as there are, nothing else is one.
+    bool all_are_sure(const std::vector<SeenDisc>& discs, std::size_t kind) const {
+        if (settings_.numbers.empty()) return false;
+        const auto sure = static_cast<std::size_t>(
+            std::count_if(discs.begin(), discs.end(),
+                          [&](const SeenDisc& d) { return d.sure && d.kind == kind; }));
+        return sure >= settings_.numbers[kind];
+    }
     bool may_be_born(std::size_t kind) const {
         if (settings_.numbers.empty()) return true;
         const auto there = static_cast<std::size_t>(std::count_if(
@@ -134,6 +147,79 @@ double Linker::first_turn(const std::vector<SeenDisc>& discs, double time) const
     return turn;
 }
 
+/// Of one kind, so that the sum is least. Where as many are sure as there are, each is somebody: no
+/// gate, and who leapt farther than that did not leap at the cost of two others. Otherwise squares
+/// within a gate.
+void Linker::assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                    const std::vector<Vec2>& expected, std::vector<int>& of) const {
+    const bool complete = all_are_sure(discs, kind);
+    std::vector<std::size_t> rows, columns;
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+        if (tracks[t].kind == kind) rows.push_back(t);
+    for (std::size_t d = 0; d < discs.size(); ++d)
+        if (discs[d].kind == kind && (discs[d].sure || !complete)) columns.push_back(d);
+    if (rows.empty() || columns.empty()) return;
+    const double nobody = complete ? 1e6 : 1.0;
+    std::vector<std::vector<double>> cost(rows.size(), std::vector<double>(columns.size(), nobody));
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const Track& t = tracks[rows[r]];
+        const double gate = settings_.radii[kind] *
+                            std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const SeenDisc& disc = discs[columns[c]];
+            const double q = square(disc.place - expected[rows[r]]) / (gate * gate);
+            if (complete)
+                cost[r][c] = q < 1.0 ? q : 2.0 * std::sqrt(q) - 1.0;
+            else if (q < 1.0)
+                cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_costs));
+        }
+    }
+    const std::vector<int> column = best_assignment(cost);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < nobody)
+            of[columns[static_cast<std::size_t>(column[r])]] = static_cast<int>(rows[r]);
+}
+
+/// Circles that nobody explains are those who were lost, or who went astray to something that is no
+/// disc: again such that the sum of squares is least, within a reach that grows with the time.
+void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
+                          std::vector<int>& of) {
+    std::vector<std::size_t> free_discs, free_tracks;
+    std::vector<int> disc_of(tracks.size(), -1);
+    for (std::size_t d = 0; d < discs.size(); ++d)
+        if (of[d] >= 0)
+            disc_of[static_cast<std::size_t>(of[d])] = static_cast<int>(d);
+        else if (discs[d].sure)
+            free_discs.push_back(d);
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+        if (disc_of[t] < 0
+                ? tracks[t].missed > 0
+                : !discs[static_cast<std::size_t>(disc_of[t])].sure && tracks[t].doubted > 0)
+            free_tracks.push_back(t);
+    if (free_discs.empty() || free_tracks.empty()) return;
+    constexpr double out_of_reach = 1e6;
+    std::vector<std::vector<double>> cost(free_tracks.size(),
+                                          std::vector<double>(free_discs.size(), out_of_reach));
+    for (std::size_t r = 0; r < free_tracks.size(); ++r) {
+        const Track& t = tracks[free_tracks[r]];
+        for (std::size_t c = 0; c < free_discs.size(); ++c) {
+            const SeenDisc& disc = discs[free_discs[c]];
+            const double radius = settings_.radii[t.kind];
+            const double reach = radius * (1.0 + 0.4 * t.doubted);
+            const double q = square(disc.place - expected[free_tracks[r]]);
+            if (disc.kind == t.kind && q < reach * reach) cost[r][c] = q / (radius * radius);
+        }
+    }
+    const std::vector<int> column = best_assignment(cost);
+    for (std::size_t r = 0; r < free_tracks.size(); ++r) {
+        if (column[r] < 0 || cost[r][static_cast<std::size_t>(column[r])] >= out_of_reach) continue;
+        const std::size_t t = free_tracks[r];
+        if (disc_of[t] >= 0) of[static_cast<std::size_t>(disc_of[t])] = -1;
+        of[free_discs[static_cast<std::size_t>(column[r])]] = static_cast<int>(t);
+        tracks[t].seen = 0;  // its velocity is not known any more
+    }
+}
+
 std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
     std::vector<int> of(discs.size(), -1);
     const bool second = steps_ == 1;
@@ -148,46 +234,9 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
             tracks[t].expected.fill(expected[t]);
         }
     }
-    const auto gate_of = [&](const Track& t) {
-        return settings_.radii[t.kind] *
-               std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
-    };
-    if (!tracks.empty() && !discs.empty()) {
-        std::vector<std::vector<double>> cost(tracks.size(),
-                                              std::vector<double>(discs.size(), 1.0));
-        for (std::size_t t = 0; t < tracks.size(); ++t) {
-            const double gate = gate_of(tracks[t]);
-            for (std::size_t d = 0; d < discs.size(); ++d) {
-                if (discs[d].kind != tracks[t].kind) continue;
-                const double q = square(discs[d].place - expected[t]) / (gate * gate);
-                if (q < 1.0) cost[t][d] = std::min(0.999, q + (discs[d].sure ? 0.0 : unsure_costs));
-            }
-        }
-        const std::vector<int> column = best_assignment(cost);
-        for (std::size_t t = 0; t < tracks.size(); ++t)
-            if (column[t] >= 0 && cost[t][static_cast<std::size_t>(column[t])] < 1.0)
-                of[static_cast<std::size_t>(column[t])] = static_cast<int>(t);
-    }
-    // Circles that nobody explains are those who were lost, the nearest first.
-    for (;;) {
-        double nearest = std::numeric_limits<double>::infinity();
-        std::size_t disc = 0, lost = 0;
-        for (std::size_t d = 0; d < discs.size(); ++d) {
-            if (of[d] >= 0 || !discs[d].sure) continue;
-            for (std::size_t t = 0; t < tracks.size(); ++t) {
-                if (tracks[t].kind != discs[d].kind || tracks[t].missed < 1 ||
-                    std::find(of.begin(), of.end(), static_cast<int>(t)) != of.end())
-                    continue;
-                const double reach =
-                    settings_.radii[discs[d].kind] * (1.0 + 0.4 * tracks[t].missed);
-                const double q = square(discs[d].place - expected[t]);
-                if (q < reach * reach && q < nearest) nearest = q, disc = d, lost = t;
-            }
-        }
-        if (!(nearest < std::numeric_limits<double>::infinity())) break;
-        of[disc] = static_cast<int>(lost);
-        tracks[lost].seen = 0;  // its velocity is not known any more
-    }
+    for (std::size_t kind = 0; kind < settings_.radii.size(); ++kind)
+        assign(kind, discs, expected, of);
+    take_up_lost(discs, expected, of);
     // What is known now.
     std::vector<char> found(tracks.size(), 0);
     for (std::size_t d = 0; d < discs.size(); ++d) {
@@ -206,11 +255,13 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
         t.time = time;
         t.seen = std::min(t.seen + 1, 2);
         t.missed = 0;
+        t.doubted = discs[d].sure ? 0 : t.doubted + 1;
     }
     for (std::size_t t = 0; t < found.size(); ++t) {
         if (found[t]) continue;
         // It goes on where it is expected; two such places still tell which way it goes.
         ++tracks[t].missed;
+        ++tracks[t].doubted;
         tracks[t].place = expected[t];
         tracks[t].time = time;
     }

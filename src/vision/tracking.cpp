@@ -13,6 +13,7 @@
 #include "swirl/vision/beads.hpp"
 #include "swirl/vision/dish.hpp"
 #include "swirl/vision/link.hpp"
+#include "swirl/vision/mean_ball.hpp"
 #include "swirl/vision/video.hpp"
 
 namespace swirl {
@@ -81,6 +82,16 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
     found.look = survey_beads(fewer, rims);
+    // What discs look like on the mean, for films with poor edges.
+    std::vector<MeanBall::Example> examples;
+    for (const cv::Mat& picture : kept) {
+        const Picture sharp(picture, std::min(1.0, votes_radius / found.look.radius()),
+                            found.look.blur);
+        const CircleFit rim = find_rim(sharp, found.rim);
+        if (rim.good) examples.push_back({sharp.sharp, rim, find_beads(sharp, rim, found.look)});
+    }
+    if (auto mean = MeanBall::learned(examples, found.look))
+        found.look.mean_ball = std::make_shared<const MeanBall>(std::move(*mean));
     return found;
 }
 
@@ -241,6 +252,8 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
                     all[k].beads[d].centre - film.path.at(film.times[k]);
         if (here.empty()) continue;
         const Picture picture(grey, shrink, found.look.blur);
+        CircleFit rim = all[k].rim;
+        rim.centre = film.lens.seen(rim.good ? rim.centre : film.path.at(film.times[k]));
         std::vector<Bead> others;
         for (std::size_t d = 0; d < all[k].beads.size(); ++d)
             if (links.track[k][d] >= 0) {
@@ -250,7 +263,7 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
             }
         for (const Wanted& w : here) {
             auto bead =
-                find_bead_near(picture, found.look, film.lens.seen(w.where), w.kind, others);
+                find_bead_near(picture, rim, found.look, film.lens.seen(w.where), w.kind, others);
             if (!bead) continue;
             bead->sure = true;
             others.push_back(*bead);
@@ -412,6 +425,32 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
         film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
+/// The longest stretch of pictures in each of which many discs are missing at once.
+struct Covered {
+    std::size_t begin = 0, end = 0;
+    double share = 0.0;  // of the discs, on the mean
+};
+Covered covered(const TrackedFilm& film) {
+    constexpr double many = 0.2;  // of the discs
+    constexpr std::size_t fewest = 3;
+    Covered longest, here;
+    for (std::size_t k = 0; k <= film.seen.size(); ++k) {
+        std::size_t missing = 0;
+        if (k < film.seen.size())
+            missing = film.number - static_cast<std::size_t>(std::count(
+                                        film.seen[k].begin(), film.seen[k].end(), std::uint8_t(1)));
+        if (missing >= fewest && double(missing) >= many * double(film.number)) {
+            if (here.end != k) here = {k, k, 0.0};
+            ++here.end;
+            here.share += double(missing) / double(film.number);
+        } else if (here.end - here.begin > longest.end - longest.begin) {
+            longest = here;
+        }
+    }
+    if (longest.end > longest.begin) longest.share /= double(longest.end - longest.begin);
+    return longest;
+}
+
 /// What looks wrong, with its likely cause.
 void warn(TrackedFilm& film) {
     const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
@@ -445,7 +484,15 @@ void warn(TrackedFilm& film) {
             "Discs come {:.2f} pixels farther out than the rim that is seen, of {:.2f} pixels "
             "radius; where they are stopped is taken for the dish.",
             film.reach - film.rim_radius, film.rim_radius));
-    if (film.complete < 0.9)
+    const Covered hand = covered(film);
+    const bool hidden = hand.end - hand.begin >= 4;
+    if (hidden)
+        say(fmt::format(
+            "In pictures {} to {} about {:.0f} % of the discs are missing at once: something was "
+            "in "
+            "front of the dish, a hand perhaps. Their names before and after may not agree.",
+            hand.begin, hand.end - 1, 100.0 * hand.share));
+    if (film.complete < 0.9 && !hidden)
         say(fmt::format(
             "All {} discs are seen in only {:.1f} % of the pictures: more even light, less glare, "
             "a sharper picture or a shorter exposure would help{}.",
@@ -557,6 +604,13 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
+    const PathShape shape = shape_of(centres, when, film.path);
+    film.sides = shape.sides;
+    film.most_sides = shape.most_sides;
+    film.corners = shape.corners;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        film.rim_off.push_back(
+            all[k].rim.good ? length(all[k].rim.centre - film.path.at(film.times[k])) : -1.0);
     film.rim_radius = quantile(rims, 0.5);
     film.rim_support = quantile(supports, 0.5);
 

@@ -109,5 +109,34 @@ TEST(CircleFit, FindsACentreToATenthOfAPixel) {
     }
 }
 
+TEST(PathShape, TellsAPolygonByItsSidesAndACircleFromIt) {
+    Random random(11);
+    constexpr double amplitude = 40.0, noise_of_a_rim = 0.06;
+    for (const int sides : {0, 4, 12, 30}) {
+        std::vector<Vec2> centres;
+        std::vector<double> times;
+        for (int k = 0; k < 600; ++k) {
+            const double turn = k / 149.3;  // pictures for a swirl
+            Vec2 p = amplitude * unit_circle(turn - std::floor(turn));
+            if (sides > 0) {
+                const double leg = sides * (turn - std::floor(turn)), u = leg - std::floor(leg);
+                p = (amplitude * (1.0 - u)) * unit_circle(std::floor(leg) / sides) +
+                    (amplitude * u) * unit_circle(std::fmod(std::floor(leg) + 1.0, sides) / sides);
+            }
+            centres.push_back(Vec2{200.0 + p.x, 180.0 - p.y} +
+                              noise_of_a_rim * Vec2{noise(random), noise(random)});
+            times.push_back(k);
+        }
+        const auto path = fit_path(centres, times);
+        ASSERT_TRUE(path) << sides;
+        const PathShape shape = shape_of(centres, times, *path);
+        EXPECT_EQ(shape.sides, sides);
+        EXPECT_GE(shape.most_sides, sides == 0 ? 30 : sides);
+        if (sides == 0) continue;
+        // A square's corners are left out by the fit's weights as strays.
+        EXPECT_NEAR(shape.corners, amplitude, sides > 6 ? 0.1 : 0.5);
+    }
+}
+
 }  // namespace
 }  // namespace swirl
