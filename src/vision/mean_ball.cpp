@@ -40,7 +40,7 @@ cv::Vec3f on_grid(const cv::Mat& grid, double x, double y) {
 
 /// Solves A x = b, symmetric and positive, in place; false if it is not.
 template <std::size_t n>
-bool solve(std::array<std::array<double, n>, n>& a, std::array<double, n>& b) {
+bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>& b) {
     for (std::size_t c = 0; c < n; ++c) {
         if (!(a[c][c] > 1e-12)) return false;
         for (std::size_t r = c + 1; r < n; ++r) {
@@ -292,7 +292,7 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
             a[k][k] += weight;
             b[k] += weight * ((k == 0 ? 1.0 : 0.0) - made[k]);
         }
-        if (!solve(a, b)) return fit;
+        if (!solve_system(a, b)) return fit;
         for (std::size_t k = 0; k <= modes; ++k) made[k] += b[k];
         const double most = 0.1 * ball.radius;
         const Vec2 move{std::clamp(b[modes + 1], -most, most),
