@@ -39,7 +39,11 @@ function(swirl_floor floor level)
   file(GLOB sources CONFIGURE_DEPENDS src/${floor}/*.cpp)
   add_library(swirl_${floor} STATIC ${sources})
   target_link_libraries(swirl_${floor} ${ARGN})
-  set_target_properties(swirl_${floor} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_target_properties(swirl_${floor} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    # A local name may be that of another file's constant, which it cannot mean.
+    target_compile_options(swirl_${floor} PRIVATE -Wno-shadow -Wshadow=local)
+  endif()
   swirl_settings(swirl_${floor} ${level})
 endfunction()
 
