@@ -350,7 +350,8 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
 std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
                                           const BeadLook& look) {
     constexpr int rounds = 4;
-    constexpr std::size_t fewest = 150;  // balls, of each kind
+    constexpr double good_places = 0.05;  // pixels: edges that need no help
+    constexpr std::size_t fewest = 150;   // balls, of each kind
     MeanBall mean;
     mean.look_ = look;
     std::vector<double> reaches;
@@ -398,6 +399,8 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         edges.emplace_back();
         for (const Bead& b : e.beads) edges.back().push_back(b.centre);
     }
+    const double alone = overlap(examples, edges, edges, 0.0, look);
+    if (alone < good_places * good_places) return std::nullopt;
     places = edges;
     mean.variance_ = 0.01 * mean.soft_ * mean.soft_;
     for (int round = 0; round < rounds; ++round) {
@@ -439,19 +442,16 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     }
     for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
         mean.learn_ball(examples, places, kind);
-    double least = overlap(examples, edges, places, 0.0, look);
-    if (!(least > 0.0)) return std::nullopt;
-    constexpr double good_places = 0.05;  // pixels
-    if (least < good_places * good_places) return std::nullopt;
-    const double alone = least;
+    double least = alone;
     for (double counts = 0.1; counts < 1.05; counts += 0.1) {
         const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);
         if (square < least) least = square, mean.counts_ = std::min(counts, 1.0);
     }
     // Who gains little is left with the edges, which are quicker.
     if (least > 0.7 * alone) return std::nullopt;
-    // Half of the pairs are nearer than they are, by a distance's error, √2 a place's.
-    mean.error_ = std::sqrt(2.0 * least) / std::sqrt(2.0);
+    // Half of the pairs seem too near, so a distance errs by √2 of that, and a place by 1/√2 of
+    // this.
+    mean.error_ = std::sqrt(least);
     return mean;
 }
 

@@ -213,7 +213,7 @@ class FilmTest(InFolder):
     def test_a_poor_film(self):
         # Low contrast, noise, blur and compression: discs are known by what all look like.
         film = self.path("film.mp4")
-        done = swirl("film-test", "--camera", "bad", "--discs", 28, "--length", 2, "--quality", 26,
+        done = swirl("film-test", "--camera", "bad", "--discs", 28, "--length", 1.5, "--quality", 26,
                      "--out", film, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         tracks, _ = self.track(film)
