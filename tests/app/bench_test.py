@@ -16,7 +16,7 @@ class Bench(InFolder):
         with open(self.path("b.json")) as f:
             result = json.load(f)
         rows = {(row["scene"], row["discs"]): row for row in result["rows"]}
-        self.assertEqual(len(rows), 8)
+        self.assertEqual(len(rows), 10)
         for row in rows.values():
             self.assertGreater(row["rate"], 0)
             # Lanes are filled up, and those a list may take are laid out in columns of 512 (36 bytes
@@ -26,18 +26,22 @@ class Bench(InFolder):
         self.assertGreater(dish["ratio"], 1)  # the plain loop never wins at N = 48
         self.assertAlmostEqual(dish["ratio"], dish["rate"] / dish["plain_rate"])
         self.assertIn(dish["plain_width"], ("baseline", "avx2", "avx512"))
+        for spheres in (48, 500):
+            row = rows["spheres, mu = 0.2", spheres]
+            self.assertEqual(row["plain_width"], "scalar")
+            self.assertGreater(row["ratio"], 1)
         self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_rate"])
         self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_width"])
         self.check_targets(result, done.stdout)
         with open(self.path("b.csv")) as f:
-            self.assertEqual(len(f.readlines()), 9)
+            self.assertEqual(len(f.readlines()), 11)
 
     def check_targets(self, result, printed):
         """Every rate and ratio that has a target, and what else was measured without --full."""
         targets = result["targets"]
         rates = sum(row["target"] is not None for row in result["rows"])
         ratios = sum(row["ratio_target"] is not None for row in result["rows"])
-        self.assertEqual(ratios, 3)
+        self.assertEqual(ratios, 4)
         circles = [target for target in targets if "on the circle" in target["name"]]
         self.assertEqual(len(circles), 4)
         # A busy machine tells little: not twice as fast as the polygon, nor ten times slower.

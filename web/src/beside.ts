@@ -41,7 +41,7 @@ export class Beside {
         if (this.frame)
             draw(this.canvas, this.frame, {view: "lab", coloring: this.coloring, trails: [],
                                            event: undefined, next: undefined, omega: 0,
-                                           dark: dark(), room: this.room, turned: 0});
+                                           dark: dark(), room: this.room, turned: 0, held: undefined});
     }
 
     private tell(message: ToWorker): void {

@@ -10,7 +10,7 @@ import {Beside} from "./beside";
 import {MapsPanel} from "./maps";
 import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
 import {Recording} from "./recording";
-import {discAt, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
+import {discAt, discOf, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
 import {lesson, presets, texts} from "./texts";
 
@@ -45,7 +45,8 @@ let hasHistory = false; // no command line makes this dish
 let byHand = false;
 let pointer: [number, number] | undefined; // where the container is to go, by hand
 let turned = 0; // of the pack, in turns
-let dragged: number | undefined; // the disc that is held
+let dragged: number | undefined; // the disc that the pointer holds
+let held: number | undefined; // the disc that the keys move
 let backwards = false;
 let beside: Beside | undefined;
 
@@ -62,7 +63,10 @@ function layOutViews(): void {
         const canvas = element("canvas");
         canvas.setAttribute("role", "img");
         canvases[each] = canvas;
-        if (each === "lab") takePointer(canvas);
+        if (each === "lab") {
+            takePointer(canvas);
+            takeKeys(canvas);
+        }
         return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
     }));
     for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete canvases[each];
@@ -85,14 +89,59 @@ function takePointer(canvas: HTMLCanvasElement): void {
     canvas.addEventListener("pointermove", (event) => {
         if (!last) return;
         if (byHand) pointer = point(event);
-        if (dragged === undefined || waiting) return;
-        waiting = true;
-        startAnew();
-        const [x, y] = point(event);
-        tell({kind: "drag", disc: dragged, x, y});
+        if (dragged !== undefined) put(dragged, ...point(event));
     });
     for (const end of ["pointerup", "pointercancel"] as const)
         canvas.addEventListener(end, () => { dragged = undefined; });
+}
+
+/** Unless the last one is still under way. */
+function put(disc: number, x: number, y: number): void {
+    if (waiting) return;
+    waiting = true;
+    startAnew();
+    tell({kind: "drag", disc, x, y});
+}
+
+/** What the pointer does, by keys: [ and ] take a disc, arrows move it, Escape lets it go; by hand
+ *  arrows lead the dish. */
+function takeKeys(canvas: HTMLCanvasElement): void {
+    const ways: Record<string, [number, number]> = {
+        ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+    };
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "application");
+    canvas.setAttribute("aria-keyshortcuts", "[ ] ArrowLeft ArrowRight ArrowUp ArrowDown Escape");
+    canvas.addEventListener("keydown", (event) => {
+        if (!last) return;
+        const discs = last.frame[10] ?? 0, way = ways[event.key];
+        if (way) {
+            event.preventDefault();
+            if (byHand) {
+                const [x, y] = pointer ?? [last.frame[3]!, last.frame[4]!];
+                const step = 0.1 * room();
+                pointer = [x + step * way[0], y + step * way[1]];
+            } else if (held !== undefined && held < discs) {
+                const {x, y, radius} = discOf(last.frame, held);
+                const step = (event.shiftKey ? 0.05 : 0.25) * radius;
+                put(held, x + step * way[0], y + step * way[1]);
+            }
+        } else if ((event.key === "[" || event.key === "]") && !byHand && discs > 0) {
+            const next = held === undefined ? 0 : held + (event.key === "]" ? 1 : discs - 1);
+            hold(next % discs);
+        } else if (event.key === "Escape") {
+            hold(undefined);
+        }
+    });
+    canvas.addEventListener("blur", () => hold(undefined));
+}
+
+/** Time stands still while a disc is held. */
+function hold(disc: number | undefined): void {
+    if (disc === held) return;
+    held = disc;
+    if (disc !== undefined) byId("headline").textContent = texts.holds(disc + 1);
+    redraw();
 }
 
 /** The same discs, but no command line makes what they do from here on: averages begin anew. */
@@ -117,7 +166,7 @@ function redraw(): void {
         draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
                                   event: last.event, next: last.next, dark: dark(),
                                   omega: forces && !byHand ? 2 * Math.PI / Number(configuration["period"]) : 0,
-                                  room: room(), turned});
+                                  room: room(), turned, held});
         beside?.redraw();
         const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
         if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
@@ -544,8 +593,9 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
 
 function animate(now: number): void {
     requestAnimationFrame(animate);
-    if (dragged !== undefined) lastTick = 0;
-    if (!playing || waiting || !last || dragged !== undefined) return;
+    const still = dragged !== undefined || held !== undefined;
+    if (still) lastTick = 0;
+    if (!playing || waiting || !last || still) return;
     // After a pause, or a while in the background, time goes on from here.
     const elapsed = lastTick > 0 ? Math.min(now - lastTick, 100) : 0;
     lastTick = now;

@@ -15,6 +15,7 @@ export interface Look {
     dark: boolean;
     room: number; // how far from S the container may come, for the laboratory's scale
     turned: number; // of the pack, in turns with the swirl; drawn as an arc in the laboratory
+    held: number | undefined; // the disc that the keys move
 }
 
 interface Frame {
@@ -154,9 +155,27 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
         context.stroke();
     }
     if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
+    if (look.held !== undefined && look.held < frame.discs)
+        drawHeld(context, f, frame, look, ink, look.held, hair);
     drawNext(context, f, frame, look, hair);
     drawEvent(context, f, frame, look, hair);
     drawMarks(context, frame, look, ink, hair);
+}
+
+function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+                  ink: string, held: number, hair: number): void {
+    const k = frameHead + frameDisc * held;
+    context.strokeStyle = ink;
+    context.lineWidth = 3 * hair;
+    context.beginPath();
+    context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! + 2 * hair, 0, 2 * Math.PI);
+    context.stroke();
+}
+
+/** Where a disc is in the laboratory, and how large. */
+export function discOf(f: Float64Array, i: number): {x: number; y: number; radius: number} {
+    const k = frameHead + frameDisc * i;
+    return {x: f[k]!, y: f[k + 1]!, radius: f[k + 6]!};
 }
 
 /** Along the rim, from the right: how far the pack has turned; every turn further in. */

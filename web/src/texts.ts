@@ -16,7 +16,9 @@ export const texts = {
     backwards: "Time backwards",
     forwards: "Time forwards",
     backwardsHow: "Only without any friction and without loss: else collisions cannot be undone",
-    dragHow: "Discs can be dragged in the laboratory's view; time stands still meanwhile",
+    dragHow: "Discs can be dragged in the laboratory's view; time stands still meanwhile. " +
+        "By keys: [ and ] take a disc, arrows move it, Escape lets it go",
+    holds: (disc: number) => `Disc ${disc} is held; arrows move it, Escape lets it go.`,
     speed: "Swirls per second",
     view: "View",
     views: {lab: "Laboratory", m: "M-frame", both: "Both"},

@@ -194,6 +194,23 @@ const put = await centroid();
 await page.mouse.up();
 // The hand of the disc and its rim are not of its colour: to a hundredth of the picture.
 assert.ok(Math.hypot(put[0] - 0.5, put[1] - 0.45) < 0.01, `dragged to ${put}`);
+
+// And by keys: taken, moved, let go; time stands still while it is held.
+const lab = page.locator("#views canvas").first();
+await lab.focus();
+await page.keyboard.press("]");
+assert.match(await text("headline"), /^Disc 1 is held/);
+const lifted = await centroid();
+for (let k = 0; k < 4; ++k) {
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForTimeout(150);
+}
+const pushed = await centroid();
+// Four quarters of its radius, in widths of the picture: that shows R + A, and a margin.
+const radius = 1 / (2 * 1.06 * (8.6 + 1.892));
+assert.ok(Math.hypot(lifted[0] - pushed[0] - radius, pushed[1] - lifted[1]) < 0.1 * radius,
+    `moved from ${lifted} to ${pushed}`);
+await page.keyboard.press("Escape");
 await page.selectOption("#choose-Colour", "spin");
 
 // A second dish, which stays as it was asked for.
