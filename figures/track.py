@@ -27,13 +27,13 @@ def draw(folder, pictures, number):
                  linestyle=":", label="with those filled in")
     axes[0].axhline(number, color=style.BLACK, linewidth=0.5)
     axes[0].set_ylabel("discs")
-    axes[0].legend(frameon=False, fontsize=6, loc="lower left")
+    style.legend(axes[0])
     axes[1].plot(time, style.column(pictures, "error"), color=style.RED, linewidth=0.8,
                  label="error of a place")
     axes[1].plot(time, style.column(pictures, "deepest_overlap"), color=style.SKY, linewidth=0.6,
                  label="deepest overlap")
     axes[1].set_ylabel("pixels")
-    axes[1].legend(frameon=False, fontsize=6, loc="upper left")
+    style.legend(axes[1])
     rims = [row for row in pictures if row["rim_off"] >= 0]
     axes[2].plot(style.column(rims, "time"), style.column(rims, "rim_off"), color=style.RED,
                  linewidth=0.8)

@@ -109,7 +109,7 @@ BAD = [
     dict(events=10, periods=3), dict(periods=3, warmup=3), dict(warmup="long"), dict(seed=-1),
     dict(seed=2**64), dict(speed=1, amplitude=1, period=1), dict(period=0), dict(amplitude=1e9),
     dict(preset="other"), dict(body="sphere", path="circle"), dict(body="sphere", discs=65),
-    dict(floor="sliding"), dict(contact_duration=100), dict(events=0), dict(events=1e20),
+    dict(floor="sliding", path="circle"), dict(contact_duration=100), dict(events=0), dict(events=1e20),
 ]
 
 

@@ -76,7 +76,7 @@ SWIRL_INLINE void put(EightOthers& others, int lane, const EngineState& state, s
 }
 
 /// Whom sphere i meets first in this stretch.
-SWIRL_INLINE PendingEvent predict_meeting(const EngineState& state, std::uint32_t i) {
+static PendingEvent predict_meeting(const EngineState& state, std::uint32_t i) {
     const Skin& mine = state.skins[i];
     const Grid& grid = state.grids[0];
     const double X = mine.X, Y = mine.Y, own = mine.skin_radius + state.discs[i].radius;
