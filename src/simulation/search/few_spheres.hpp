@@ -53,13 +53,11 @@ SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
         return;
     }
     const Leg& leg = state.legs[state.leg];
-    const Vec2 over_floor = flight.velocity - leg.velocity, a = flight.acceleration;
-    const double left = leg.end - flight.time;
-    const double way = square_root(dot(over_floor, over_floor)) * left +
-                       0.5 * square_root(dot(a, a)) * left * left;
+    const double way = spheres::way_over_floor(flight.velocity, flight.acceleration, leg.velocity,
+                                               leg.end - flight.time);
     set(all.X, i, flight.position.x - flight.time * leg.velocity.x);
     set(all.Y, i, flight.position.y - flight.time * leg.velocity.y);
-    set(all.reach, i, way * 1.000001 + 0x1p-30 * state.container_radius);
+    set(all.reach, i, way + 0x1p-30 * state.container_radius);
 }
 
 /// Bit k is set if sphere k may be met.

@@ -45,13 +45,11 @@ SWIRL_INLINE Vec2 origin(const EngineState& state) {
 /// X and reach of sphere i from time t on, in its Skin.
 SWIRL_INLINE void find_place(EngineState& state, std::uint32_t i, double t) {
     const Parabola<double> flight = Spheres::flight(state, i);
-    const Vec2 u = state.legs[state.leg].velocity, a = flight.acceleration;
+    const Vec2 u = state.legs[state.leg].velocity;
     const Vec2 X = flight.position_at(t) - t * u - origin(state);
-    const Vec2 over_floor = flight.velocity_at(t) - u;
-    const double left = state.stretch_end - t;
-    const double way = square_root(dot(over_floor, over_floor)) * left +
-                       0.5 * square_root(dot(a, a)) * left * left;
-    const double reach = way * 1.000001 + 0x1p-20 * state.container_radius;
+    const double way = spheres::way_over_floor(flight.velocity_at(t), flight.acceleration, u,
+                                               state.stretch_end - t);
+    const double reach = way + 0x1p-20 * state.container_radius;
     Skin& mine = state.skins[i];
     mine.X = static_cast<float>(X.x);
     mine.Y = static_cast<float>(X.y);

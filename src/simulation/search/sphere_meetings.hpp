@@ -39,6 +39,17 @@ SWIRL_INLINE double begins_to_roll_at(const EngineState& state, std::uint32_t i)
     return state.spheres[i].motion.begins_to_roll;
 }
 
+/// No farther than this does a sphere get, seen from a floor of velocity u, in the time that is
+/// left; and longer than it by far more than rounding, so that it does not matter how it was
+/// computed.
+SWIRL_INLINE double way_over_floor(const Vec2& velocity, const Vec2& acceleration, const Vec2& u,
+                                   double left) {
+    const Vec2 v = velocity - u;
+    const double way = square_root(dot(v, v)) * left +
+                       0.5 * square_root(dot(acceleration, acceleration)) * left * left;
+    return way * 1.000001;
+}
+
 /// One sphere, eight times.
 struct EightTimes {
     std::uint32_t i;
