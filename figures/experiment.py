@@ -5,10 +5,8 @@ figure_*.png and .pdf, from the tables and experiment.json that it left in a fol
 """
 
 import html
-import json
 import math
 import os
-import sys
 
 import report
 import style
@@ -226,9 +224,7 @@ def page(folder, about, films, figures):
             f"{about['seeds']} runs, which is looked at as the camera looked: as many pictures a "
             "swirl, places with the same error, velocities as differences of places."
             if about["runs"] else "")
-    parts = ["<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
-             '<meta name=viewport content="width=device-width, initial-scale=1">',
-             f"<title>Experiment and simulation</title><style>{report.CSS}{CSS}</style></head><body>\n",
+    parts = [report.opening("Experiment and simulation", CSS),
              "<h1>Experiment and simulation</h1>\n",
              f"<p>What {len(films)} film{'s' if len(films) != 1 else ''} of a swirled dish "
              f"say{'s' if len(films) == 1 else ''}.{runs} ± is one standard error, from the "
@@ -244,7 +240,7 @@ def page(folder, about, films, figures):
 
 
 def main():
-    folder, about = report.described_folder("experiment.json", "swirl experiment",
+    folder, about = report.described_folder("experiment.json", "swirl experiment --out",
                                             "draws the figures and writes report.html")
     films = style.read(os.path.join(folder, "films.csv"))
     points = style.read(os.path.join(folder, "points.csv"))

@@ -339,9 +339,7 @@ def page(folder, about, judged):
              td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
              f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
             for k, (claim, verdict, found) in enumerate(judged, 1)]
-    parts = ["<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
-             '<meta name=viewport content="width=device-width, initial-scale=1">',
-             "<title>The paper, claim by claim</title>", f"<style>{CSS}</style></head><body>\n",
+    parts = [opening("The paper, claim by claim"),
              "<h1>The paper, claim by claim</h1>", f"<p>{html.escape(intro(about))}</p>\n",
              f"<p><b>{html.escape(counts(judged))}</b></p>\n"]
     same = crossings_of_one_setting(folder)
@@ -372,22 +370,30 @@ def write(path, text):
     os.replace(aside, path)
 
 
+def opening(title, css=""):
+    """What every page begins with."""
+    return ("<!doctype html>\n<html lang=en><head><meta charset=utf-8>"
+            '<meta name=viewport content="width=device-width, initial-scale=1">'
+            f"<title>{title}</title><style>{CSS}{css}</style></head><body>\n")
+
+
 def described_folder(name, command, what):
-    """The folder that the call names, and what `command` wrote of itself there as NAME."""
+    """The folder that the call names, and what `command FOLDER` wrote of itself there as NAME."""
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
-              f"{what} from what `{command} --out FOLDER` left there", file=sys.stderr)
+              f"{what} from what `{command} FOLDER` left there", file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     folder = sys.argv[1]
     try:
         with open(os.path.join(folder, name), encoding="utf-8") as file:
             return folder, json.load(file)
     except FileNotFoundError:
-        sys.exit(f"There is no '{folder}/{name}'; `{command}` writes it.")
+        sys.exit(f"There is no '{folder}/{name}'; `{command.removesuffix(' --out')}` writes it.")
 
 
 def main():
-    folder, about = described_folder("paper.json", "swirl paper", "writes report.md and report.html")
+    folder, about = described_folder("paper.json", "swirl paper --out",
+                                     "writes report.md and report.html")
     judged = judge(folder)
     write(os.path.join(folder, "report.md"), markdown(about, judged, crossings_of_one_setting(folder)))
     write(os.path.join(folder, "report.html"), page(folder, about, judged))

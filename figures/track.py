@@ -5,10 +5,8 @@ what `swirl track --report` left in a folder.
 """
 
 import html
-import json
 import math
 import os
-import sys
 
 import experiment
 import report
@@ -42,16 +40,6 @@ def draw(folder, pictures, number):
     style.save(drawing, os.path.join(folder, "figure_found.csv"))
 
 
-def path_text(path):
-    """Circle or polygon, as far as can be told."""
-    if path["sides"]:
-        return f"a polygon of {path['sides']} sides, corners at {path['corners']:.2f} pixels"
-    most = path["sides_up_to_which_would_be_seen"]
-    if most >= 3:
-        return f"a circle, or a polygon of more than {most} sides"
-    return "a polygon cannot be told from a circle: too few pictures, or too rough a rim"
-
-
 def found_rows(found):
     """What was found, with its error."""
     path, dish, lens = found["path"], found["dish"], found["lens"]
@@ -74,7 +62,7 @@ def found_rows(found):
             (f"Ω, rad/{unit}", value(omega, omega_error)),
             (f"period, {unit}", value(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
             ("sense", "clockwise in the picture" if path["clockwise"] else "counter-clockwise"),
-            ("path", path_text(path)),
+            ("path", path["shape"]),
             ("lens, distortion", value(lens["distortion"], lens["distortion_error"]))]
     if found["millimetres_per_pixel"]:
         rows.append(("scale", f"{found['millimetres_per_pixel']:.5f} mm a pixel"))
@@ -109,9 +97,7 @@ def page(folder, found, discs):
         return report.table(["", ""], [(report.td(a), report.td(b)) for a, b in pairs])
 
     return "".join([
-        "<!doctype html>\n<html lang=en><head><meta charset=utf-8>",
-        '<meta name=viewport content="width=device-width, initial-scale=1">',
-        f"<title>{html.escape(name)}</title><style>{report.CSS}</style></head><body>\n",
+        report.opening(html.escape(name)),
         f"<h1>{html.escape(name)}</h1>\n",
         f"<ul>{warnings}</ul>\n" if warnings else "<p>Nothing looks wrong.</p>\n",
         "<h2>What was found</h2>\n", rows(found_rows(found)),
@@ -129,17 +115,8 @@ def page(folder, found, discs):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
-        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
-              "draws and writes report.html from what `swirl track --report FOLDER` left there",
-              file=sys.stderr)
-        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
-    folder = sys.argv[1]
-    try:
-        with open(os.path.join(folder, "found.json"), encoding="utf-8") as file:
-            found = json.load(file)
-    except FileNotFoundError:
-        sys.exit(f"There is no '{folder}/found.json'; `swirl track --report` writes it.")
+    folder, found = report.described_folder("found.json", "swirl track --report",
+                                            "draws and writes report.html")
     pictures = style.read(os.path.join(folder, "pictures.csv"))
     discs = style.read(os.path.join(folder, "discs.csv"))
     draw(folder, pictures, found["discs"])
