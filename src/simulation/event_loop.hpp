@@ -41,6 +41,23 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
+template <class Search>
+struct BodiesOf {
+    using Type = Discs;
+};
+template <class Search>
+requires requires { typename Search::Bodies; }
+struct BodiesOf<Search> {
+    using Type = typename Search::Bodies;
+};
+template <class Search>
+using Bodies = typename BodiesOf<Search>::Type;
+
+template <class Search>
+SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
+    return Bodies<Search>::have_floor && event.partner == the_floor;
+}
+
 /// The next event that happens.
 template <class Search>
 SWIRL_INLINE PendingEvent next_event(EngineState& state) {
@@ -52,7 +69,7 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
             if constexpr (requires { Search::stretch_ended(state); }) Search::stretch_ended(state);
             continue;
         }
-        if (happens<Search>(state, next)) return next;
+        if (is_of_floor<Search>(next) || state.is_valid(next)) return next;
         Search::predict_again(state, next);
     }
 }

@@ -142,29 +142,6 @@ struct Spheres {
     }
 };
 
-/// What a search is for: discs, unless it says otherwise.
-template <class Search>
-struct BodiesOf {
-    using Type = Discs;
-};
-template <class Search>
-requires requires { typename Search::Bodies; }
-struct BodiesOf<Search> {
-    using Type = typename Search::Bodies;
-};
-template <class Search>
-using Bodies = typename BodiesOf<Search>::Type;
-
-template <class Search>
-SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
-    return Bodies<Search>::have_floor && event.partner == the_floor;
-}
-/// Whether a pending event does, or was invalidated.
-template <class Search>
-SWIRL_INLINE bool happens(const EngineState& state, const PendingEvent& event) {
-    return is_of_floor<Search>(event) || state.is_valid(event);
-}
-
 /// Discs i < j meet at time t.
 template <class Bodies>
 SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint32_t j, double t) {
