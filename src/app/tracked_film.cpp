@@ -79,9 +79,9 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"clockwise", film.path.clockwise},
               {"residual", film.path.residual},
               {"pictures_that_agree", film.path.used},
-              {"sides", film.sides > 0 ? Json(film.sides) : Json(nullptr)},
-              {"sides_up_to_which_would_be_seen", film.most_sides},
-              {"corners", film.sides > 0 ? Json(film.corners) : Json(nullptr)}}},
+              {"sides", film.polygon.sides > 0 ? Json(film.polygon.sides) : Json(nullptr)},
+              {"sides_up_to_which_would_be_seen", film.polygon.most_sides},
+              {"corners", film.polygon.sides > 0 ? Json(film.polygon.corners) : Json(nullptr)}}},
             {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
             {"quality",
              {{"touching_discs_are_apart", film.touching},
@@ -228,6 +228,7 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
     discs_of(film).write(folder / "discs.csv");
     Json about = found;
     about["command"] = command_line();
+    about["path"]["shape"] = shape_text(film);
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(film, source.film, std::filesystem::path(source.film).filename().string(),
                folder / "film.png");
@@ -236,11 +237,11 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
 }
 
 std::string shape_text(const TrackedFilm& film) {
-    if (film.sides > 0)
-        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", film.sides,
-                           film.corners);
-    if (film.most_sides >= 3)
-        return fmt::format("a circle, or a polygon of more than {} sides", film.most_sides);
+    if (film.polygon.sides > 0)
+        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", film.polygon.sides,
+                           film.polygon.corners);
+    if (film.polygon.most_sides >= 3)
+        return fmt::format("a circle, or a polygon of more than {} sides", film.polygon.most_sides);
     return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
 }
 

@@ -327,12 +327,12 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     return path;
 }
 
-PathShape shape_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                   const DishPath& path) {
+PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
+                       const DishPath& path) {
     constexpr int least_sides = 3, fewest_a_side = 2;
     constexpr double stands_out = 5.0, size_known_to = 0.35;
-    PathShape shape;
-    if (centres.size() < 16) return shape;
+    PathPolygon polygon;
+    if (centres.size() < 16) return polygon;
     const double spans = (times.back() - times.front()) / double(times.size() - 1);
     const int limit = static_cast<int>(2.0 * pi / (path.omega * spans) / fewest_a_side);
     std::vector<double> rests, angles;
@@ -344,7 +344,7 @@ PathShape shape_of(const std::vector<Vec2>& centres, const std::vector<double>& 
         rests.push_back(rest);
         angles.push_back(std::atan2(-d.y, d.x));
     }
-    if (rests.size() < 16) return shape;
+    if (rests.size() < 16) return polygon;
     // Errors from what is left when the ellipse of a tilted camera is gone does not matter here:
     // they are only too large with it.
     double square = 0.0;
@@ -363,18 +363,18 @@ PathShape shape_of(const std::vector<Vec2>& centres, const std::vector<double>& 
     for (int n = least_sides; n <= limit; ++n) {
         const double expected = 2.0 * path.amplitude / (double(n) * n);
         if (expected < stands_out * error) break;
-        shape.most_sides = n;
+        polygon.most_sides = n;
         const double found = harmonic(n);
         if (found > stands_out * error && std::abs(found / expected - 1.0) < size_known_to &&
             found > best)
-            best = found, shape.sides = n;
+            best = found, polygon.sides = n;
     }
-    if (shape.sides > 0) {
-        const double half = pi / shape.sides;
+    if (polygon.sides > 0) {
+        const double half = pi / polygon.sides;
         const double mean = std::cos(half) / half * std::log(1.0 / std::cos(half) + std::tan(half));
-        shape.corners = path.amplitude / mean;
+        polygon.corners = path.amplitude / mean;
     }
-    return shape;
+    return polygon;
 }
 
 }  // namespace swirl

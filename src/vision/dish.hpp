@@ -53,16 +53,11 @@ CircleFit find_rim(const Picture& picture, const Rim& rim);
 std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
                                  const std::vector<double>& times);
 
-/// Circle or polygon. Run through at constant speed, a regular polygon of n sides departs from the
-/// circle of the same mean radius by (2A/n²) cos n(φ − φ_corner), and by less at multiples of n:
-/// the one harmonic of the centres' distances from the middle that has this size and stands out
-/// from the noise is the number of sides.
-struct PathShape {
-    int sides = 0;         // 0: no polygon of up to most_sides
-    int most_sides = 0;    // that would have been seen: 5 standard errors, twice a side
-    double corners = 0.0;  // distance of the corners from the middle, pixels
-};
-PathShape shape_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                   const DishPath& path);
+/// Run through at constant speed, a regular polygon of n sides departs from the circle of the same
+/// mean radius by (2A/n²) cos n(φ − φ_corner), and by less at multiples of n: the one harmonic of
+/// the centres' distances from the middle that has this size and stands out from the noise is the
+/// number of sides.
+PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
+                       const DishPath& path);
 
 }  // namespace swirl

@@ -22,4 +22,11 @@ struct DishPath {
     Vec2 at(double time) const;
 };
 
+/// Circle or polygon, as far as the path tells (dish.hpp).
+struct PathPolygon {
+    int sides = 0;         // 0: no polygon of up to most_sides
+    int most_sides = 0;    // that would have been seen: 5 standard errors, twice a side
+    double corners = 0.0;  // distance of the corners from the middle, pixels
+};
+
 }  // namespace swirl

@@ -367,6 +367,13 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         if (reach > 0.0) reaches.push_back(reach);
     }
     if (*std::min_element(number.begin(), number.end()) < fewest) return std::nullopt;
+    std::vector<std::vector<Vec2>> edges;
+    for (const Example& e : examples) {
+        edges.emplace_back();
+        for (const Bead& b : e.beads) edges.back().push_back(b.centre);
+    }
+    const double alone = overlap(examples, edges, edges, 0.0, look);
+    if (alone < good_places * good_places) return std::nullopt;
     mean.reach_ = median(reaches);
     // The usual contrast, against what the floor seems to be.
     mean.learn_floor(examples);
@@ -394,14 +401,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     mean.soft_ = 0.38 * contrast;
     for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
 
-    std::vector<std::vector<Vec2>> edges, places;
-    for (const Example& e : examples) {
-        edges.emplace_back();
-        for (const Bead& b : e.beads) edges.back().push_back(b.centre);
-    }
-    const double alone = overlap(examples, edges, edges, 0.0, look);
-    if (alone < good_places * good_places) return std::nullopt;
-    places = edges;
+    std::vector<std::vector<Vec2>> places = edges;
     mean.variance_ = 0.01 * mean.soft_ * mean.soft_;
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)

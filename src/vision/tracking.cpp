@@ -604,10 +604,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
-    const PathShape shape = shape_of(centres, when, film.path);
-    film.sides = shape.sides;
-    film.most_sides = shape.most_sides;
-    film.corners = shape.corners;
+    film.polygon = polygon_of(centres, when, film.path);
     for (std::size_t k = 0; k < all.size(); ++k)
         film.rim_off.push_back(
             all[k].rim.good ? length(all[k].rim.centre - film.path.at(film.times[k])) : -1.0);

@@ -44,10 +44,9 @@ struct TrackedFilm {
     double fps = 0.0;  // pictures per second; 0: not known, and times are in pictures
     std::vector<double> times;
 
-    Lens lens;                      // all places and radii are those of an ideal lens
-    DishPath path;                  // per second, or per picture
-    int sides = 0, most_sides = 0;  // of the path, and up to how many would have been seen
-    double corners = 0.0;           // distance of the corners from the centre; 0: no polygon
+    Lens lens;      // all places and radii are those of an ideal lens
+    DishPath path;  // per second, or per picture
+    PathPolygon polygon;
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     std::size_t rims_missed = 0;
     double rim_support = 0.0;

@@ -109,7 +109,7 @@ TEST(CircleFit, FindsACentreToATenthOfAPixel) {
     }
 }
 
-TEST(PathShape, TellsAPolygonByItsSidesAndACircleFromIt) {
+TEST(PathPolygon, TellsAPolygonByItsSidesAndACircleFromIt) {
     Random random(11);
     constexpr double amplitude = 40.0, noise_of_a_rim = 0.06;
     for (const int sides : {0, 4, 12, 30}) {
@@ -129,7 +129,7 @@ TEST(PathShape, TellsAPolygonByItsSidesAndACircleFromIt) {
         }
         const auto path = fit_path(centres, times);
         ASSERT_TRUE(path) << sides;
-        const PathShape shape = shape_of(centres, times, *path);
+        const PathPolygon shape = polygon_of(centres, times, *path);
         EXPECT_EQ(shape.sides, sides);
         EXPECT_GE(shape.most_sides, sides == 0 ? 30 : sides);
         if (sides == 0) continue;
