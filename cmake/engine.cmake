@@ -44,6 +44,8 @@ endif()
 add_library(swirl_measure STATIC ${measure_sources})
 target_link_libraries(swirl_measure PUBLIC swirl_physics)
 target_compile_options(swirl_measure PRIVATE -fno-exceptions)
+swirl_compiled_at_once(swirl_measure)
+set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # The plain loop that the benchmark and the tests hold the engine against.
 add_library(swirl_rival STATIC ${rival_sources})
 target_link_libraries(swirl_rival PUBLIC swirl_simulation)

@@ -41,3 +41,21 @@ if(ccache_program)
     add_compile_options(-fpch-preprocess)
   endif()
 endif()
+
+# The compiler gets several files of a floor at once, since headers and their templates are most of
+# the work; so no two of them may have the same name in their unnamed namespaces (tests/floors). On
+# few cores a floor is one batch or two, since every batch reads the same headers again; many cores
+# wait less for small ones.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+if(cores LESS_EQUAL 4)
+  set(batch 16)
+else()
+  set(batch 6)
+endif()
+function(swirl_compiled_at_once target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    # A local name may be that of another file's constant, which it cannot mean.
+    target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local)
+  endif()
+endfunction()

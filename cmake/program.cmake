@@ -25,9 +25,7 @@ if(SWIRL_PRECOMPILED)
 endif()
 
 # What is not the engine is compiled for less time: -O1 where nothing waits for it, -O2 for what is
-# done at every frame. The level changes no bit. The compiler gets a few files of a floor at once,
-# since headers and their templates are most of the work; so no two of them may have the same
-# name in their unnamed namespaces (tests/floors).
+# done at every frame. The level changes no bit.
 function(swirl_settings target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
   if(SWIRL_PRECOMPILED AND NOT target STREQUAL "swirl_draw") # which uses none of them
@@ -39,11 +37,7 @@ function(swirl_floor floor level)
   file(GLOB sources CONFIGURE_DEPENDS src/${floor}/*.cpp)
   add_library(swirl_${floor} STATIC ${sources})
   target_link_libraries(swirl_${floor} ${ARGN})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    set_target_properties(swirl_${floor} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    # A local name may be that of another file's constant, which it cannot mean.
-    target_compile_options(swirl_${floor} PRIVATE -Wno-shadow -Wshadow=local)
-  endif()
+  swirl_compiled_at_once(swirl_${floor})
   swirl_settings(swirl_${floor} ${level})
 endfunction()
 
@@ -55,7 +49,7 @@ target_include_directories(swirl_files SYSTEM PRIVATE ${hdf5_include})
 set_source_files_properties(src/files/hdf5.cpp src/files/trajectory_writer.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_floor(draw -O2 PUBLIC swirl_measure PkgConfig::cairo)
-swirl_floor(run -O2 PUBLIC swirl_files)
+swirl_floor(run -O1 PUBLIC swirl_files)
 swirl_floor(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
 swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
 swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
@@ -88,4 +82,4 @@ if(SWIRL_CAMERA)
   target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)
 endif()
 swirl_settings(swirl -O1)
-set_target_properties(swirl PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+set_target_properties(swirl PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})

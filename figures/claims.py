@@ -654,12 +654,20 @@ def listed(changes):
 
 
 def spheres_change_near(discs):
+    """For some friction, as that of the experiment's spheres is not known: one of those that were
+    run, or one between two of them, where the N of the change passes this one."""
     def judge(folder):
-        changes = last_changes(folder)
-        inside = [within(at, discs - ROUGHLY, discs + ROUGHLY) for at in changes.values()]
-        return either(inside), (
-            f"The last change to counterrotation is at N = … for {listed(changes)} (roughly: within "
-            f"{ROUGHLY:.0f} of {discs} for any of these frictions; that of the spheres is not "
+        changes = sorted(last_changes(folder).items())
+        near = [within(at, discs - ROUGHLY, discs + ROUGHLY) for _, at in changes]
+        steps = list(zip(changes, changes[1:]))
+        passed = [every([above(rarer, discs), below(sooner, discs)])
+                  for (_, rarer), (_, sooner) in steps]
+        between = "".join(
+            f"; it passes {discs} between μ = {low:g} and {high:g}"
+            for ((low, _), (high, _)), part in zip(steps, passed) if part.verdict == HOLDS)
+        return either(near + passed), (
+            f"The last change to counterrotation is at N = … for {listed(dict(changes))}{between} "
+            f"(roughly: within {ROUGHLY:.0f} of {discs}; the friction of the spheres is not "
             "known).")
     return judge
 

@@ -11,10 +11,6 @@ import os
 import report
 import style
 
-CSS = """
-figure.wide { grid-template-columns: 1fr; }
-figure.wide img { max-width: 46rem; }
-"""
 LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
 
 
@@ -204,7 +200,7 @@ def film_html(folder, film):
     found, remarks = film.get("found") or {}, film.get("remarks") or []
     pictures = [os.path.join(folder, name) for name in film.get("pictures", [])]
     image = "".join(f'<img alt="the film with the discs that were found" src="{report.inline(p)}">'
-                    for p in pictures if os.path.exists(p)) or "<span></span>"
+                    for p in pictures if os.path.exists(p)) or ""
     items = "".join(f"<li>{html.escape(remark)}</li>" for remark in remarks)
     path = found.get("path", {})
     said = ""
@@ -224,14 +220,15 @@ def page(folder, about, films, figures):
             f"{about['seeds']} runs, which is looked at as the camera looked: as many pictures a "
             "swirl, places with the same error, velocities as differences of places."
             if about["runs"] else "")
-    parts = [report.opening("Experiment and simulation", CSS),
+    parts = [report.opening("Experiment and simulation"),
              "<h1>Experiment and simulation</h1>\n",
              f"<p>What {len(films)} film{'s' if len(films) != 1 else ''} of a swirled dish "
              f"say{'s' if len(films) == 1 else ''}.{runs} ± is one standard error, from the "
              "scatter between swirls.</p>\n",
              f"<ul>{findings}</ul>\n", "<h2>The films</h2>\n", films_table(films)]
-    parts += ["<h2>The paper’s figures</h2>\n"] + [figure_html(folder, name) for name in figures]
-    parts += ["<h2>Each film</h2>\n"] + [film_html(folder, film) for film in about["films"]]
+    parts += ["<h2>The paper’s figures</h2>\n"]
+    parts += [report.grid([figure_html(folder, name) for name in figures])]
+    parts += ["<h2>Each film</h2>\n", report.grid([film_html(folder, f) for f in about["films"]])]
     parts += ["<h2>Made by</h2>\n", report.table(["", ""], [
         (report.td(a), report.td(b)) for a, b in (
             ("command", about["command"]), ("version", about["version"]),

@@ -9,6 +9,7 @@ import html
 import json
 import os
 import re
+import struct
 import sys
 
 import claims
@@ -66,6 +67,9 @@ QUESTIONS = {
                       "the rolling. The correlation is 1 where the floor has its way and "
                       "neighbours rub with the sum of their speeds, −1 where they roll on each "
                       "other.",
+    "spheres_coins": "The paper's simulation is of discs, and shows counterrotation with a moment "
+                     "of inertia that no disc has. Do solid discs (I = 1/2) counterrotate that lie "
+                     "flat and slide on a floor?",
     "averages": "The paper averages over events, an observer over time. Does it matter?",
     "transient": "Without disc friction only the wall turns the discs' spins. How long does that "
                  "take, and does the paper's average see the end of it?",
@@ -96,33 +100,37 @@ td.verdict { font-weight: 600; }
 .holds { color: #00694e; } .part { color: #8a5a00; } .fails { color: #a63c00; }
 .other { color: #666; }
 code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
-td code { white-space: nowrap; }
+td code { white-space: normal; overflow-wrap: anywhere; }
 sub { line-height: 0; font-size: .72em; }
-figure { margin: 1.2rem 0; display: grid; grid-template-columns: 23rem 1fr; gap: 1.6rem;
-         align-items: start; break-inside: avoid; }
-figure img { width: 100%; height: auto; }
+.figures { display: grid; grid-template-columns: 1fr 1fr; grid-auto-flow: dense; gap: 1.6rem 2rem; }
+figure { margin: 0; break-inside: avoid; min-width: 0; }
+figure.wide { grid-column: 1 / -1; }
+figure.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
+figure img { display: block; width: 100%; height: auto; max-height: 34rem; object-fit: contain;
+             margin: 0 0 .5rem; }
 figcaption { font-size: .88rem; }
 figcaption ul { padding-left: 1.1rem; margin: .3rem 0 .6rem; }
 figcaption li { margin-bottom: .25rem; }
 .small { color: #555; font-size: .92em; }
 table.claims { table-layout: fixed; }
 .claims th:nth-child(1) { width: 2.2em; }
-.claims th:nth-child(2) { width: 31%; }
-.claims th:nth-child(4) { width: 13%; }
-.claims th:nth-child(5) { width: 20%; }
+.claims th:nth-child(2) { width: 27%; }
+.claims th:nth-child(4) { width: 12%; }
+.claims th:nth-child(5) { width: 16%; }
 .question { color: #333; font-style: italic; margin: 0 0 .3rem; }
-@media (max-width: 50rem) { figure { grid-template-columns: 1fr; } }
+@media (max-width: 50rem) { .figures, figure.beside { grid-template-columns: 1fr; } }
 @page { size: A4; margin: 16mm 15mm; }
 @media print {
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
-  figure { grid-template-columns: 7.6cm 1fr; gap: .7cm; margin: .5cm 0; }
+  .figures { gap: .5cm .7cm; }
+  figure.beside { gap: .7cm; }
+  figure img { max-height: 11cm; }
   table { font-size: 8pt; }
   figcaption { font-size: 8pt; }
   tr { break-inside: avoid; }
   h3 { font-size: 10pt; }
   h2, h3 { break-after: avoid; }
   code { background: none; padding: 0; }
-  td code { white-space: normal; }
 }
 """
 CLASS = {claims.HOLDS: "holds", claims.IN_PART: "part", claims.FAILS: "fails"}
@@ -319,18 +327,44 @@ def rich(text):
     return SUBSCRIPT.sub(r"\1<sub>\2</sub>", html.escape(str(text)))
 
 
+# Wider than this many times its height, a picture takes the whole width of the page.
+WIDE = 1.45
+
+
+def is_wide(path):
+    """Of a PNG: the first thing in it is its width and height."""
+    with open(path, "rb") as file:
+        width, height = struct.unpack(">16xII", file.read(24))
+    return width > WIDE * height
+
+
+# And so many letters of findings stand beside their picture, across the page.
+LONG = 900
+
+
 def figure_html(folder, figure):
     title = rich(title_of(figure))
     picture = picture_of(figure)
+    long = sum(len(finding) for finding in figure["findings"]) > LONG
+    kind = ""
+    if picture and is_wide(os.path.join(folder, picture)):
+        kind = " class=wide"
+    elif long:
+        kind = ' class="wide beside"'
     image = (f'<img alt="{html.escape(title_of(figure))}" '
-             f'src="{inline(os.path.join(folder, picture))}">' if picture else "<span></span>")
+             f'src="{inline(os.path.join(folder, picture))}">' if picture else "")
     question = (f"<p class=question>{rich(question_of(figure))}</p>" if question_of(figure)
                 else "")
     findings = "".join(f"<li>{rich(sentence(finding))}</li>" for finding in figure["findings"])
-    return (f"<figure>{image}<figcaption><h3>{title}</h3>{question}"
+    return (f"<figure{kind}>{image}<figcaption><h3>{title}</h3>{question}"
             f"{'<ul>' + findings + '</ul>' if findings else ''}"
             f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption>"
             "</figure>\n")
+
+
+def grid(figures):
+    """Two beside each other, and wide ones across."""
+    return "<div class=figures>\n" + "".join(figures) + "</div>\n"
 
 
 def page(folder, about, judged):
@@ -353,7 +387,7 @@ def page(folder, about, judged):
              table(["", "the paper says", "found", "verdict", "command"], rows, "claims")]
     for heading, figures in split(about["figures"]):
         parts += [f"<h2>{heading}</h2>\n"]
-        parts += [figure_html(folder, figure) for figure in figures]
+        parts += [grid([figure_html(folder, figure) for figure in figures])]
     parts += ["<h2>Where the paper contradicts itself, and what was assumed</h2>\n",
               table(["matter", "the paper", "here"],
                     [(td(a), td(b), td(c)) for a, b, c in CONTRADICTIONS]),
@@ -370,11 +404,11 @@ def write(path, text):
     os.replace(aside, path)
 
 
-def opening(title, css=""):
+def opening(title):
     """What every page begins with."""
     return ("<!doctype html>\n<html lang=en><head><meta charset=utf-8>"
             '<meta name=viewport content="width=device-width, initial-scale=1">'
-            f"<title>{title}</title><style>{CSS}{css}</style></head><body>\n")
+            f"<title>{title}</title><style>{CSS}</style></head><body>\n")
 
 
 def described_folder(name, command, what):

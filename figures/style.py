@@ -12,6 +12,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 
 import tables  # noqa: E402
 from tables import column, select  # noqa: E402, F401
@@ -204,9 +205,12 @@ def dish(axes, radius, color=BLACK):
     axes.plot(0, -radius, "o", color=PINK, markersize=3, clip_on=False, zorder=5)
     axes.text(0.07 * radius, -1.17 * radius, "$M$", color=PINK, fontsize=7, ha="center",
               va="center")
-    axes.plot(0, AMPLITUDE, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5)
+    # Seen on arrows and on any colour of a map.
+    edge = [withStroke(linewidth=1.6, foreground=BLACK if color == "white" else "white")]
+    axes.plot(0, AMPLITUDE, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
+              path_effects=edge)
     axes.text(0.05 * radius, AMPLITUDE + 0.02 * radius, "$S$", color=color, fontsize=7,
-              va="bottom")
+              va="bottom", zorder=5, path_effects=edge)
     for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
         turn = math.radians(degrees)
         axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),

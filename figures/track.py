@@ -102,14 +102,15 @@ def page(folder, found, discs):
         f"<ul>{warnings}</ul>\n" if warnings else "<p>Nothing looks wrong.</p>\n",
         "<h2>What was found</h2>\n", rows(found_rows(found)),
         "<h2>How well</h2>\n", rows(quality_rows(found, discs)),
-        f"<figure>{image('film.png', 'the film with the discs that were found')}<figcaption>"
-        "<h3>The first picture</h3><p>With the discs that were found drawn over it.</p>"
-        "</figcaption></figure>\n",
-        f"<figure>{image('figure_found.png', 'discs, errors and rim over time')}<figcaption>"
-        "<h3>Over time</h3><p>How many discs were seen; the rms error that their fits claim, and how "
-        "deep discs seem to lie in each other, which hard discs cannot; and how far the rim is from "
-        "the circle that was fitted.</p><p class=small><code>pictures.csv</code>, "
-        "<code>figure_found.pdf</code></p></figcaption></figure>\n",
+        report.grid([
+            f"<figure>{image('film.png', 'the film with the discs that were found')}<figcaption>"
+            "<h3>The first picture</h3><p>With the discs that were found drawn over it.</p>"
+            "</figcaption></figure>\n",
+            f"<figure>{image('figure_found.png', 'discs, errors and rim over time')}<figcaption>"
+            "<h3>Over time</h3><p>How many discs were seen; the rms error that their fits claim, and how "
+            "deep discs seem to lie in each other, which hard discs cannot; and how far the rim is from "
+            "the circle that was fitted.</p><p class=small><code>pictures.csv</code>, "
+            "<code>figure_found.pdf</code></p></figcaption></figure>\n"]),
         "<h2>Made by</h2>\n", rows([("command", found["command"]), ("version", found["version"])]),
         "</body></html>\n"])
 

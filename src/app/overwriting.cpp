@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"

@@ -54,8 +54,11 @@ void ProgressLine::show(double fraction, const std::string& rate) {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
     if (now < next_) return;
-    const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double part = std::clamp(fraction, 0.0, 1.0);
+    // Something else has begun: the time that the last took says nothing of it.
+    if (part < last_) begin_ = now;
+    last_ = part;
+    const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double left = part > 0.0 ? elapsed * (1.0 - part) / part : 0.0;
     if (terminal_) {
         next_ = now + redraw;

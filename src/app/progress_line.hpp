@@ -28,7 +28,8 @@ class ProgressLine {
 
     const std::string what_;
     const bool quiet_, terminal_, color_;
-    const Clock::time_point begin_;
+    Clock::time_point begin_;  // of what is done now
+    double last_ = 0.0;        // fraction that was shown
     Clock::time_point next_;
     bool drawn_ = false;
     std::mutex mutex_;

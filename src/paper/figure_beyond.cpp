@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// One curve ϖ(N) at other parameters than the paper's.
-struct Curve {
+struct VariedCurve {
     std::string name;  // in keys and tables
     double value;      // of the parameter
     std::function<void(RunConfig&)> change;
@@ -31,7 +31,7 @@ std::int64_t events_of_a_curve(const PaperSettings& settings) {
 }
 
 FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
-                       const std::string& parameter, const std::vector<Curve>& curves) {
+                       const std::string& parameter, const std::vector<VariedCurve>& curves) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
     struct Point {
@@ -272,7 +272,7 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
 // --- inertia, restitution, path -------------------------------------------------------------
 
 static FigurePlan plan_figure_inertia(const PaperSettings& settings) {
-    std::vector<Curve> curves;
+    std::vector<VariedCurve> curves;
     for (const double inertia : {0.5, 1.0, 10.0})
         curves.push_back({fmt::format("{}", inertia), inertia,
                           [inertia](RunConfig& c) { c.inertia = inertia; }});
@@ -280,14 +280,14 @@ static FigurePlan plan_figure_inertia(const PaperSettings& settings) {
 }
 
 static FigurePlan plan_figure_restitution(const PaperSettings& settings) {
-    std::vector<Curve> curves;
+    std::vector<VariedCurve> curves;
     for (const double e : {1.0, 0.99, 0.9})
         curves.push_back({fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
     return plan_curves(settings, "restitution", "restitution", curves);
 }
 
 static FigurePlan plan_figure_tangential(const PaperSettings& settings) {
-    std::vector<Curve> curves;
+    std::vector<VariedCurve> curves;
     for (const double beta : {0.0, 0.5, 1.0})
         curves.push_back({fmt::format("{}", beta), beta, [beta](RunConfig& c) {
                               c.tangential_restitution = beta;

@@ -279,6 +279,25 @@ static FigurePlan plan_figure_spheres_restitution(const PaperSettings& settings)
     return plan_variants(settings, "spheres_restitution", variants, numbers);
 }
 
+/// Discs with the inertia that discs have lie flat on the same floor. One that rubs more than the
+/// strongest of these brings few of them to rest (docs/spheres.md).
+static FigurePlan plan_figure_spheres_coins(const PaperSettings& settings) {
+    std::vector<Variant> variants;
+    for (const double floor_friction : {0.0, 0.01, 0.02, 0.03})
+        variants.push_back({fmt::format("coins_f{}", floor_friction),
+                            floor_friction == 0.0
+                                ? std::string("solid discs (I = 1/2) without a floor")
+                                : fmt::format("solid discs (I = 1/2), μ_f = {}", floor_friction),
+                            experiment_friction, [floor_friction](RunConfig& c) {
+                                c.body = Shape::disc;
+                                c.inertia = solid_inertia(c.mass, c.radius);
+                                c.floor = floor_friction > 0.0;
+                                c.floor_friction = floor_friction;
+                                c.mu_disc = c.mu_wall = experiment_friction;
+                            }});
+    return plan_variants(settings, "spheres_coins", variants, fewer_numbers(settings));
+}
+
 /// At the number where smooth spheres of the experiment changed their sense.
 static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
     constexpr std::int64_t spheres = 36;
@@ -338,6 +357,8 @@ std::vector<PaperFigure> figures_of_spheres() {
          plan_figure_spheres_pinned},
         {"spheres_restitution", "spheres that roll: rotation against N, restitutions",
          plan_figure_spheres_restitution},
+        {"spheres_coins", "spheres that roll, beside them: solid discs that slide on the floor",
+         plan_figure_spheres_coins},
         {"spheres_map", "spheres that roll: 36 of them, frictions of contacts and floor",
          plan_figure_spheres_map}};
 }

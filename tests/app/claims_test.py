@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import subprocess
+import struct
 import sys
 import tempfile
 import unittest
@@ -154,6 +155,16 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.spheres_change_near(28)(self.folder)[0], HOLDS)
         self.assertEqual(claims.spheres_change_near(20)(self.folder)[0], FAILS)
         self.assertEqual(claims.spheres_friction_order(self.folder)[0], HOLDS)
+
+    def test_a_friction_between_two_that_were_run_can_be_that_of_the_spheres(self):
+        self.spheres("spheres", mu2=[(16, 0.1), (36, -0.1)])
+        self.changes((0.15, 40, 0.2, "counterrotation"), (0.2, 32, 0.2, "counterrotation"))
+        verdict, found = claims.spheres_change_near(36)(self.folder)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("passes 36 between μ = 0.15 and 0.2", found)
+        self.assertEqual(claims.spheres_change_near(28)(self.folder)[0], FAILS)
+        self.changes((0.15, 40, 0.2, "counterrotation"), (0.2, 33.5, 1.0, "counterrotation"))
+        self.assertEqual(claims.spheres_change_near(36)(self.folder)[0], UNDECIDED)
 
     def test_a_curve_that_does_not_cross_comes_after_one_that_does(self):
         self.crossings("5b", high=(36, .3), medium=(40, .3), low=(None, "always rotates"))
@@ -359,9 +370,10 @@ class OnMadeUpTables(unittest.TestCase):
                  "figures": [{"name": "5b", "description": "ϖ < 0 & more", "findings": ["found"],
                               "files": ["figure_5b.png"]}]}
         with open(os.path.join(self.scratch.name, "figure_5b.png"), "wb") as file:
-            file.write(b"\x89PNG")
+            file.write(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 600, 200))
         page = report.page(self.scratch.name, about, report.judge(self.scratch.name))
         self.assertIn("data:image/png;base64,iVBORw", page)
+        self.assertIn("<figure class=wide>", page)
         self.assertIn("ϖ &lt; 0 &amp; more", page)
         self.assertNotIn('src="figure', page)
         for claim in claims.CLAIMS:

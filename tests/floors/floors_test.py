@@ -71,7 +71,7 @@ def code_of(file):
 
 # Floors of whose files the compiler gets a few at once (the command line, too, whose files write
 # one function for each kind of call).
-COMPILED_AT_ONCE = ("files", "draw", "run", "study", "film", "vision", "paper")
+COMPILED_AT_ONCE = ("measure", "files", "draw", "run", "study", "film", "vision", "paper")
 DEFINITIONS = (
     # A function, up to its brace; a type; a constant.
     r"^(?!return|namespace|using|\s|template|\})[\w:<>&*,\[\]. ]*?[\w>&*\]] [*&]?(\w+)\([^;{}]*?\)"

@@ -74,6 +74,20 @@ TEST_F(Paper, ARunThatFailsLeavesAHoleAndIsNamed) {
     EXPECT_EQ(made.figures.front().problem, "");
 }
 
+TEST_F(Paper, RunsThatFailAreNamedInOneSentence) {
+    const auto two_fail = [](const PaperSettings&) {
+        FigurePlan plan;
+        plan.points = {failing("b"), sound("c"), failing("d")};
+        plan.finish = [](const std::vector<Json>&, const fs::path&) { return FigureOutcome{}; };
+        return plan;
+    };
+    const PaperResult made = make_figures({{"x", "of three runs", two_fail}}, settings, {});
+    EXPECT_THAT(
+        made.figures.front().outcome.findings,
+        ElementsAre(HasSubstr(
+            "2 runs failed, and their places are empty: b, d. Of the first: Time stands still.")));
+}
+
 TEST_F(Paper, ARunThatFailedIsTriedAgainAndTheOthersAreNot) {
     make_figures({{"x", "of three runs", three_runs}}, settings, {});
     calls = 0;
@@ -141,6 +155,20 @@ TEST_F(Paper, AnUndecidedClaimGetsMoreSeedsUntilItIsDecided) {
                     .figures.front()
                     .outcome.findings,
                 Contains("3 seeds"));
+}
+
+TEST_F(Paper, ARunThatFailedIsNotTriedAgainForMoreSeeds) {
+    settings.quick = true;
+    calls = 0;
+    const auto plan = [](const PaperSettings& s) {
+        FigurePlan doubtful = one_doubtful_point(s);
+        doubtful.points.push_back(failing("b"));
+        return doubtful;
+    };
+    const PaperResult made = make_figures({{"x", "one point", plan}}, settings, {}, true);
+    EXPECT_THAT(made.figures.front().outcome.findings, Contains("12 seeds"));
+    EXPECT_EQ(calls, 12 + 1);
+    EXPECT_EQ(made.failed, 1u);
 }
 
 TEST_F(Paper, TheBudgetOfSeedsEnds) {

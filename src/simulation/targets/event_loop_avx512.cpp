@@ -1,5 +1,5 @@
 #include "swirl/simulation/targets/event_loops.hpp"
 
 namespace swirl {
-const EventLoops event_loops_avx512 = event_loops("avx512", 40);
+const EventLoops event_loops_avx512 = event_loops<40>("avx512");
 }  // namespace swirl

@@ -1,5 +1,5 @@
 #include "swirl/simulation/targets/event_loops.hpp"
 
 namespace swirl {
-const EventLoops event_loops_baseline = event_loops("baseline", 32);
+const EventLoops event_loops_baseline = event_loops<32>("baseline");
 }  // namespace swirl

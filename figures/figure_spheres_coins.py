@@ -1,0 +1,31 @@
+"""Beside spheres that roll: solid discs (I = 1/2) that slide flat on the floor, and without one.
+
+    /usr/bin/python3 figures/figure_spheres_coins.py out/figure_spheres_coins.csv
+"""
+
+import style
+
+CURVES = [
+    ("coins_f0", "no floor", style.GREEN, "X"),
+    ("coins_f0.01", r"$\mu_f = 0.01$", style.SKY, "D"),
+    ("coins_f0.02", r"$\mu_f = 0.02$", style.BLUE, "s"),
+    ("coins_f0.03", r"$\mu_f = 0.03$", style.BLACK, "o"),
+]
+
+
+def main():
+    table = style.table_from_arguments("figure_spheres_coins")
+    rows = style.read(table)
+    drawing, axes = style.figure(height=2.9)
+    style.zero_line(axes)
+    for name, label, color, marker in CURVES:
+        style.curve(axes, [row for row in rows if row["curve"] == name], "discs", "by_time",
+                    label=label, color=color, marker=marker)
+    style.rotation_axes(axes)
+    axes.set_xlabel(r"number of solid discs $N$")
+    style.legend(axes)
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()
