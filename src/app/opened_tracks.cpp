@@ -12,7 +12,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
+/// Null where nothing was smoothed.
+Json smoothing_json(const TrackSmoothing& s, const TrackScale& scale) {
+    if (!s.done) return nullptr;
+    const double unit = scale.pixels_per_radius * scale.camera_time();
+    return {{"noise_pixels", s.noise},
+            {"window_pictures", s.window},
+            {"place_error_pixels", s.place_error},
+            {"velocity_error", s.velocity_error / unit},
+            {"kicks_per_picture", s.kicks},
+            {"added_to_temperature", s.missing_energy}};
+}
+
+Json camera_json(const Tracks& tracks, const TrackScale& scale, const FittedSeries& fitted) {
     return {{"filled_positions", tracks.mended.filled},
             {"renamed", tracks.mended.renamed},
             {"dropped_positions", tracks.mended.dropped},
@@ -20,7 +32,8 @@ Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
             {"frames_outside", fitted.fit.outside},
             {"frames_overlapping", fitted.fit.overlapping},
             {"wall_gap", fitted.fit.wall_gap},
-            {"fitting_phase", fitted.fit.fitting_phase}};
+            {"fitting_phase", fitted.fit.fitting_phase},
+            {"smoothing", smoothing_json(fitted.smoothing, scale)}};
 }
 
 }  // namespace
@@ -32,7 +45,7 @@ OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, doub
         throw Failure(fmt::format(
             "'{}' holds a single frame, which tells no velocities; two are the least.", file));
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
-    const Json found = camera_json(tracks, fitted);
+    const Json found = camera_json(tracks, scale, fitted);
     return {std::move(fitted.series), std::move(fitted.remarks), found};
 }
 

@@ -20,6 +20,9 @@ struct SnapshotSeries {
     std::function<Snapshot(std::uint64_t)> frame;
     /// Frames whose discs are not those of the frame before, ascending.
     std::vector<std::uint64_t> breaks = {};
+    /// ½⟨u²⟩ of a disc, u relative to the container, is so much more than that of the velocities,
+    /// where they are smoothed (track_smoothing.hpp).
+    double missing_energy = 0.0;
 
     /// Every frame holds the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }

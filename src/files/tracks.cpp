@@ -112,7 +112,7 @@ class TrackSeries {
         : tracks_(std::move(tracks)),
           scale_(scale),
           step_(commonest_step(tracks_)),
-          period_(scale.amplitude > 0.0 ? 2.0 * pi * scale.amplitude : scale.period) {}
+          period_(scale.our_period()) {}
 
     std::uint64_t frames() const { return tracks_.frames.size(); }
     std::vector<std::uint64_t> breaks() const {
@@ -138,7 +138,7 @@ class TrackSeries {
             const double mass = f.mass.empty() ? 1.0 : f.mass[i];
             s.set(i,
                   {lab(f.position[i]), velocity(k, i), unknown,
-                   f.spin.empty() ? unknown : sense() * f.spin[i] / camera_time(), s.clock,
+                   f.spin.empty() ? unknown : sense() * f.spin[i] / scale_.camera_time(), s.clock,
                    f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass, unknown});
         }
         return s;
@@ -148,10 +148,8 @@ class TrackSeries {
     double sense() const { return tracks_.y_down != scale_.clockwise ? -1.0 : 1.0; }
     /// Mirrored with the picture.
     double phase() const { return scale_.clockwise ? pi - scale_.phase : scale_.phase; }
-    /// One of ours, in those of the camera.
-    double camera_time() const { return period_ / scale_.period; }
     double time_of(std::uint64_t k) const {
-        return double(tracks_.frames[k].number) / scale_.frames_per_time * camera_time();
+        return double(tracks_.frames[k].number) / scale_.frames_per_time * scale_.camera_time();
     }
     bool follow(std::uint64_t k, std::uint64_t next) const {
         return tracks_.frames[next].number - tracks_.frames[k].number <= (longest_gap + 1) * step_;
@@ -171,7 +169,7 @@ class TrackSeries {
     }
     Vec2 velocity(std::uint64_t k, std::size_t i) const {
         const TrackFrame& f = tracks_.frames[k];
-        if (!f.velocity.empty()) return (1.0 / camera_time()) * turned(f.velocity[i]);
+        if (!f.velocity.empty()) return (1.0 / scale_.camera_time()) * turned(f.velocity[i]);
         std::uint64_t from = k, to = k;
         Vec2 first = f.position[i], last = first;
         if (k > 0 && follow(k - 1, k))
@@ -319,6 +317,8 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
     if (result.frames.empty()) throw FileError(fmt::format("'{}' holds no frames.", path.string()));
     return result;
 }
+
+double TrackScale::our_period() const { return amplitude > 0.0 ? 2.0 * pi * amplitude : period; }
 
 SnapshotSeries series_of(Tracks tracks, const TrackScale& scale) {
     auto series = std::make_shared<TrackSeries>(std::move(tracks), scale);

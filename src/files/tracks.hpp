@@ -8,7 +8,7 @@
 //
 // Velocities that are not given are central differences over the frame before and the frame after
 // (one-sided at the ends of a track): they miss a fraction (ΩΔt)²/6 of a circular motion. Of a disc
-// that is in neither they are not known, and 0.
+// that is in neither they are not known, and 0. Better ones are those of track_smoothing.hpp.
 //
 // Units of the result are those of everything here: length in disc radii, the speed AΩ of the
 // container = 1 (docs/physics.md), so the period is 2πA. Of a container that stands still, with
@@ -35,6 +35,7 @@ struct TrackFrame {
     std::vector<Vec2> position;
     std::vector<Vec2> velocity;  // empty where not given, like those below
     std::vector<double> radius, mass, spin;
+    std::vector<double> velocity_error;  // standard error of a coordinate, of smoothed velocities
 };
 
 struct Tracks {
@@ -61,6 +62,10 @@ struct TrackScale {
                                     // counter-clockwise from the right
     double container_radius = 0.0;  // in disc radii
     bool clockwise = false;         // the camera saw the swirl run clockwise: mirror x
+
+    /// T, and the camera's unit of time, in ours.
+    double our_period() const;
+    double camera_time() const { return our_period() / period; }
 };
 
 /// Both throw FileError with the number of the line.

@@ -14,6 +14,8 @@
 //
 // Only every 8th sample is used, unless told otherwise.
 //
+// Smoothed velocities miss some of ½⟨m u²⟩, which is added if it is told (add_energy).
+//
 // Limits: a cell never visited has no temperature (NaN), one visited once has 0. Whatever structure
 // the flow has inside a cell counts as temperature. Missing spins (NaN) make that of the spin NaN.
 #pragma once
@@ -50,6 +52,9 @@ class GranularTemperature {
         energies_.close_block();
     }
 
+    /// ½⟨u²⟩ of a disc is so much more than its velocities say; all discs have the mass 1.
+    void add_energy(double missing) { missing_ = missing; }
+
     const SquareGrid& grid() const { return grid_; }
     double temperature(std::size_t cell) const {
         const double x = cells_.mean(cell, 1), y = cells_.mean(cell, 2);
@@ -63,7 +68,7 @@ class GranularTemperature {
             sum += cells_.visits(c) * temperature(c);
             visits += cells_.visits(c);
         }
-        e.mean = visits > 0.0 ? sum / visits : not_known;
+        e.mean = visits > 0.0 ? sum / visits + missing_ : not_known;
         return e;
     }
     Estimate of_the_spin() const {
@@ -93,6 +98,7 @@ class GranularTemperature {
   private:
     SquareGrid grid_;
     int every_;
+    double missing_ = 0.0;
     std::int64_t samples_ = 0;
     CellMeans<4> cells_;
     CellMeans<3> spins_;

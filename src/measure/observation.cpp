@@ -50,6 +50,10 @@ concept ClosesWithDuration = requires(M& m, double duration) {
     m.close_block(duration);
 };
 template <class M>
+concept AddsEnergy = requires(M& m, double missing) {
+    m.add_energy(missing);
+};
+template <class M>
 concept ReportsTracks = requires(const M& m, Report& report, const PinnedLoose& tracks) {
     m.report(report, tracks);
 };
@@ -181,6 +185,12 @@ void Observation::begin_tracks() {
     pinned_.begin_tracks();
     each([]<class M>(M& m) {
         if constexpr (TakesPositions<M>) m.begin_anew();
+    });
+}
+
+void Observation::add_energy(double missing) {
+    each([&]<class M>(M& m) {
+        if constexpr (AddsEnergy<M>) m.add_energy(missing);
     });
 }
 

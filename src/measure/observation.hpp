@@ -28,6 +28,8 @@
 //     close_block(duration[, discs])   instead of close_block(): of the collisions alone. Without
 //                                      events it is not called: then nothing is known, not even
 //                                      that nothing happened
+//     add_energy(missing)              ½⟨u²⟩ of a disc is so much more than its velocities say: who
+//                                      gives smoothed ones knows
 //     report(visitor, pinned_loose)    instead of report(visitor): what the tracks say of pinned
 //                                      discs belongs to it too
 #pragma once
@@ -126,6 +128,8 @@ class Observation {
     /// The discs of the next sample are not those of the last.
     void begin_tracks();
     void close_block();
+    /// Velocities are smoothed: ½⟨u²⟩ of a disc, relative to the container, is so much more.
+    void add_energy(double missing);
 
     /// In the order of the names.
     std::vector<MeasurementReport> report() const;

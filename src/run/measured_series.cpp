@@ -60,6 +60,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         throw Failure(fmt::format("Without the first {:g} swirls no frame is left.", skip));
     rotation.close_block();
     observation.close_block();
+    observation.add_energy(series.missing_energy);
     measured.rotation = rotation.estimates();
     measured.reports = observation.report();
     measured.swirls = series.frame(series.frames - 1).time() / first.period - skip;

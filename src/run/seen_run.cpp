@@ -9,6 +9,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl {
 namespace {
@@ -63,7 +64,8 @@ nlohmann::ordered_json seen_run(const RunConfig& config, const SeenAs& seen,
     scale.frames_per_time = seen.frames_per_swirl / config.period;
     scale.amplitude = config.amplitude;
     scale.container_radius = config.container_radius;
-    const SnapshotSeries series = series_of(std::move(tracks), scale);
+    TrackSmoothing smoothing;
+    const SnapshotSeries series = smoothed_series(std::move(tracks), scale, smoothing);
     MeasuringControl measuring;
     measuring.stop = control.stop;
     const MeasuredSeries found =

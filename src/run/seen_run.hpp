@@ -1,6 +1,6 @@
 // A run as a camera would see it: places alone, so many pictures a swirl, with an error of so much.
-// Then they are measured as a camera's tracks are, velocities from differences of places, and what
-// few pictures and poor places do to a number they do to both sides of a comparison.
+// Then they are smoothed and measured as a camera's tracks are, and what few pictures and poor
+// places do to a number they do to both sides of a comparison.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "swirl/math/median.hpp"
@@ -69,6 +70,16 @@ std::string fit_text(const TrackFit& fit) {
             "2: is --scale right?\n",
             2.0 * fit.closest_pair);
     return text;
+}
+
+/// How far places and velocities can be believed, in a line.
+std::string smoothing_text(const TrackSmoothing& s, const TrackScale& scale) {
+    if (!s.done) return "";
+    const double unit = scale.pixels_per_radius * scale.camera_time();
+    return fmt::format(
+        "Places have a noise of {:.2g} pixels and were smoothed over {:.1f} pictures, to {:.2g} "
+        "pixels; velocities are good to {:.2g} of the container's, between collisions.\n",
+        s.noise, s.window, s.place_error, s.velocity_error / unit);
 }
 
 /// Throws Failure where more than this share of the frames contradicts what was said.
@@ -159,12 +170,20 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
     return fit;
 }
 
+SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoothing& smoothing) {
+    smoothing = smooth(tracks, scale);
+    SnapshotSeries series = series_of(std::move(tracks), scale);
+    series.missing_energy = smoothing.missing_energy;
+    return series;
+}
+
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit) {
     FittedSeries fitted;
-    fitted.series = series_of(tracks, scale);
-    fitted.fit = fit_of(fitted.series, scale);
+    fitted.fit = fit_of(series_of(tracks, scale), scale);
     refuse_misfit(fitted.fit, scale, misfit);
-    fitted.remarks = mended_text(tracks) + fit_text(fitted.fit);
+    fitted.series = smoothed_series(tracks, scale, fitted.smoothing);
+    fitted.remarks =
+        mended_text(tracks) + smoothing_text(fitted.smoothing, scale) + fit_text(fitted.fit);
     if (!fitted.series.same_discs())
         fitted.remarks += fmt::format(
             "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",

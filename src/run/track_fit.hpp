@@ -4,6 +4,7 @@
 #include <string>
 
 #include "swirl/files/series.hpp"
+#include "swirl/files/track_smoothing.hpp"
 #include "swirl/files/tracks.hpp"
 
 namespace swirl {
@@ -29,11 +30,16 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale);
 struct FittedSeries {
     SnapshotSeries series;
     TrackFit fit;
-    std::string remarks;  // what was mended and what does not quite fit, a line each
+    TrackSmoothing smoothing;
+    std::string remarks;  // what was mended, smoothed and what does not quite fit, a line each
 };
 
-/// The tracks as frames of a dish. Throws Failure where more than the share `misfit` of the frames
-/// contradicts what was said of the dish, and says what is likely to be wrong.
+/// The tracks as frames of a dish, smoothed (files/track_smoothing.hpp).
+SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoothing& smoothing);
+
+/// The same, held against what was said of the dish. Throws Failure where more than the share
+/// `misfit` of the frames contradicts what was said of the dish, and says what is likely to be
+/// wrong.
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit);
 
 }  // namespace swirl
