@@ -40,7 +40,7 @@ struct ExperimentCall {
     bool spin = false, no_simulation = false, quiet = false;
 };
 
-bool is_table(const std::string& film) { return film.ends_with(".csv"); }
+bool is_table(const std::string& film) { return film.ends_with(".csv") || film.ends_with(".h5"); }
 
 std::string name_of_film(const std::string& film) {
     fs::path path = film;
@@ -221,7 +221,7 @@ void add_experiment_command(Subcommand& subcommand) {
     const char* const films = "The films";
     subcommand
         .add_option("films", call->rough,
-                    "films as `swirl track` takes them, or tables that it wrote (.csv)")
+                    "films as `swirl track` takes them, or tables that it wrote (.csv, .h5)")
         ->type_name("VIDEO")
         ->required();
     add("--smooth", call->smooth, "VIDEO",

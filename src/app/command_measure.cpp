@@ -126,8 +126,9 @@ void add_measure_command(Subcommand& subcommand) {
         return subcommand.add_option(name, into, description)->type_name(type)->group(group);
     };
     subcommand
-        .add_option("file", call->file,
-                    "a trajectory of swirl, a table of trackpy (CSV), or a LAMMPS text dump")
+        .add_option(
+            "file", call->file,
+            "a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text dump")
         ->type_name("FILE")
         ->required();
     text("--measure", call->list, "LIST", "as for swirl run: density,flow,profile,… or all",

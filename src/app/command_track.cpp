@@ -112,9 +112,10 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
 
 void track(const TrackCall& call) {
     if (call.out.empty())
-        throw WrongCall("There is nowhere for the tracks to go: give --out FILE.csv.");
-    if (!call.out.ends_with(".csv"))
-        throw WrongCall(fmt::format("--out is '{}', but its name must end with .csv.", call.out));
+        throw WrongCall("There is nowhere for the tracks to go: give --out FILE.csv or FILE.h5.");
+    if (!call.out.ends_with(".csv") && !call.out.ends_with(".h5"))
+        throw WrongCall(
+            fmt::format("--out is '{}', but its name must end with .csv or .h5.", call.out));
     check_film_options(call.fps, call.frames);
     if (call.discs && !(*call.discs > 0))
         throw WrongCall(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
@@ -180,8 +181,9 @@ void add_track_command(Subcommand& subcommand) {
         "a film that ffmpeg reads, numbered pictures ('frames/%05d.png'), or a camera "
         "(/dev/video0)")
         ->required();
-    add("--out", call->out, "FILE.csv",
-        "the tracks, as trackpy writes them; what was found of the dish goes beside them "
+    add("--out", call->out, "FILE.csv|FILE.h5",
+        "the tracks, as trackpy writes them, or as HDF5 (H5MD); what was found of the dish goes "
+        "beside them "
         "(.camera.json), where swirl measure finds it");
     add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
     add("--dish-diameter", call->source.dish_diameter, "MM", "of the dish inside, in millimetres");

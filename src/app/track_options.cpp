@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "swirl/files/track_mending.hpp"
+#include "swirl/files/track_recording.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
@@ -25,6 +26,11 @@ std::string first_bytes(const std::string& file) {
     stream.read(bytes.data(), 8);
     bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;
+}
+
+/// By its name too: what is wrong with it is then said by who knows trajectories.
+bool is_hdf5(const std::string& file) {
+    return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
 }
 
 /// What `swirl track` found, where nothing else was said.
@@ -91,10 +97,7 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
         ->group(group);
 }
 
-bool is_trajectory(const std::string& file) {
-    // By its name too: what is wrong with it is then said by who knows trajectories.
-    return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
-}
+bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_recording(file); }
 
 Tracks read_tracks(const std::string& file, const TrackScale& scale) {
     const std::string begin = first_bytes(file);
@@ -102,12 +105,14 @@ Tracks read_tracks(const std::string& file, const TrackScale& scale) {
         mend(tracks, scale.pixels_per_radius);
         return tracks;
     };
+    if (is_hdf5(file)) return mended(read_track_recording(file));
     if (begin.starts_with("ITEM:")) return mended(read_lammps_dump(file));
     if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
-        throw Failure(fmt::format(
-            "'{}' is neither a trajectory of swirl (HDF5), nor a table of trackpy (CSV), nor a "
-            "LAMMPS text dump.",
-            file));
+        throw Failure(
+            fmt::format("'{}' is neither a trajectory or tracks of swirl (HDF5), nor a table of "
+                        "trackpy (CSV), nor a "
+                        "LAMMPS text dump.",
+                        file));
     return mended(read_trackpy_csv(file));
 }
 

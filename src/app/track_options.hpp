@@ -25,10 +25,11 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
 
 /// Whether the file is one of ours (HDF5) and no tracks. Throws Failure if it cannot be read.
 bool is_trajectory(const std::string& file);
-/// A table of trackpy or a LAMMPS dump, by what it begins with, mended (files/track_mending.hpp).
-/// Throws FileError.
+/// Tracks of ours (HDF5), a table of trackpy or a LAMMPS dump, by what it begins with, mended
+/// (files/track_mending.hpp). Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
-/// tracks.csv → tracks.camera.json: what `swirl track` found of the dish, beside the tracks.
+/// tracks.csv or tracks.h5 → tracks.camera.json: what `swirl track` found of the dish, beside the
+/// tracks.
 std::filesystem::path camera_file(std::filesystem::path tracks);
 /// What is not given is taken from there, if there is such a file. Throws WrongCall for what is
 /// missing or wrong.

@@ -14,6 +14,7 @@
 #include "swirl/app/track_options.hpp"
 #include "swirl/draw/label.hpp"
 #include "swirl/files/table.hpp"
+#include "swirl/files/track_recording.hpp"
 #include "swirl/film/picture.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/paper/python_script.hpp"
@@ -108,39 +109,64 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
             {"version", version()}};
 }
 
-Table table_of(const TrackedFilm& film, const FilmSpins* spins) {
-    std::vector<std::string> columns{"frame",  "particle", "x",     "y",   "x_seen",
-                                     "y_seen", "radius",   "error", "seen"};
-    if (spins)
-        columns.insert(columns.end(),
-                       {"spin", "spin_x", "spin_y", "piv_spin", "piv_velocity", "texture_match"});
-    Table table(columns);
+/// What is known of a disc in a picture beside its place, in the order of the table.
+std::vector<TrackColumn> columns_of(const TrackedFilm& film, const FilmSpins* spins) {
+    std::vector<TrackColumn> columns;
+    const auto add = [&](const char* name, auto value) {
+        TrackColumn column{name, {}};
+        for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+            column.values.emplace_back();
+            for (std::size_t i = 0; i < film.tracks.frames[k].id.size(); ++i)
+                column.values.back().push_back(value(k, i));
+        }
+        columns.push_back(std::move(column));
+    };
+    const auto seen = [&](std::size_t k, std::size_t i) {
+        return film.lens.seen(film.tracks.frames[k].position[i]);
+    };
+    add("x_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).x; });
+    add("y_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).y; });
+    add("radius", [&](std::size_t k, std::size_t i) { return film.tracks.frames[k].radius[i]; });
+    add("error", [&](std::size_t k, std::size_t i) { return film.errors[k][i]; });
+    add("seen", [&](std::size_t k, std::size_t i) { return film.seen[k][i] ? 1.0 : 0.0; });
+    if (!spins) return columns;
     // Per second, where the film says how long that is.
     const double rate = 1.0 / (film.times[1] - film.times[0]);
-    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
-        const TrackFrame& f = film.tracks.frames[k];
+    const auto add_spin = [&](const char* name, auto value) {
+        add(name, [&](std::size_t k, std::size_t i) { return value(spins->discs[k][i]); });
+    };
+    add_spin("spin", [&](const DiscSpin& s) { return rate * s.turn[2]; });
+    add_spin("spin_x", [&](const DiscSpin& s) { return rate * s.turn[0]; });
+    add_spin("spin_y", [&](const DiscSpin& s) { return rate * s.turn[1]; });
+    add_spin("piv_spin", [&](const DiscSpin& s) { return rate * s.piv_turn; });
+    add_spin("piv_velocity", [&](const DiscSpin& s) { return rate * s.piv_velocity; });
+    add_spin("texture_match", [&](const DiscSpin& s) { return s.match; });
+    return columns;
+}
+
+Table table_of(const Tracks& tracks, const std::vector<TrackColumn>& columns) {
+    std::vector<std::string> names{"frame", "particle", "x", "y"};
+    for (const TrackColumn& column : columns) names.push_back(column.name);
+    Table table(names);
+    for (std::size_t k = 0; k < tracks.frames.size(); ++k) {
+        const TrackFrame& f = tracks.frames[k];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const Vec2 seen = film.lens.seen(f.position[i]);
-            std::vector<Table::Cell> row{f.number,
-                                         f.id[i],
-                                         f.position[i].x,
-                                         f.position[i].y,
-                                         seen.x,
-                                         seen.y,
-                                         f.radius[i],
-                                         film.errors[k][i],
-                                         std::int64_t(film.seen[k][i])};
-            if (spins) {
-                const DiscSpin& s = spins->discs[k][i];
-                for (const double value :
-                     {s.turn[2], s.turn[0], s.turn[1], s.piv_turn, s.piv_velocity})
-                    row.emplace_back(rate * value);
-                row.emplace_back(s.match);
-            }
+            std::vector<Table::Cell> row{f.number, f.id[i], f.position[i].x, f.position[i].y};
+            for (const TrackColumn& column : columns) row.emplace_back(column.values[k][i]);
             table.add(std::move(row));
         }
     }
     return table;
+}
+
+/// The tracks as what the file's name says.
+void write_tracks_alone(const TrackedFilm& film, const FilmSource& source,
+                        const std::filesystem::path& out, const FilmSpins* spins) {
+    const std::vector<TrackColumn> columns = columns_of(film, spins);
+    if (out.extension() != ".h5") return table_of(film.tracks, columns).write(out);
+    write_track_recording(
+        out, film.tracks, film.times, columns,
+        {{"version", version()}, {"command", command_line()}, {"film", source.film}});
 }
 
 /// For each picture: what is there, and how well.
@@ -257,7 +283,7 @@ Json write_tracks(const TrackedFilm& film, const FilmSource& source,
         json["spins"] = {{"step", spins->step},
                          {"steps_measured", spins->measured},
                          {"texture_match", spins->match}};
-    table_of(film, spins).write(out);
+    write_tracks_alone(film, source, out, spins);
     write_output(camera_file(out), json.dump(2) + "\n");
     return json;
 }

@@ -1,13 +1,26 @@
-// Where things stand in the HDF5 files of this program: frames as H5MD has them (trajectory.hpp),
-// and beside them what belongs to no frame.
+// Where things stand in the HDF5 files of this program: frames as H5MD has them (trajectory.hpp,
+// track_recording.hpp), and beside them what belongs to no frame.
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "swirl/files/hdf5.hpp"
 
 namespace swirl::h5md {
 
 inline const std::string particles = "/particles/trajectory";
+inline const std::string tracks = "/particles/tracks";  // of a camera
 inline const std::string observables = "/observables";
 inline const std::string parameters = "/parameters";
+
+/// What every H5MD file begins with, and one group of particles without a box.
+void create_head(Hdf5File& file, const std::string& group);
+/// The texts of the provenance, each a dataset; "version" is the creator's, too.
+void create_parameters(Hdf5File& file,
+                       const std::vector<std::pair<std::string, std::string>>& provenance);
+/// Every time series of H5MD has a step and a time of its own: links to those of `from`.
+void link_times(Hdf5File& file, const std::string& from, const std::string& group);
 
 }  // namespace swirl::h5md

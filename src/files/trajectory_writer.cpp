@@ -136,8 +136,7 @@ struct Compression {
 
 // Every time series has its own step and time in H5MD; here they are all the same two.
 void link_times(Hdf5File& file, const std::string& group) {
-    file.link(particles + "/position/step", group + "/step");
-    file.link(particles + "/position/time", group + "/time");
+    h5md::link_times(file, particles + "/position", group);
 }
 
 void create_series(Hdf5File& file, const std::string& name, const Dimensions& row,
@@ -207,18 +206,7 @@ void create_fixed(Hdf5File& file, const Snapshot& first) {
 }
 
 void create_layout(Hdf5File& file, const Snapshot& first, const Compression& compression) {
-    file.create_group("/h5md");
-    file.set_attribute("/h5md", "version", std::vector<std::int64_t>{1, 1});
-    file.create_group("/h5md/author");
-    file.set_attribute("/h5md/author", "name", std::string("unknown"));
-    file.create_group("/h5md/creator");
-    file.set_attribute("/h5md/creator", "name", std::string("swirl"));
-    file.create_group("/particles");
-    file.create_group(particles);
-    file.create_group(particles + "/box");
-    file.set_attribute(particles + "/box", "dimension", std::vector<std::int64_t>{3});
-    file.set_attribute(particles + "/box", "boundary",
-                       std::vector<std::string>{"none", "none", "none"});
+    h5md::create_head(file, particles);
     create_fixed(file, first);
     file.create_group(observables);
     const std::uint64_t n = first.size();
@@ -233,13 +221,7 @@ void create_layout(Hdf5File& file, const Snapshot& first, const Compression& com
 }
 
 void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& provenance) {
-    file.create_group(parameters);
-    for (const auto& [name, text] : provenance) {
-        file.write(parameters + "/" + name, text);
-        if (name == "version") file.set_attribute("/h5md/creator", "version", text);
-    }
-    if (!file.has_attribute("/h5md/creator", "version"))
-        file.set_attribute("/h5md/creator", "version", std::string("unknown"));
+    h5md::create_parameters(file, provenance);
     file.set_attribute(parameters, "period", first.period);
     file.set_attribute(parameters, "container_radius", first.container_radius);
     if (first.are_spheres())

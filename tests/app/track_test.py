@@ -190,6 +190,25 @@ class FilmTest(InFolder):
             values.append(json.loads(done.stdout)["rotation"]["rigid_by_time"]["mean"])
         self.assertLess(abs(values[0] - values[1]), 0.02)  # of Ω, in little more than one swirl
 
+    def test_tracks_as_hdf5_say_what_the_table_says(self):
+        film = self.film(length=1.05)
+        table, _ = self.track(film, "--quiet", name="table.csv")
+        recording, _ = self.track(film, "--quiet", name="same.h5")
+        results = []
+        for tracks in (table, recording):
+            done = swirl("measure", tracks, "--measure", "density,temperature,pinned", "--json", "-")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            results.append({key: value for key, value in json.loads(done.stdout).items()
+                            if key != "file"})
+        self.assertEqual(*results)
+        again = swirl("track", film, "--out", recording)
+        self.refused(1, "is there already", call=again)
+        self.track(film, "--quiet", "--overwrite", name="same.h5")
+        self.refused(2, "must end with .csv or .h5",
+                     call=swirl("track", film, "--out", self.path("tracks.txt")))
+        os.truncate(recording, os.path.getsize(recording) // 2)
+        self.assertEqual(swirl("measure", recording).returncode, 1)
+
     def test_spins_from_the_texture(self):
         film = self.path("film.mp4")
         done = swirl("film-test", "--discs", 20, "--container-radius", 6.5, "--scale", 16, "--width",

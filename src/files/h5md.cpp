@@ -1,0 +1,39 @@
+#include "swirl/files/h5md.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace swirl::h5md {
+
+void create_head(Hdf5File& file, const std::string& group) {
+    file.create_group("/h5md");
+    file.set_attribute("/h5md", "version", std::vector<std::int64_t>{1, 1});
+    file.create_group("/h5md/author");
+    file.set_attribute("/h5md/author", "name", std::string("unknown"));
+    file.create_group("/h5md/creator");
+    file.set_attribute("/h5md/creator", "name", std::string("swirl"));
+    file.create_group("/particles");
+    file.create_group(group);
+    file.create_group(group + "/box");
+    file.set_attribute(group + "/box", "dimension", std::vector<std::int64_t>{3});
+    file.set_attribute(group + "/box", "boundary",
+                       std::vector<std::string>{"none", "none", "none"});
+}
+
+void create_parameters(Hdf5File& file,
+                       const std::vector<std::pair<std::string, std::string>>& provenance) {
+    file.create_group(parameters);
+    for (const auto& [name, text] : provenance) {
+        file.write(parameters + "/" + name, text);
+        if (name == "version") file.set_attribute("/h5md/creator", "version", text);
+    }
+    if (!file.has_attribute("/h5md/creator", "version"))
+        file.set_attribute("/h5md/creator", "version", std::string("unknown"));
+}
+
+void link_times(Hdf5File& file, const std::string& from, const std::string& group) {
+    file.link(from + "/step", group + "/step");
+    file.link(from + "/time", group + "/time");
+}
+
+}  // namespace swirl::h5md
