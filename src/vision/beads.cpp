@@ -356,22 +356,6 @@ void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, con
 
 namespace {
 
-/// The sure ones that hide some of what is looked at of another, but for itself.
-std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
-                                    const BeadLook& look) {
-    constexpr double looked_at = 7.0;  // pixels beyond both
-    std::vector<NearCircle> others;
-    const double own = look.kinds[self.kind].radius;
-    for (const Bead& b : all) {
-        const Vec2 d = b.centre - self.centre;
-        const double reach = own + look.kinds[b.kind].radius + looked_at;
-        if (&b != &self && b.sure && dot(d, d) < reach * reach)
-            others.push_back(
-                {b.centre, look.lens.seen_radius(b.centre, look.kinds[b.kind].radius)});
-    }
-    return others;
-}
-
 /// Between the place of its edge and that of the mean ball.
 void move_to_mean(Bead& bead, const Vec2& by_edge, const MeanBall::Excess& excess,
                   const std::vector<Bead>& all, const BeadLook& look) {
@@ -383,105 +367,135 @@ void move_to_mean(Bead& bead, const Vec2& by_edge, const MeanBall::Excess& exces
     bead.error = std::max(bead.error, mean.error());
 }
 
-/// Who looks like the mean ball, the best first, whether or not there is an edge; others that were
-/// found by their edges remain as candidates.
-void by_the_mean(std::vector<Bead>& beads, const Picture& picture, const CircleFit& rim,
-                 const BeadLook& look) {
-    const MeanBall& mean = *look.mean_ball;
-    const MeanBall::Excess excess = mean.excess(picture.sharp, rim, beads);
+/// Who looks like the mean ball in a picture, the best first, whether or not there is an edge.
+class MeanSearch {
+  public:
+    /// `beads`: those that were found by their edges.
+    MeanSearch(const Picture& picture, const CircleFit& rim, const BeadLook& look,
+               const std::vector<Bead>& beads)
+        : look_(look),
+          mean_(*look.mean_ball),
+          rim_(rim),
+          excess_(mean_.excess(picture.sharp, rim, beads)) {
+        for (const Bead& b : beads)
+            if (mean_.inside(excess_, b.centre, b.kind))
+                open_.push_back({b, b.centre, mean_.score(excess_, b.centre, b.kind, {}, 2)});
+    }
+
+    /// Those that have an edge.
+    void take_by_edges() {
+        for (std::size_t k; (k = best_open()) < open_.size();) take(k);
+    }
+    /// And where something lies that is no edge's, until there are as many as there should be.
+    void take_without_edges() {
+        while (taken_.size() < look_.number) {
+            Candidate best = best_without_edge();
+            if (best.score < 0.5 * like_a_ball) return;
+            judge(best);
+            best.by_edge = best.bead.centre;
+            if (best.score < like_a_ball || meets(best.bead, free_distance)) return;
+            best.bead.error = mean_.error();
+            open_.push_back(best);
+            take(open_.size() - 1);
+        }
+    }
+    /// Those taken, at their places; the others that were found by their edges remain as
+    /// candidates.
+    std::vector<Bead> found() {
+        for (std::size_t k = 0; k < taken_.size(); ++k)
+            move_to_mean(taken_[k], edges_[k], excess_, taken_, look_);
+        for (Candidate& c : open_) {
+            if (meets(c.bead, same_distance)) continue;
+            c.bead.sure = false;
+            c.bead.support = std::max(c.score, 0.01);
+            taken_.push_back(c.bead);
+        }
+        return std::move(taken_);
+    }
+
+  private:
     struct Candidate {
         Bead bead;
         Vec2 by_edge;
         double score;
     };
-    std::vector<Candidate> open;
-    std::vector<Bead> taken;
-    std::vector<Vec2> edges;  // of those taken
-    const auto judged = [&](Candidate& c) {
+    static constexpr double same_distance = 0.25;
+
+    double sum_of_radii(const Bead& a, const Bead& b) const {
+        return look_.kinds[a.kind].radius + look_.kinds[b.kind].radius;
+    }
+    /// One that was taken is nearer than this share of the sum of their radii.
+    bool meets(const Bead& bead, double distance) const {
+        return std::any_of(taken_.begin(), taken_.end(), [&](const Bead& t) {
+            return length(t.centre - bead.centre) < distance * sum_of_radii(t, bead);
+        });
+    }
+    double score(const Bead& bead) const {
+        return mean_.score(excess_, bead.centre, bead.kind, sure_others(taken_, bead, look_), 2);
+    }
+    /// At its best place.
+    void judge(Candidate& c) const {
         const auto fit =
-            mean.fit(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
+            mean_.fit(excess_, c.bead.centre, c.bead.kind, sure_others(taken_, c.bead, look_), 2);
         if (fit.good) c.bead.centre = fit.centre;
-        c.score =
-            mean.score(excess, c.bead.centre, c.bead.kind, sure_others(taken, c.bead, look), 2);
-    };
-    const auto sum = [&](const Bead& a, const Bead& b) {
-        return look.kinds[a.kind].radius + look.kinds[b.kind].radius;
-    };
-    const auto take = [&](std::size_t k) {
-        Candidate c = open[k];
-        judged(c);
-        open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+        c.score = score(c.bead);
+    }
+    void take(std::size_t k) {
+        Candidate c = open_[k];
+        judge(c);
+        open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(k));
         c.bead.sure = true;
         c.bead.support = c.score;
-        taken.push_back(c.bead);
-        edges.push_back(c.by_edge);
-        for (Candidate& o : open)
-            if (length(o.bead.centre - c.bead.centre) < 1.3 * sum(o.bead, c.bead))
-                o.score = mean.score(excess, o.bead.centre, o.bead.kind,
-                                     sure_others(taken, o.bead, look), 2);
-    };
-    const auto best_open = [&] {
-        std::size_t best = open.size();
-        for (std::size_t k = 0; k < open.size(); ++k) {
-            if (open[k].score < like_a_ball ||
-                (best < open.size() && open[k].score <= open[best].score))
+        taken_.push_back(c.bead);
+        edges_.push_back(c.by_edge);
+        for (Candidate& o : open_)
+            if (length(o.bead.centre - c.bead.centre) < 1.3 * sum_of_radii(o.bead, c.bead))
+                o.score = score(o.bead);
+    }
+    /// As many as there are open ones: none.
+    std::size_t best_open() const {
+        std::size_t best = open_.size();
+        for (std::size_t k = 0; k < open_.size(); ++k) {
+            if (open_[k].score < like_a_ball ||
+                (best < open_.size() && open_[k].score <= open_[best].score))
                 continue;
-            if (std::none_of(taken.begin(), taken.end(), [&](const Bead& t) {
-                    return length(t.centre - open[k].bead.centre) <
-                           free_distance * sum(t, open[k].bead);
-                }))
-                best = k;
+            if (!meets(open_[k].bead, free_distance)) best = k;
         }
         return best;
-    };
-    for (const Bead& b : beads) {
-        if (!mean.inside(excess, b.centre, b.kind)) continue;
-        open.push_back({b, b.centre, 0.0});
-        open.back().score = mean.score(excess, b.centre, b.kind, {}, 2);
     }
-    for (std::size_t k; (k = best_open()) < open.size();) take(k);
-    // And where something lies that is no edge's.
-    while (taken.size() < look.number) {
+    /// Of a grid over the dish; with score 0 where there is none.
+    Candidate best_without_edge() const {
         Candidate best{};
-        for (std::size_t kind = 0; kind < look.kinds.size(); ++kind) {
-            const double radius = look.kinds[kind].radius, stride = 0.3 * radius;
-            for (double x = -rim.radius; x < rim.radius; x += stride)
-                for (double y = -rim.radius; y < rim.radius; y += stride) {
-                    Candidate c{{rim.centre + Vec2{x, y}, kind, 0.0, 0.0, false}, {}, 0.0};
-                    if (!mean.inside(excess, c.bead.centre, kind)) continue;
-                    if (!(mean.excess_at(excess, c.bead.centre) > 0.3 * mean.soft())) continue;
-                    if (std::any_of(taken.begin(), taken.end(), [&](const Bead& t) {
-                            return length(t.centre - c.bead.centre) < 0.8 * sum(t, c.bead);
-                        }))
-                        continue;
-                    c.score = mean.score(excess, c.bead.centre, kind,
-                                         sure_others(taken, c.bead, look), 2);
+        for (std::size_t kind = 0; kind < look_.kinds.size(); ++kind) {
+            const double stride = 0.3 * look_.kinds[kind].radius;
+            for (double x = -rim_.radius; x < rim_.radius; x += stride)
+                for (double y = -rim_.radius; y < rim_.radius; y += stride) {
+                    Candidate c{{rim_.centre + Vec2{x, y}, kind, 0.0, 0.0, false}, {}, 0.0};
+                    if (!mean_.inside(excess_, c.bead.centre, kind)) continue;
+                    if (!(mean_.excess_at(excess_, c.bead.centre) > 0.3 * mean_.soft())) continue;
+                    if (meets(c.bead, least_distance)) continue;
+                    c.score = score(c.bead);
                     if (c.score > best.score) best = c;
                 }
         }
-        if (best.score < 0.5 * like_a_ball) break;
-        judged(best);
-        best.by_edge = best.bead.centre;
-        const bool free = std::none_of(taken.begin(), taken.end(), [&](const Bead& t) {
-            return length(t.centre - best.bead.centre) < free_distance * sum(t, best.bead);
-        });
-        if (!free || best.score < like_a_ball) break;
-        best.bead.error = mean.error();
-        open.push_back(best);
-        take(open.size() - 1);
+        return best;
     }
-    for (std::size_t k = 0; k < taken.size(); ++k)
-        move_to_mean(taken[k], edges[k], excess, taken, look);
-    for (Candidate& c : open) {
-        const bool same = std::any_of(taken.begin(), taken.end(), [&](const Bead& t) {
-            return length(t.centre - c.bead.centre) < 0.25 * sum(t, c.bead);
-        });
-        if (same) continue;
-        c.bead.sure = false;
-        c.bead.support = std::max(c.score, 0.01);
-        taken.push_back(c.bead);
-    }
-    beads = std::move(taken);
+
+    const BeadLook& look_;
+    const MeanBall& mean_;
+    const CircleFit& rim_;
+    MeanBall::Excess excess_;
+    std::vector<Candidate> open_;
+    std::vector<Bead> taken_;
+    std::vector<Vec2> edges_;  // of those taken
+};
+
+std::vector<Bead> by_the_mean(const std::vector<Bead>& beads, const Picture& picture,
+                              const CircleFit& rim, const BeadLook& look) {
+    MeanSearch search(picture, rim, look, beads);
+    search.take_by_edges();
+    search.take_without_edges();
+    return search.found();
 }
 
 }  // namespace
@@ -575,8 +589,7 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
     }
     // Their exact places.
     for (Bead& bead : kept) place(bead, kept, picture, look);
-    if (look.mean_ball) by_the_mean(kept, picture, rim, look);
-    return kept;
+    return look.mean_ball ? by_the_mean(kept, picture, rim, look) : kept;
 }
 
 }  // namespace swirl

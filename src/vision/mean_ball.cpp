@@ -56,16 +56,10 @@ bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>
     return true;
 }
 
-std::vector<NearCircle> others_of(const std::vector<Vec2>& places, const std::vector<Bead>& beads,
-                                  std::size_t self, const BeadLook& look) {
-    std::vector<NearCircle> others;
-    for (std::size_t j = 0; j < places.size(); ++j) {
-        if (j == self || !beads[j].sure) continue;
-        const double radius = look.lens.seen_radius(places[j], look.kinds[beads[j].kind].radius);
-        if (length(places[j] - places[self]) < 2.2 * look.kinds.back().radius + radius)
-            others.push_back({places[j], radius});
-    }
-    return others;
+/// Those beads at other places.
+std::vector<Bead> at_places(std::vector<Bead> beads, const std::vector<Vec2>& places) {
+    for (std::size_t i = 0; i < beads.size(); ++i) beads[i].centre = places[i];
+    return beads;
 }
 
 /// Mean square by which hard discs lie in each other, of those that are near.
@@ -97,6 +91,20 @@ double overlap(const std::vector<MeanBall::Example>& examples,
 }
 
 }  // namespace
+
+std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
+                                    const BeadLook& look) {
+    constexpr double looked_at = 7.0;  // pixels beyond both
+    std::vector<NearCircle> others;
+    const double own = look.lens.seen_radius(self.centre, look.kinds[self.kind].radius);
+    for (const Bead& b : all) {
+        if (&b == &self || !b.sure) continue;
+        const double radius = look.lens.seen_radius(b.centre, look.kinds[b.kind].radius);
+        if (length(b.centre - self.centre) < own + radius + looked_at)
+            others.push_back({b.centre, radius});
+    }
+    return others;
+}
 
 double MeanBall::lamp(const cv::Mat& sharp, const CircleFit& rim,
                       const std::vector<Bead>& beads) const {
@@ -312,10 +320,11 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
     for (std::size_t k = 0; k < examples.size(); ++k) {
         const Example& e = examples[k];
         const Excess seen = excess(e.sharp, e.rim, e.beads);
-        for (std::size_t i = 0; i < e.beads.size(); ++i) {
-            if (e.beads[i].kind != kind || !e.beads[i].sure) continue;
-            const Vec2 centre = places[k][i];
-            each_pixel(seen, centre, kind, others_of(places[k], e.beads, i, look_), 1,
+        const std::vector<Bead> moved = at_places(e.beads, places[k]);
+        for (const Bead& bead : moved) {
+            if (bead.kind != kind || !bead.sure) continue;
+            const Vec2 centre = bead.centre;
+            each_pixel(seen, centre, kind, sure_others(moved, bead, look_), 1,
                        [&](const Vec2& x, float level, double scale) {
                            const double u = (x.x - centre.x) / (scale * step) + half,
                                         v = (x.y - centre.y) / (scale * step) + half;
@@ -411,9 +420,10 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         for (std::size_t k = 0; k < examples.size(); ++k) {
             const Example& e = examples[k];
             const Excess seen = mean.excess(e.sharp, e.rim, e.beads);
+            const std::vector<Bead> moved = at_places(e.beads, places[k]);
             for (std::size_t i = 0; i < e.beads.size(); ++i) {
                 if (!e.beads[i].sure) continue;
-                const auto others = others_of(places[k], e.beads, i, look);
+                const auto others = sure_others(moved, moved[i], look);
                 const Fit fit = mean.fit(seen, places[k][i], e.beads[i].kind, others);
                 if (!fit.good || length(fit.centre - edges[k][i]) > 0.3 * look.radius()) continue;
                 next[k][i] = fit.centre;

@@ -26,6 +26,10 @@
 
 namespace swirl {
 
+/// The sure ones that hide some of what is looked at of another, but for itself.
+std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
+                                    const BeadLook& look);
+
 class MeanBall {
   public:
     /// A picture of the survey and what was found in it by the edges.
