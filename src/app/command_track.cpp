@@ -59,7 +59,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
         "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
-        "  error       {:.3f} pixels of a place, from the edges{}\n",
+        "  error       {:.3f} pixels of a place, from {}\n",
         call.source.film, film.number, film.pictures, film.width, film.height, sizes,
         film.bright ? "bright" : "dark", film.bright ? "a dark" : "a bright", film.container_radius,
         film.container_radius / film.radius, with_error(film.path.centre.x, film.path.centre_error),
@@ -72,9 +72,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         with_error(phase_of(film), film.path.phase_error * 180.0 / pi),
         with_error(film.lens.k, film.lens.k_error), film.lens.k != 0.0 ? ", corrected" : "",
         100.0 * film.complete, film.filled, film.position_error,
-        film.overlap_error > 0.0
-            ? fmt::format("; {:.3f} from overlaps that cannot be", film.overlap_error)
-            : "");
+        film.position_error > film.overlap_error ? "the edges" : "overlaps that cannot be");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
                             *call.source.disc_diameter / (2.0 * film.radius));

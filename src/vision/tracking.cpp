@@ -425,6 +425,15 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
         film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
+/// An edge tells how far its rays scatter, and not what shade, texture and compression do to all of
+/// them at once. Where overlaps ask for larger errors, they are believed.
+void believe_overlaps(TrackedFilm& film) {
+    if (!(film.position_error > 0.0) || film.overlap_error <= film.position_error) return;
+    for (auto& errors : film.errors)
+        for (double& error : errors) error *= film.overlap_error / film.position_error;
+    film.position_error = film.overlap_error;
+}
+
 /// The longest stretch of pictures in each of which many discs are missing at once.
 struct Covered {
     std::size_t begin = 0, end = 0;
@@ -624,6 +633,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     track(settings, found, all, film);
     if (film.number == 0) throw Failure("No disc could be followed through the film.");
     judge(all, film);
+    believe_overlaps(film);
     // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or
     // its top. Swirled discs are at the wall at all times.
     // Where edges are soft, the shaded side of a ball is lost in the floor, and it looks too small.

@@ -64,8 +64,8 @@ struct TrackedFilm {
     double touching = 0.0;  // distance of discs in contact, in sums of radii
 
     double complete = 0.0;        // share of pictures in which every disc was seen
-    double position_error = 0.0;  // rms of errors
-    double overlap_error = 0.0;   // the same from distances that hard discs cannot have
+    double position_error = 0.0;  // rms of errors, those of the edges or the larger ones of
+    double overlap_error = 0.0;   // distances that hard discs cannot have; without the tail
     std::uint64_t filled = 0, refused = 0;
     double jitter = 0.0;  // of the film's times, in steps
     std::vector<std::string> warnings;
