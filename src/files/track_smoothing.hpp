@@ -9,18 +9,15 @@
 //   noise       of a coordinate, from the lower quartile of the second differences: those with a
 //               collision in them are the upper ones. What hardly changes from picture to picture,
 //               as the shade of a ball does, is none, and does not hurt velocities
-//   smoother    Kalman's filter and the smoother of de Jong (1989,
-//   doi:10.1080/01621459.1989.10478853)
+//   smoother    Kalman's filter and de Jong's smoother (1989, doi:10.1080/01621459.1989.10478853)
 //               for a disc that goes straight on and is kicked now and then: at some moment between
 //               two pictures its velocity changes by a normal vector of variance q
-//   kicks       q is large or small, of a rebound or of a push as the swirl's own curvature asks
-//   for
-//               some. Which it was, between each two pictures, is told by how much of a kick all
-//               places ask for there (the disturbance smoother's u/n, of variance 1/n − q), and how
+//   kicks       q is large or small, of a rebound or of a push as the swirl's curvature asks for.
+//               Which it was, between each two pictures, is told by how much of a kick all places
+//               ask for there (the disturbance smoother's u/n, of variance 1/n − q), and how
 //               often kicks are by all tracks; a few rounds of both
 //   energy      a smoothed velocity is the mean of those that the places allow, so the mean square
-//   of
-//               velocities is larger than the square of the mean, by the variance of each
+//               of velocities is larger than the square of the mean, by the variance of each
 //               coordinate: `missing_energy`, which belongs to whatever is made of squares of
 //               velocities
 //
