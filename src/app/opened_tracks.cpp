@@ -18,6 +18,7 @@ Json smoothing_json(const TrackSmoothing& s, const TrackScale& scale) {
     const double unit = scale.pixels_per_radius * scale.camera_time();
     return {{"noise_pixels", s.noise},
             {"window_pictures", s.window},
+            {"bend_pixels", s.bend},
             {"place_error_pixels", s.place_error},
             {"velocity_error", s.velocity_error / unit},
             {"kicks_per_picture", s.kicks},

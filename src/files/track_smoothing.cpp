@@ -289,6 +289,7 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
     const double unit = rate / (scale.pixels_per_radius * scale.camera_time());
     found.done = true;
     found.noise = std::sqrt(measured);
+    found.bend = turn * std::sqrt(coordinate);
     found.place_error = std::sqrt(place_square / places);
     found.velocity_error = rate * std::sqrt(velocity_square / places);
     found.window = noise / (place_square / places);

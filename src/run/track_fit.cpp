@@ -76,10 +76,18 @@ std::string fit_text(const TrackFit& fit) {
 std::string smoothing_text(const TrackSmoothing& s, const TrackScale& scale) {
     if (!s.done) return "";
     const double unit = scale.pixels_per_radius * scale.camera_time();
+    const std::string smoothed =
+        s.bend > s.noise
+            ? fmt::format(
+                  "which is less than courses bend between two pictures ({:.2g}); so they "
+                  "were smoothed over {:.1f} pictures and no more",
+                  s.bend, s.window)
+            : fmt::format("and were smoothed over {:.1f} pictures, to {:.2g} pixels", s.window,
+                          s.place_error);
     return fmt::format(
-        "Places have a noise of {:.2g} pixels and were smoothed over {:.1f} pictures, to {:.2g} "
-        "pixels; velocities are good to {:.2g} of the container's, between collisions.\n",
-        s.noise, s.window, s.place_error, s.velocity_error / unit);
+        "Places have a noise of {:.2g} pixels, {}; velocities are good to {:.2g} of the "
+        "container's, between collisions.\n",
+        s.noise, smoothed, s.velocity_error / unit);
 }
 
 /// Throws Failure where more than this share of the frames contradicts what was said.

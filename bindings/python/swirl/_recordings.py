@@ -98,9 +98,11 @@ class Tracks(Recording):
 
     misfit: the share of frames that may show discs outside the dish or in each other; where more do,
     swirl.Failure says which of the above is likely to be wrong. `remarks` says what does not quite fit,
-    and what was mended.
+    what was mended, and what noise was found.
 
-    Short gaps are filled, and velocities are differences between frames (src/files/tracks.hpp).
+    Short gaps are filled. Places are smoothed by the noise that they show, and velocities come of that
+    (src/files/track_smoothing.hpp); where frames are fewer than a hundred per swirl, places stay as they
+    are and velocities are differences between frames (src/files/tracks.hpp).
     """
 
     def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
@@ -150,7 +152,7 @@ class Tracks(Recording):
 
     @property
     def remarks(self) -> list[str]:
-        """What was mended, and what does not quite fit the dish; empty if all is well."""
+        """What was mended, what noise the places have, and what does not quite fit the dish."""
         return self._frames.remarks.splitlines()
 
     def __repr__(self) -> str:
