@@ -218,7 +218,7 @@ def page(folder, about, films, figures):
     findings = "".join(f"<li>{report.rich(finding)}</li>" for finding in about["findings"])
     runs = (f" Beside each stands the simulation of as many discs in the same dish, "
             f"{about['seeds']} runs, which is looked at as the camera looked: as many pictures a "
-            "swirl, places with the same error, velocities as differences of places."
+            "swirl, places with the same error, smoothed in the same way."
             if about["runs"] else "")
     parts = [report.opening("Experiment and simulation"),
              "<h1>Experiment and simulation</h1>\n",
