@@ -1,5 +1,7 @@
 #include "swirl/draw/planar.hpp"
 
+#include "swirl/math/wide.hpp"
+
 namespace swirl {
 
 namespace {
@@ -10,8 +12,8 @@ constexpr int cb_red = -6596, cb_green = -22189, cb_blue = 28785;
 constexpr int cr_red = 28784, cr_green = -26145, cr_blue = -2639;
 constexpr int half = 1 << 15;
 
-__attribute__((target_clones("avx2", "default"))) void luma_row(
-    const std::uint8_t* __restrict pixel, int width, std::uint8_t* __restrict luma) {
+SWIRL_WIDE void luma_row(const std::uint8_t* __restrict pixel, int width,
+                         std::uint8_t* __restrict luma) {
     for (int x = 0; x < width; ++x) {
         const int b = pixel[4 * x], g = pixel[4 * x + 1], r = pixel[4 * x + 2];
         luma[x] =
@@ -19,9 +21,9 @@ __attribute__((target_clones("avx2", "default"))) void luma_row(
     }
 }
 
-__attribute__((target_clones("avx2", "default"))) void chroma_row(
-    const std::uint8_t* __restrict upper, const std::uint8_t* __restrict lower, int pairs,
-    std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
+SWIRL_WIDE void chroma_row(const std::uint8_t* __restrict upper,
+                           const std::uint8_t* __restrict lower, int pairs,
+                           std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
     // Sums of four pixels: two more bits of shift.
     for (int x = 0; x < pairs; ++x) {
         const int b = upper[8 * x] + upper[8 * x + 4] + lower[8 * x] + lower[8 * x + 4];

@@ -103,6 +103,13 @@ class Floors(unittest.TestCase):
                      if header in [what for what, _ in includes(file)]}
             self.assertEqual(found, homes, header)
 
+    def test_one_place_says_what_is_compiled_for_several_processors(self):
+        # And for which compilers and sanitizers not: the thread sanitizer's programs do not even
+        # begin with such functions.
+        found = {os.path.relpath(file, SOURCE) for floor in BELOW for file in sources(floor)
+                 if "target_clones" in text_of(file)}
+        self.assertEqual(found, {"src/math/wide.hpp"})
+
     def test_no_floor_looks_up_or_sideways(self):
         for floor, below in BELOW.items():
             for file in sources(floor):

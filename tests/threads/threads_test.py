@@ -8,7 +8,9 @@ import tempfile
 import unittest
 
 SWIRL = os.environ["SWIRL"]
-ENVIRONMENT = {**os.environ, "TSAN_OPTIONS": "halt_on_error=1 exitcode=66"}
+SUPPRESSIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "suppressions.txt")
+ENVIRONMENT = {**os.environ,
+               "TSAN_OPTIONS": f"halt_on_error=1 exitcode=66 suppressions={SUPPRESSIONS}"}
 
 
 class Threads(unittest.TestCase):
@@ -28,7 +30,7 @@ class Threads(unittest.TestCase):
         self.swirl("verify", "frames.h5")
 
     def test_a_sweep_with_more_threads_than_cores(self):
-        self.swirl("sweep", "--discs", "5:12", "--mu", "0.1,1", "--replicas", "2", "--events",
+        self.swirl("sweep", "--discs", "5:12", "--mu", "0.1,1", "--seeds", "2", "--events",
                    "3000", "--frames", "30", "--measure", "slip", "--threads", "7", "--out", "sweep")
         self.swirl("collect", "sweep", "--csv", "table.csv")
 
