@@ -19,6 +19,8 @@ PaperParts::PaperParts(const fs::path& out) : folder_(out / "parts") {
     if (error)
         throw Failure(
             fmt::format("The folder '{}' cannot be made: {}.", folder_.string(), error.message()));
+    remove_leftovers(out);
+    remove_leftovers(folder_);
 }
 
 std::optional<Json> PaperParts::recall(const std::string& key) const {

@@ -66,6 +66,11 @@ std::uint32_t list_capacity(double ratio) {
     return (wanted + 3) / 4 * 4;
 }
 
+/// In a dish so large against its discs skins cannot be narrow (verlet_lists.hpp), so their lists
+/// have all the room that HotDisc::neighbours can count.
+constexpr double dish_too_wide_for_narrow_skins = 2e5;
+constexpr std::uint32_t most_capacity = 124;
+
 /// Discs this many times as large as the smallest keep their whole list with them.
 constexpr double ratio_without_tail = 4.0;
 
@@ -206,6 +211,9 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
         neighbours == NeighbourSearch::lists
             ? list_capacity(smaller(radii.largest / radii.smallest, ratio_without_tail))
             : 0;
+    if (state.capacity > 0 &&
+        scene.container_radius > dish_too_wide_for_narrow_skins * radii.smallest)
+        state.capacity = most_capacity;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
     state.prefetches = state.size > 4000 && !are_spheres(scene);
     allocate(scene, neighbours);

@@ -702,7 +702,7 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
 
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
-    for (const fs::path& part : {part_of(folder, "results", plan), folder / "failures",
+    for (const fs::path& part : {folder, part_of(folder, "results", plan), folder / "failures",
                                  part_of(folder, "checkpoints", plan)})
         remove_leftovers(part);
     return SweepWork(folder, plan, share, control)();

@@ -63,7 +63,27 @@ def drawn(draw, most_discs):
         options["restitution"] = draw.choice([0, 0.5, 0.9, 0.999])
         options["tangential-restitution"] = draw.choice([0, 0.5, 1])
         options["contact-duration"] = usual_or(draw, 0, 1e-9, options.get("period", 11.87), 0.2)
+    if draw.random() < 0.4:
+        options.update(on_a_floor(draw, options))
+    if draw.random() < 0.1:
+        options["measure"] = "all"
     return [text for name, value in options.items() for text in (f"--{name}", str(value))]
+
+
+def on_a_floor(draw, options):
+    """Spheres or coins; the first are as heavy to move as any inertia makes them."""
+    more = {"body": draw.choice(["sphere", "sphere", "disc"]),
+            "floor": draw.choice(["none", "sliding", "sliding"])}
+    if more["body"] == "sphere":
+        if options.get("inertia") == "paper":
+            more["inertia"] = draw.choice(["sphere", "shell"])
+        for name in ("vertical-disc", "vertical-wall"):
+            if draw.random() < 0.2:
+                more[name] = draw.choice([0, 0.5, 1])
+    if more["floor"] == "sliding":
+        more["floor-friction"] = usual_or(draw, 0.3, 1e-6, 1e6)
+        more["gravity"] = usual_or(draw, 6.382, 1e-6, 1e6)
+    return more
 
 
 def limit():

@@ -76,7 +76,17 @@ class Sweep(InFolder):
                                 json.load(result)
             self.assertEqual(process.returncode, 0, complaint)
             self.assertEqual(len(os.listdir(folder + "/results")), POINTS)  # no leftovers
+            self.assertEqual([n for n in os.listdir(folder) if n.endswith(".partial")], [])
             self.assertEqual(self.table(folder), table)
+
+    def test_what_a_kill_left_of_the_plan_is_removed(self):
+        folder = self.path("killed")
+        os.mkdir(folder)
+        left = folder + "/plan.json.0123456789abcdef.partial"
+        with open(left, "w") as opened:
+            opened.write("{")
+        self.assertEqual(swirl(*PLAN, "--out", folder).returncode, 0)
+        self.assertFalse(os.path.exists(left))
 
     def test_measurements_and_recordings_come_along(self):
         plan = ["sweep", "--discs", "8,20", "--seeds", "2", "--events", "20000", "--measure",

@@ -1,5 +1,7 @@
 // The state of a run that is to be resumed, damaged behind its checksum's back: bytes of a good one
-// are replaced, and it is cut. Every three bytes of input are an offset and what to put there.
+// are replaced, and it is cut. Every four bytes of input are an offset and what to put there.
+#include <memory>
+
 #include "fuzzed_file.hpp"
 #include "swirl/files/file_error.hpp"
 #include "swirl/run/failure.hpp"
@@ -32,13 +34,15 @@ std::string good_state() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::string good = good_state();
     std::string state = good;
-    for (std::size_t k = 0; k + 2 < size; k += 3)
-        state[(256u * data[k] + data[k + 1]) % state.size()] = static_cast<char>(data[k + 2]);
-    if (size % 3 == 1) state.resize(state.size() - data[size - 1] - 1);
+    for (std::size_t k = 0; k + 3 < size; k += 4)
+        state[(65'536u * data[k] + 256u * data[k + 1] + data[k + 2]) % state.size()] =
+            static_cast<char>(data[k + 3]);
+    if (size % 4 == 1) state.resize(state.size() - data[size - 1] - 1);
     Observation observation = observation_of(small_run(), {"density", "slip", "pinned"});
     RunControl control;
     control.observation = &observation;
-    control.resume = state;
-    read_or_refuse<FileError>([&] { swirl::Run(small_run(), control); });
+    control.resume = std::move(state);
+    read_or_refuse<FileError>(
+        [&] { std::make_unique<swirl::Run>(small_run(), std::move(control)); });
     return 0;
 }

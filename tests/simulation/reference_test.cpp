@@ -77,6 +77,24 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAThinDish) {
         expect_same_trajectory(on_circle(thin), events, tuning(NeighbourSearch::lists));
     }
 }
+// Centres of skins are in single precision. Driven far, discs are soon where that is coarser than a
+// narrow skin is wide; and in a dish of ten million radii it is so everywhere.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInADishMuchWiderThanItsDiscs) {
+    Disc grain = unit_disc();
+    grain.radius = 1e-6;
+    for (const double container_radius : {0.03651, 10.0}) {
+        const InitialState wide =
+            state_of({grain}, 48, container_radius,
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0);
+        expect_same_trajectory(wide, 1500, tuning(NeighbourSearch::lists));
+    }
+    // A crystal that melts: more discs within a rounding error than a list has room for elsewhere.
+    InitialState heap = state_of({unit_disc()}, 48, 1e7, still_path(1.0), 1.0, 1.0, 0.1);
+    for (std::size_t i = 0; i < heap.discs.size(); ++i)
+        heap.discs[i].position = {3e6 + 2.001 * static_cast<double>(i % 7),
+                                  2e6 + 2.001 * static_cast<double>(i / 7)};
+    expect_same_trajectory(heap, 300, tuning(NeighbourSearch::lists));
+}
 // Far from the origin places are known less well; a small turn is a long way.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
     for (const double amplitude : {1e-3, 30.0, 1e6}) {

@@ -35,6 +35,16 @@ SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
     return static_cast<double>(skin.skin_radius) * (1.0 - skin_margin);
 }
 
+/// Its centre is rounded to single precision, by less than this share of its distance from the
+/// origin of the frame.
+inline constexpr double rounding_of_centre = 0x1p-22;
+
+/// A circle so narrow that the disc it was drawn about may be outside.
+SWIRL_INLINE bool is_lost_in_rounding(const Skin& skin) {
+    const double distance = magnitude(double(skin.X)) + magnitude(double(skin.Y));
+    return skin.skin_radius < rounding_of_centre * distance;
+}
+
 /// On a turning leg the co-moving frame is renewed this often per turn, as on the paper's polygon.
 inline constexpr double stretches_per_turn = 30.0;
 
