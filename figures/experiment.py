@@ -200,7 +200,7 @@ def film_html(folder, film):
     found, remarks = film.get("found") or {}, film.get("remarks") or []
     pictures = [os.path.join(folder, name) for name in film.get("pictures", [])]
     image = "".join(f'<img alt="the film with the discs that were found" src="{report.inline(p)}">'
-                    for p in pictures if os.path.exists(p)) or ""
+                    for p in pictures if os.path.exists(p))
     items = "".join(f"<li>{html.escape(remark)}</li>" for remark in remarks)
     path = found.get("path", {})
     said = ""

@@ -9,15 +9,12 @@ import style
 def main():
     table = style.table_from_arguments("figure_4c")
     rows = style.read(table)
-    drawing, axes = style.figure()
-    style.zero_line(axes)
-    for setting, label, color, marker in (("low", r"smooth ($\mu = 0.1$)", style.SKY, "D"),
-                                          ("high", r"rough ($\mu = 1$)", style.RED, "o")):
-        style.curve(axes, style.select(rows, setting=setting), "discs", "by_time", color=color,
-                    marker=marker, label=label)
-    style.rotation_axes(axes)
-    style.legend(axes)
-    style.save(drawing, table)
+    curves = [(style.select(rows, setting=setting),
+               {"label": label, "color": color, "marker": marker})
+              for setting, label, color, marker in (
+                  ("low", r"smooth ($\mu = 0.1$)", style.SKY, "D"),
+                  ("high", r"rough ($\mu = 1$)", style.RED, "o"))]
+    style.rotation_figure(table, curves)
 
 
 if __name__ == "__main__":

@@ -12,16 +12,11 @@ MOST = 0.16  # of Ω: what lies above is few spheres, which rotate
 def main():
     table = style.table_from_arguments("figure_spheres")
     rows = style.read(table)
-    drawing, axes = style.figure(width=1.45 * style.COLUMN, height=3.1)
-    style.zero_line(axes)
-    for k, mu in enumerate(sorted({row["mu"] for row in rows})):
-        style.curve(axes, style.select(rows, mu=mu), "discs", "by_time", color=style.CYCLE[k],
-                    marker=style.MARKERS[k], label=rf"$\mu = {mu:g}$")
-    axes.set_ylim(-0.1, MOST)
-    style.rotation_axes(axes)
-    axes.set_xlabel(r"number of spheres $N$")
-    style.legend(axes, ncol=3)
-    style.save(drawing, table)
+    curves = [(style.select(rows, mu=mu),
+               {"label": rf"$\mu = {mu:g}$", "color": style.CYCLE[k], "marker": style.MARKERS[k]})
+              for k, mu in enumerate(sorted({row["mu"] for row in rows}))]
+    style.rotation_figure(table, curves, of="spheres", width=1.45 * style.COLUMN, height=3.1,
+                          limits=(-0.1, MOST), ncol=3)
 
 
 if __name__ == "__main__":

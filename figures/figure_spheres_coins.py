@@ -16,15 +16,9 @@ CURVES = [
 def main():
     table = style.table_from_arguments("figure_spheres_coins")
     rows = style.read(table)
-    drawing, axes = style.figure(height=2.9)
-    style.zero_line(axes)
-    for name, label, color, marker in CURVES:
-        style.curve(axes, [row for row in rows if row["curve"] == name], "discs", "by_time",
-                    label=label, color=color, marker=marker)
-    style.rotation_axes(axes)
-    axes.set_xlabel(r"number of solid discs $N$")
-    style.legend(axes)
-    style.save(drawing, table)
+    curves = [(style.select(rows, curve=name), {"label": label, "color": color, "marker": marker})
+              for name, label, color, marker in CURVES]
+    style.rotation_figure(table, curves, of="solid discs", height=2.9)
 
 
 if __name__ == "__main__":

@@ -6,30 +6,24 @@
 import style
 
 CURVES = [
-    ("0.2", "all ingredients", style.BLACK, "o", "-"),
-    ("no-damping", r"no damping ($e = 1$)", style.SKY, "D", "-"),
-    ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s", "-"),
-    ("no-vertical-wall", "no vertical friction at the wall", style.PINK, "P", "-"),
-    ("no-vertical-disc", "no vertical friction between spheres", style.ORANGE, "^", "-"),
-    ("no-vertical", "no vertical friction at all", style.RED, "v", "-"),
-    ("no-floor", "no floor", style.GREEN, "X", "-"),
+    ("0.2", "all ingredients", style.BLACK, "o"),
+    ("no-damping", r"no damping ($e = 1$)", style.SKY, "D"),
+    ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s"),
+    ("no-vertical-wall", "no vertical friction at the wall", style.PINK, "P"),
+    ("no-vertical-disc", "no vertical friction between spheres", style.ORANGE, "^"),
+    ("no-vertical", "no vertical friction at all", style.RED, "v"),
+    ("no-floor", "no floor", style.GREEN, "X"),
 ]
 
 
 def main():
     table = style.table_from_arguments("figure_spheres_ingredients")
     rows = style.read(table)
-    drawing, axes = style.figure(height=3.2)
-    style.zero_line(axes)
-    for name, label, color, marker, line in CURVES:
-        # A curve named by a number is read back as one.
-        here = [row for row in rows if str(row["curve"]) == name]
-        style.curve(axes, here, "discs", "by_time", label=label, color=color, marker=marker,
-                    linestyle=line)
-    style.rotation_axes(axes)
-    axes.set_xlabel(r"number of spheres $N$")
-    style.legend(axes, ncol=2, fontsize=6.2)
-    style.save(drawing, table)
+    # A curve named by a number is read back as one.
+    curves = [([row for row in rows if str(row["curve"]) == name],
+               {"label": label, "color": color, "marker": marker})
+              for name, label, color, marker in CURVES]
+    style.rotation_figure(table, curves, of="spheres", height=3.2, fontsize=6.2)
 
 
 if __name__ == "__main__":

@@ -11,16 +11,11 @@ COLORS = [style.BLACK, style.RED, style.ORANGE, style.GREEN, style.BLUE, style.P
 def main():
     table = style.table_from_arguments("figure_spheres_restitution")
     rows = style.read(table)
-    drawing, axes = style.figure(height=2.9)
-    style.zero_line(axes)
     restitutions = sorted({row["curve"] for row in rows}, reverse=True)
-    for e, color, marker in zip(restitutions, COLORS, "osD^vP"):
-        style.curve(axes, [row for row in rows if row["curve"] == e], "discs", "by_time",
-                    label=rf"$e = {e:g}$", color=color, marker=marker)
-    style.rotation_axes(axes)
-    axes.set_xlabel(r"number of spheres $N$")
-    style.legend(axes)
-    style.save(drawing, table)
+    curves = [(style.select(rows, curve=e),
+               {"label": rf"$e = {e:g}$", "color": color, "marker": marker})
+              for e, color, marker in zip(restitutions, COLORS, "osD^vP")]
+    style.rotation_figure(table, curves, of="spheres", height=2.9)
 
 
 if __name__ == "__main__":

@@ -345,11 +345,10 @@ LONG = 900
 def figure_html(folder, figure):
     title = rich(title_of(figure))
     picture = picture_of(figure)
-    long = sum(len(finding) for finding in figure["findings"]) > LONG
     kind = ""
     if picture and is_wide(os.path.join(folder, picture)):
         kind = " class=wide"
-    elif long:
+    elif sum(len(finding) for finding in figure["findings"]) > LONG:
         kind = ' class="wide beside"'
     image = (f'<img alt="{html.escape(title_of(figure))}" '
              f'src="{inline(os.path.join(folder, picture))}">' if picture else "")

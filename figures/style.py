@@ -124,13 +124,22 @@ def rotation_curves(name, parameter, symbol):
     parameter."""
     table = table_from_arguments(name)
     rows = read(table)
-    drawing, axes = figure()
+    curves = [(select(rows, **{parameter: value}),
+               {"label": f"${symbol} = {value:g}$", "color": CYCLE[k], "marker": MARKERS[k]})
+              for k, value in enumerate(sorted({row[parameter] for row in rows}))]
+    rotation_figure(table, curves, ncol=3)
+
+
+def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, limits=None, **more):
+    """A whole figure: rotation against the number of `of`; `curves` are rows and how they look."""
+    drawing, axes = figure(width, height)
     zero_line(axes)
-    for k, value in enumerate(sorted({row[parameter] for row in rows})):
-        curve(axes, select(rows, **{parameter: value}), "discs", "by_time", color=CYCLE[k],
-              marker=MARKERS[k], label=f"${symbol} = {value:g}$")
-    rotation_axes(axes)
-    legend(axes, ncol=3)
+    for rows, look in curves:
+        curve(axes, rows, "discs", "by_time", **look)
+    if limits:
+        axes.set_ylim(*limits)
+    rotation_axes(axes, of=of)
+    legend(axes, **more)
     save(drawing, table)
 
 
@@ -140,8 +149,8 @@ def legend(axes, ncol=2, **more):
                 borderaxespad=0.2, **more)
 
 
-def rotation_axes(axes, average="by time"):
-    axes.set_xlabel(r"number of discs $N$")
+def rotation_axes(axes, average="by time", of="discs"):
+    axes.set_xlabel(rf"number of {of} $N$")
     axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
 
 

@@ -62,6 +62,12 @@ class Dish {
     const ClusterRotation& rotation() const { return rotation_; }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
+    /// What no average has seen: nothing is said of it before it has ended.
+    struct LeftOut {
+        std::int64_t periods = 0;
+        std::uint64_t events = 0;
+    };
+    const LeftOut& left_out() const { return left_out_; }
 
     void step() {
         if (!found_) find();
@@ -155,6 +161,7 @@ class Dish {
         if (snapshot_.swirls == event_.swirls) return;
         rotation.close_block();
         if (watched) observation_.close_block();
+        if (snapshot_.swirls == warmup()) left_out_ = {warmup(), simulation_.events().total()};
     }
     bool observes() const { return counts() && !observation_.empty(); }
 
@@ -166,6 +173,7 @@ class Dish {
     PinnedFrames pinned_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed
+    LeftOut left_out_;
     SampleTimes rotation_times_, observation_times_;
     ClusterRotation in_warmup_, rotation_;
     std::vector<std::string> measured_;

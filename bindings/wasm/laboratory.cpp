@@ -294,16 +294,20 @@ EXPORTED(events) double events() {
 }
 EXPORTED(state_hash) std::uint64_t state_hash() { return dish->simulation().state_hash(); }
 
-/// ϖ/Ω so far, by event and by time, without the warm-up; by time swirl for swirl, with it: JSON.
+/// ϖ/Ω so far, by event and by time, without the warm-up; by time block for block, with it, and how
+/// many of the blocks are the warm-up's and how many swirls a block has, there and after it: JSON.
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = dish->rotation().estimates();
     std::string blocks;
     for (const ClusterRotation* part : {&dish->in_warmup(), &dish->rotation()})
         for (const double mean : part->by_time().block_means())
             blocks += (blocks.empty() ? "" : ",") + number(mean);
-    return answer(fmt::format(R"({{"by_event":{},"by_time":{},"warmup":{},"blocks":[{}]}})",
-                              estimate_json(e.by_event), estimate_json(e.by_time), dish->warmup(),
-                              blocks));
+    const BlockSeries &before = dish->in_warmup().by_time(), &after = dish->rotation().by_time();
+    return answer(fmt::format(
+        R"({{"by_event":{},"by_time":{},"warmup":{},"warmup_blocks":{},"swirls_per_block":[{},{}],)"
+        R"("blocks":[{}]}})",
+        estimate_json(e.by_event), estimate_json(e.by_time), dish->warmup(), before.size(),
+        before.periods_per_block(), after.periods_per_block(), blocks));
 }
 
 /// What is measured, as it is now: for the columns to come.
@@ -353,7 +357,7 @@ EXPORTED(result) std::uint32_t result() {
     RunConfig config = dish->config();
     const EventCounts& counts = dish->simulation().events();
     config.events = counts.total();
-    JsonObject given, events, rotation, measured;
+    JsonObject given, events, warmup, rotation, measured;
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, config);
@@ -366,6 +370,8 @@ EXPORTED(result) std::uint32_t result() {
         .add("path_vertex", double(counts.path_vertex))
         .add("elastic_by_tc_model", double(counts.elastic_by_tc));
     if (counts.begins_to_roll > 0) events.add("begins_to_roll", double(counts.begins_to_roll));
+    warmup.add("periods", double(dish->left_out().periods))
+        .add("events", double(dish->left_out().events));
     dish->rotation().estimates().report(
         [&](const ReportRow& row) { rotation.add(row.name, estimate_json(row.estimate)); });
     for (const auto& [name, report] : dish->observation().report())
@@ -376,6 +382,7 @@ EXPORTED(result) std::uint32_t result() {
             .add("complete", "true")
             .add("events", events.text())
             .add("periods", dish->periods())
+            .add("warmup", warmup.text())
             .add("rotation", rotation.text())
             .add("state_hash", quoted(fmt::format("{:016x}", dish->simulation().state_hash())))
             .add("measured", measured.text())

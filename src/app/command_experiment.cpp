@@ -13,6 +13,7 @@
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/track_options.hpp"
 #include "swirl/app/tracked_film.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/paper/experiment.hpp"
@@ -39,8 +40,6 @@ struct ExperimentCall {
     std::optional<std::int64_t> frames;
     bool spin = false, no_simulation = false, quiet = false;
 };
-
-bool is_table(const std::string& film) { return film.ends_with(".csv") || film.ends_with(".h5"); }
 
 std::string name_of_film(const std::string& film) {
     fs::path path = film;
@@ -139,7 +138,8 @@ FilmedDish filmed(const ExperimentCall& call, const std::string& film, bool smoo
     dish.smooth = smooth;
     dish.film = film;
     try {
-        measure(call, is_table(film) ? fs::path(film) : tracks_of(call, film, dish), dish);
+        measure(call, is_named_as_tracks(film) ? fs::path(film) : tracks_of(call, film, dish),
+                dish);
     } catch (const Interrupted&) {
         throw;
     } catch (const std::exception& failure) {  // of a file, a film, a drawing: a hole

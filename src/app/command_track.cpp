@@ -10,6 +10,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/track_options.hpp"
 #include "swirl/app/tracked_film.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
@@ -111,7 +112,7 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
 void track(const TrackCall& call) {
     if (call.out.empty())
         throw WrongCall("There is nowhere for the tracks to go: give --out FILE.csv or FILE.h5.");
-    if (!call.out.ends_with(".csv") && !call.out.ends_with(".h5"))
+    if (!is_named_as_tracks(call.out))
         throw WrongCall(
             fmt::format("--out is '{}', but its name must end with .csv or .h5.", call.out));
     check_film_options(call.fps, call.frames);

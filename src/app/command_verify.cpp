@@ -17,6 +17,7 @@
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/run/version.hpp"
@@ -55,11 +56,13 @@ bool is_of_the_call(const std::string& name) {
 
 /// Runs again to the end, or until `look`, which passes one event after the other, has seen enough.
 template <class Look>
-RunResult run_again(const RunConfig& config, bool quiet, const Look& look) {
+RunResult run_again(const RunConfig& config, bool quiet, const Look& look,
+                    Observation* observation = nullptr) {
     ProgressLine line("again", quiet);
     RunControl control;
     control.stop = &stop_signal();
     control.orientations = true;
+    control.observation = observation;
     control.progress = [&](const RunProgress& p) {
         line.show(p.fraction, fmt::format("{} events", p.events));
     };
@@ -71,6 +74,15 @@ RunResult run_again(const RunConfig& config, bool quiet, const Look& look) {
     return run.result();
 }
 
+/// What was measured beside the rotation.
+std::vector<std::string> measurements_in(const std::string& file, const Json& result) {
+    std::vector<std::string> names;
+    const Json measured = result.value("measured", Json::object());
+    for (const auto& [name, values] : measured.items()) names.push_back(name);
+    if (measured.is_object()) return names;
+    throw Failure(fmt::format("'{}' does not say what was measured.", file));
+}
+
 void verify_result(const std::string& file, bool quiet) {
     const Json json = Json::parse(read_regular_file(file), nullptr, false);
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
@@ -79,10 +91,15 @@ void verify_result(const std::string& file, bool quiet) {
         throw Failure(fmt::format(
             "'{}' is of a run that was stopped before its end, and cannot be compared.", file));
     const RunConfig config = config_in(file, json["config"].dump());
-    const Json result = result_json(run_again(config, quiet, [](Run& run) {
-        run.pass_event();
-        return true;
-    }));
+    Observation observation = observation_of(config, measurements_in(file, json));
+    Json result = result_json(run_again(
+        config, quiet,
+        [](Run& run) {
+            run.pass_event();
+            return true;
+        },
+        &observation));
+    if (json.contains("measured")) result["measured"] = measured_json(observation.report());
     for (const auto& [part, now] : result.items())
         if (!is_of_the_call(part) && json.value(part, Json()) != Json::parse(now.dump()))
             throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,

@@ -13,19 +13,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Null where nothing was smoothed.
-Json smoothing_json(const TrackSmoothing& s, const TrackScale& scale) {
+Json smoothing_json(const TrackSmoothing& s) {
     if (!s.done) return nullptr;
-    const double unit = scale.pixels_per_radius * scale.camera_time();
     return {{"noise_pixels", s.noise},
             {"window_pictures", s.window},
             {"bend_pixels", s.bend},
             {"place_error_pixels", s.place_error},
-            {"velocity_error", s.velocity_error / unit},
+            {"velocity_error", s.velocity_error()},
             {"kicks_per_picture", s.kicks},
             {"added_to_temperature", s.missing_energy}};
 }
 
-Json camera_json(const Tracks& tracks, const TrackScale& scale, const FittedSeries& fitted) {
+Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
     return {{"filled_positions", tracks.mended.filled},
             {"renamed", tracks.mended.renamed},
             {"dropped_positions", tracks.mended.dropped},
@@ -34,7 +33,7 @@ Json camera_json(const Tracks& tracks, const TrackScale& scale, const FittedSeri
             {"frames_overlapping", fitted.fit.overlapping},
             {"wall_gap", fitted.fit.wall_gap},
             {"fitting_phase", fitted.fit.fitting_phase},
-            {"smoothing", smoothing_json(fitted.smoothing, scale)}};
+            {"smoothing", smoothing_json(fitted.smoothing)}};
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, doub
         throw Failure(fmt::format(
             "'{}' holds a single frame, which tells no velocities; two are the least.", file));
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
-    const Json found = camera_json(tracks, scale, fitted);
+    const Json found = camera_json(tracks, fitted);
     return {std::move(fitted.series), std::move(fitted.remarks), found};
 }
 

@@ -20,6 +20,10 @@ namespace swirl {
 namespace {
 
 std::string first_bytes(const std::string& file) {
+    // A pipe that nobody writes to would keep us waiting, and is read more than once.
+    std::error_code unknown;
+    if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown))
+        throw Failure(fmt::format("'{}' is not a regular file, but it must be one.", file));
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
     std::string bytes(8, '\0');
@@ -95,6 +99,10 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
          "of the container at frame 0, as the camera saw it, counter-clockwise from the right [0]");
     subcommand.add_flag("--clockwise", texts.clockwise, "the swirl ran clockwise in the picture")
         ->group(group);
+}
+
+bool is_named_as_tracks(const std::string& file) {
+    return file.ends_with(".csv") || file.ends_with(".h5");
 }
 
 bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_recording(file); }

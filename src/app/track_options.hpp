@@ -23,6 +23,8 @@ double number_option(const std::string& name, const std::string& text, double ot
 /// --amplitude and --container-radius are left to the caller, who may have them already.
 void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group);
 
+/// FILE.csv or FILE.h5; whether it is there or not.
+bool is_named_as_tracks(const std::string& file);
 /// Whether the file is one of ours (HDF5) and no tracks. Throws Failure if it cannot be read.
 bool is_trajectory(const std::string& file);
 /// Tracks of ours (HDF5), a table of trackpy or a LAMMPS dump, by what it begins with, mended

@@ -511,9 +511,11 @@ std::string Hdf5File::read_text(const std::string& name) const {
     const Handle set(H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT), H5Dclose);
     state_->check(set, "opening " + name);
     const Handle type(H5Dget_type(set), H5Tclose);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    const Handle space(H5Dget_space(set), H5Sclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Sget_simple_extent_npoints(space) != 1)
         throw FileError(
-            fmt::format("{} in '{}' is not a text of fixed length.", name, state_->path));
+            fmt::format("{} in '{}' is not one text of fixed length.", name, state_->path));
     std::string text(H5Tget_size(type), '\0');
     state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
                   "reading " + name);

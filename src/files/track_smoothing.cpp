@@ -291,7 +291,6 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
     found.noise = std::sqrt(measured);
     found.bend = turn * std::sqrt(coordinate);
     found.place_error = std::sqrt(place_square / places);
-    found.velocity_error = rate * std::sqrt(velocity_square / places);
     found.window = noise / (place_square / places);
     found.kicks = kicks.share;
     found.missing_energy = unit * unit * velocity_square / places;

@@ -30,6 +30,8 @@
 // hundred.
 #pragma once
 
+#include <cmath>
+
 #include "swirl/files/tracks.hpp"
 
 namespace swirl {
@@ -38,13 +40,16 @@ inline constexpr double fewest_pictures = 100.0;
 
 struct TrackSmoothing {
     bool done = false;
-    // Of a coordinate, over all discs and pictures; pixels, pixels per unit of time.
-    double noise = 0.0, place_error = 0.0, velocity_error = 0.0;
+    // Of a coordinate, over all discs and pictures; pixels.
+    double noise = 0.0, place_error = 0.0;
     /// By which courses bend between two pictures, pixels: a noise below that is taken to be that.
     double bend = 0.0;
     double window = 1.0;          // pictures whose mean would be as good as a smoothed place
     double kicks = 0.0;           // per disc and picture, those that could be told
     double missing_energy = 0.0;  // ½⟨u²⟩ is so much more than that of the velocities, in our units
+
+    /// Of a coordinate, in the container's speed.
+    double velocity_error() const { return std::sqrt(missing_energy); }
 };
 
 /// Puts smoothed places and velocities with errors into the tracks.

@@ -148,16 +148,16 @@ struct Work {
     std::vector<const PaperTask*> left;         // the most costly first
     std::map<std::string, std::string> served;  // by another task
 
-    /// `failures`: what has failed in this call would fail again.
+    /// `before`: the results of this call so far, failures among them, which would fail again.
     Work(const std::vector<FigurePlan>& plans, const PaperParts& parts,
-         const std::map<std::string, Json>& failures) {
+         std::map<std::string, Json> before)
+        : results(std::move(before)) {
         for (const FigurePlan& plan : plans)
             for (const PaperPoint& point : plan.points)
                 for (const PaperTask& task : point.runs) tasks.emplace(task.key, task);
         for (const auto& [key, task] : tasks) {
-            if (const auto failure = failures.find(key); failure != failures.end())
-                results[key] = failure->second;
-            else if (auto known = parts.recall(key))
+            if (results.contains(key)) continue;
+            if (auto known = parts.recall(key))
                 results[key] = std::move(*known);
             else if (!task.served_by.empty() && tasks.contains(task.served_by))
                 served[key] = task.served_by;
@@ -342,11 +342,11 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     PaperSettings settings = given;
     std::vector<FigurePlan> plans;
     PaperResult all;
-    std::map<std::string, Json> failures;
+    std::map<std::string, Json> results;
     for (bool first = true;; first = false) {
         plans.clear();
         for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
-        Work work(plans, parts, failures);
+        Work work(plans, parts, std::move(results));
         all.tasks = work.tasks.size();
         if (first) {
             all.remembered = work.results.size();
@@ -354,12 +354,10 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
                 all.task_seconds += part["seconds"].get<double>();
         }
         work_on_all(work, settings, control, parts, all);
-        for (const PaperTask* task : work.left)
-            if (const Json& part = work.results.at(task->key); failed(part["result"]))
-                failures.emplace(task->key, part);
         all.figures.clear();
         for (std::size_t f = 0; f < plans.size(); ++f)
             all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
+        results = std::move(work.results);
         if (!decide || !ask_for_more_seeds(settings, plans, all)) break;
     }
     // The drawings are independent too, and take a second each.

@@ -76,6 +76,37 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
         c.discs, R, most, advice_on_room);
 }
 
+/// What only a floor does.
+std::optional<std::string> not_without_floor(const RunConfig& c) {
+    if (c.floor) return {};
+    const RunConfig usual;
+    const auto answer = [](const char* name, double value) {
+        return fmt::format("{} is {}, but there is no floor; --floor sliding would be right.", name,
+                           value);
+    };
+    if (c.floor_friction != usual.floor_friction)
+        return answer("--floor-friction", c.floor_friction);
+    if (c.gravity != usual.gravity) return answer("--gravity", c.gravity);
+    return {};
+}
+
+/// A contact that would happen within the contact duration is put off by letting the bodies part
+/// with half of what the floor's friction takes from them in that time (docs/spheres.md). That must
+/// stay small beside the speed of the container: 0.3 of it changes ϖ by less than one standard
+/// error, 3 of it takes the counterrotation away.
+std::optional<std::string> floor_too_rough(const RunConfig& c) {
+    constexpr double bearable = 0.5;
+    const double speed = 2.0 * pi * c.amplitude / c.period;
+    const double parting = 0.5 * c.floor_friction * c.gravity * c.contact_duration;
+    if (!c.floor || c.amplitude == 0.0 || parting <= bearable * speed) return {};
+    return fmt::format(
+        "--floor-friction {} times --gravity {} is too much for --contact-duration {}: within it "
+        "the floor changes velocities by {:.2g} of the container's speed. A product below {:.3g} "
+        "would be right.",
+        c.floor_friction, c.gravity, c.contact_duration, 2.0 * parting / speed,
+        2.0 * bearable * speed / c.contact_duration);
+}
+
 /// What is of spheres alone, and what nobody on a floor can do.
 std::optional<std::string> not_for_this_body(const RunConfig& c) {
     if (c.body == Shape::disc) {
@@ -121,6 +152,8 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto answer = out_of_proportion(config)) return answer;
     if (auto answer = does_not_fit(config)) return answer;
     if (auto answer = not_for_this_body(config)) return answer;
+    if (auto answer = not_without_floor(config)) return answer;
+    if (auto answer = floor_too_rough(config)) return answer;
     return warmup_too_long(config);
 }
 

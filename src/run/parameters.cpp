@@ -208,8 +208,7 @@ ParameterValue write_floor(const RunConfig& config) {
 }
 /// Said where there is a floor, or somebody asks for another.
 ParameterValue write_floor_friction(const RunConfig& config) {
-    const bool other = config.floor_friction != experiment_floor_friction;
-    return config.floor || other ? ParameterValue(config.floor_friction) : ParameterValue();
+    return config.floor ? ParameterValue(config.floor_friction) : ParameterValue();
 }
 ParameterValue write_vertical_disc(const RunConfig& config) {
     return config.vertical_disc == 1.0 ? ParameterValue() : ParameterValue(config.vertical_disc);
@@ -218,8 +217,7 @@ ParameterValue write_vertical_wall(const RunConfig& config) {
     return config.vertical_wall == 1.0 ? ParameterValue() : ParameterValue(config.vertical_wall);
 }
 ParameterValue write_gravity(const RunConfig& config) {
-    const bool other = config.gravity != experiment_gravity;
-    return config.floor || other ? ParameterValue(config.gravity) : ParameterValue();
+    return config.floor ? ParameterValue(config.gravity) : ParameterValue();
 }
 
 /// Names are multiples of m r²; a number is the moment of inertia itself. Not given: the paper's,

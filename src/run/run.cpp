@@ -23,7 +23,7 @@ int events_between_looks(std::size_t discs) {
 }
 constexpr std::chrono::milliseconds progress_interval(100);
 
-constexpr std::uint64_t least_collapse_window = 2000;
+constexpr std::uint64_t least_collapse_window = 500;
 
 struct Budget {
     double energy = 0.0, invariant = 0.0;
@@ -96,8 +96,8 @@ Run::Run(const RunConfig& config, RunControl control)
       rotation_times_(sample_times(rotation_samples)),
       observation_times_(sample_times(samples_per_period)),
       events_to_look_up_(events_between_looks(simulation_.size())),
-      events_at_mark_(simulation_.events().total()),
-      periods_at_mark_(periods()),
+      mark_(now()),
+      lately_{mark_, mark_},
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0) {
     if (control_.orientations && snapshot_.are_spheres())
@@ -166,6 +166,7 @@ double Run::seconds() const {
 double Run::periods() const {
     return static_cast<double>(simulation_.swirls()) + simulation_.clock() / config_.period;
 }
+Run::Mark Run::now() const { return {simulation_.events().total(), periods()}; }
 double Run::fraction() const {
     if (config_.periods) return periods() / static_cast<double>(*config_.periods);
     return static_cast<double>(simulation_.events().total()) / static_cast<double>(config_.events);
@@ -176,7 +177,7 @@ double Run::fraction() const {
 bool Run::next_event() {
     if (complete()) {
         refuse_overlaps();
-        refuse_collapse(least_collapse_window);
+        refuse_collapse_lately();
         return false;
     }
     if (events_to_look_up_-- == 0 && !look_up()) return false;
@@ -206,11 +207,18 @@ bool Run::look_up() {
     events_to_look_up_ = events_between_looks(simulation_.size()) - 1;
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
     refuse_overlaps();
-    refuse_collapse(stopped ? least_collapse_window : collapse_window());
-    if (stopped) return false;
-    const auto now = Clock::now();
-    if (!control_.progress || now - last_report_ < progress_interval) return true;
-    last_report_ = now;
+    if (stopped) {
+        refuse_collapse_lately();
+        return false;
+    }
+    if (now().events - mark_.events >= collapse_window()) {
+        refuse_collapse_since(mark_);
+        mark_ = now();
+    }
+    if (now().events - lately_[1].events >= least_collapse_window) lately_ = {lately_[1], now()};
+    const auto time = Clock::now();
+    if (!control_.progress || time - last_report_ < progress_interval) return true;
+    last_report_ = time;
     control_.progress({fraction(), simulation_.events().total(), periods()});
     return true;
 }
@@ -231,21 +239,24 @@ void Run::refuse_overlaps() const {
 
 /// Collapse: infinitely many collisions in a finite time, by restitution or, with e = 1, by
 /// friction alone (docs/physics.md). A disc of the paper's dish has about 70 events per swirl,
-/// one that obeys a contact duration at most T/t_c. Asked whenever so many events have passed,
-/// and of what is left at the end.
-void Run::refuse_collapse(std::uint64_t window) {
+/// one that obeys a contact duration at most T/t_c.
+void Run::refuse_collapse_since(const Mark& mark) const {
     constexpr double too_fast = 1e8;  // events per disc and swirl
-    const std::uint64_t events = simulation_.events().total() - events_at_mark_;
-    if (events < window) return;
-    const double swirls = periods() - periods_at_mark_;
+    const std::uint64_t events = now().events - mark.events;
+    const double swirls = now().periods - mark.periods;
     const double discs = static_cast<double>(simulation_.size());
-    if (static_cast<double>(events) > too_fast * discs * swirls)
-        throw Failure(fmt::format(
-            "The last {} events took {:.2g} swirls, so time all but stands still after {:.3f} "
-            "swirls: {}",
-            events, swirls, periods(), reason_for_collapse()));
-    events_at_mark_ += events;
-    periods_at_mark_ += swirls;
+    if (static_cast<double>(events) <= too_fast * discs * swirls) return;
+    throw Failure(
+        fmt::format("The last {} events took {:.2g} swirls, so time all but stands still after "
+                    "{:.3f} swirls: {}",
+                    events, swirls, periods(), reason_for_collapse()));
+}
+
+/// At the end, or when it is stopped: of the last few hundred events alone, for what was before
+/// may have been as it should.
+void Run::refuse_collapse_lately() const {
+    for (const Mark& mark : {lately_[1], lately_[0]})
+        if (now().events - mark.events >= least_collapse_window) return refuse_collapse_since(mark);
 }
 
 /// Some two hundred events for each disc: the two that collapse may be among thousands.

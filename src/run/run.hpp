@@ -2,6 +2,7 @@
 // a crossing) is made of runs.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -141,9 +142,16 @@ class Run {
     double periods() const;
     double fraction() const;
     bool observes() const { return warm_ && control_.observation; }
+    /// How far the run was at some time.
+    struct Mark {
+        std::uint64_t events;
+        double periods;
+    };
+    Mark now() const;
     bool look_up();
     void refuse_overlaps() const;
-    void refuse_collapse(std::uint64_t window);
+    void refuse_collapse_since(const Mark& mark) const;
+    void refuse_collapse_lately() const;
     std::uint64_t collapse_window() const;
     std::string reason_for_collapse() const;
     void sample_rotation_by_event();
@@ -162,9 +170,9 @@ class Run {
     Snapshot snapshot_, dated_;
     Event event_;
     SampleTimes rotation_times_, observation_times_;
-    int events_to_look_up_;  // until stop, progress and collapse are thought of again
-    std::uint64_t events_at_mark_ = 0;
-    double periods_at_mark_ = 0.0;
+    int events_to_look_up_;        // until stop, progress and collapse are thought of again
+    Mark mark_;                    // the last time that a collapse was looked for
+    std::array<Mark, 2> lately_;   // some hundreds of events ago, and fewer
     double seconds_before_ = 0.0;  // by the runs that this one resumes
     Clock::time_point begin_ = Clock::now(), last_report_ = begin_;
     /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.

@@ -73,9 +73,8 @@ std::string fit_text(const TrackFit& fit) {
 }
 
 /// How far places and velocities can be believed, in a line.
-std::string smoothing_text(const TrackSmoothing& s, const TrackScale& scale) {
+std::string smoothing_text(const TrackSmoothing& s) {
     if (!s.done) return "";
-    const double unit = scale.pixels_per_radius * scale.camera_time();
     const std::string smoothed =
         s.bend > s.noise
             ? fmt::format(
@@ -87,7 +86,7 @@ std::string smoothing_text(const TrackSmoothing& s, const TrackScale& scale) {
     return fmt::format(
         "Places have a noise of {:.2g} pixels, {}; velocities are good to {:.2g} of the "
         "container's, between collisions.\n",
-        s.noise, smoothed, s.velocity_error / unit);
+        s.noise, smoothed, s.velocity_error());
 }
 
 /// Throws Failure where more than this share of the frames contradicts what was said.
@@ -190,8 +189,7 @@ FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double
     fitted.fit = fit_of(series_of(tracks, scale), scale);
     refuse_misfit(fitted.fit, scale, misfit);
     fitted.series = smoothed_series(tracks, scale, fitted.smoothing);
-    fitted.remarks =
-        mended_text(tracks) + smoothing_text(fitted.smoothing, scale) + fit_text(fitted.fit);
+    fitted.remarks = mended_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);
     if (!fitted.series.same_discs())
         fitted.remarks += fmt::format(
             "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",

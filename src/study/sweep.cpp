@@ -449,14 +449,42 @@ double product(const SweepPlan& plan) {
     return count;
 }
 
+/// What a run with these parameters is. Without restitution and floor nobody asks for the contact
+/// duration.
+std::uint64_t run_of(const ParameterTexts& texts) {
+    RunConfig config = resolve(texts);
+    if (config.restitution == 1.0 && !config.floor)
+        config.contact_duration = RunConfig{}.contact_duration;
+    return checksum(config_text(config));
+}
+
+/// Whether two values of an axis make a difference where another axis has one of its other values.
+bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::string& one,
+                      const std::string& two) {
+    for (const SweepAxis& other : plan.axes) {
+        if (other.name == axis.name) continue;
+        for (const std::string& value : other.values) {
+            ParameterTexts a = plan.parameters(0), b = a;
+            a[other.name] = b[other.name] = value;
+            a[axis.name] = one;
+            b[axis.name] = two;
+            try {
+                if (run_of(a) != run_of(b)) return true;
+            } catch (const WrongCall&) {  // shows when its turn comes
+            }
+        }
+    }
+    return false;
+}
+
 /// Every value of an axis must make another run; a run that is wanted again is a replica.
 void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
     ParameterTexts texts = plan.parameters(0);
     std::map<std::uint64_t, std::string> seen;
     for (const std::string& value : axis.values) {
         texts[axis.name] = value;
-        const auto [before, is_new] = seen.emplace(checksum(config_text(resolve(texts))), value);
-        if (!is_new)
+        const auto [before, is_new] = seen.emplace(run_of(texts), value);
+        if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
             throw WrongCall(fmt::format(
                 "{0} {1} and {0} {2} are the same run here; leave one of them away, or the "
                 "parameter that takes its place (for several runs of each there is --seeds).",

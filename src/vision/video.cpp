@@ -19,7 +19,7 @@ namespace swirl {
 
 namespace {
 
-bool is_device(const std::string& film) { return film.starts_with("/dev/"); }
+bool is_device(const std::string& film) { return film.starts_with("/dev/video"); }
 bool is_numbered(const std::string& film) { return film.find('%') != film.npos; }
 
 /// The least number for which there is a picture.
@@ -61,6 +61,10 @@ std::vector<std::string> input_of(const std::string& film) {
         add({"-f", "image2", "-start_number", std::to_string(first_number(film))});
     } else if (!std::filesystem::exists(film)) {
         throw Failure(fmt::format("There is no film '{}'.", film));
+    } else if (!std::filesystem::is_regular_file(film)) {
+        throw Failure(fmt::format(
+            "'{}' is not a regular file, but a film must be one: it is read more than once.",
+            film));
     }
     add({"-i", "file:" + film, "-map", "0:v:0"});
     return arguments;

@@ -1,6 +1,7 @@
 """The laboratory in the browser: the engine for WebAssembly gives the bits of the command line, and the
 page does what it says, in a real browser."""
 
+import gzip
 import json
 import math
 import os
@@ -103,10 +104,33 @@ class Laboratory(unittest.TestCase):
                                         "--quiet").stdout)
                 self.assertEqual(there["hash"], here["state_hash"])
                 result = there["result"]
-                self.assertEqual(set(result), {"config", "complete", "events", "periods", "rotation",
-                                               "state_hash", "measured"})
+                self.assertEqual(set(result), {"config", "complete", "events", "periods", "warmup",
+                                               "rotation", "state_hash", "measured"})
                 for key, value in result.items():
                     self.assertEqual(value, here[key], key)
+
+    def test_averages_without_a_warmup_given_are_those_of_the_command_that_it_shows(self):
+        for scene in ({"discs": 12, "seed": 2}, {"discs": 5, "path": "circle", "warmup": "auto"}):
+            with self.subTest(scene):
+                given = {key: str(value) for key, value in scene.items()}
+                there = self.engine([{"given": given, "events": 60000}])["said"][0]["result"]
+                here = json.loads(swirl("run", *options({**scene, "warmup": 20}), "--events", "60000",
+                                        "--json", "-", "--quiet").stdout)
+                self.assertEqual(there["warmup"]["periods"], 20)
+                for key in ("state_hash", "periods", "warmup", "rotation"):
+                    self.assertEqual(there[key], here[key], key)
+
+    def test_a_long_run_says_how_many_swirls_its_blocks_have(self):
+        period = 11.866071
+        for warmup, swirls, blocks in (("0", 2040, [0, [1, 1], 2040]), ("0", 2060, [0, [1, 2], 1030]),
+                                       ("2050", 2070, [1025, [2, 1], 1045])):
+            with self.subTest(warmup=warmup, swirls=swirls):
+                given = {"discs": "1", "measure": "", "warmup": warmup}
+                steps = [["advance_to", (swirls + 0.5) * period, 10 ** 9]]
+                said = self.engine([{"given": given, "events": 0, "steps": steps}])["said"][0]
+                rotation = said["rotation"]
+                self.assertEqual([rotation["warmup_blocks"], rotation["swirls_per_block"],
+                                  len(rotation["blocks"])], blocks)
 
     def test_the_event_to_come_is_the_one_that_comes_and_changes_nothing(self):
         given = {"discs": "28", "seed": "2"}
@@ -252,6 +276,11 @@ class Laboratory(unittest.TestCase):
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_it_loads_at_once(self):
+        with open(self.page, "rb") as opened:
+            packed = gzip.compress(opened.read(), 9)
+        self.assertLessEqual(len(packed), 400_000)
 
     def test_one_file_asks_nothing_of_anybody(self):
         with open(self.page, encoding="utf-8") as opened:

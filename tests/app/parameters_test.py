@@ -23,6 +23,7 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
 # Only in results of spheres, and what needs them.
 OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "vertical_disc", "vertical_wall"}
 WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
+WITH |= {name: ["--floor", "sliding"] for name in ("floor_friction", "gravity")}
 
 
 def rows():

@@ -109,6 +109,47 @@ f['particles/trajectory/velocity/value'][1000, 3, 1] *= 1 + 2**-52
             self.assertEqual(done.returncode, 1)
             self.assertIn("differs from " + where, done.stderr)
 
+    def test_verify_measures_again_and_names_what_differs(self):
+        made = swirl("run", "--discs", 8, "--events", 5000, "--measure", "slip,profile", "--json",
+                     self.path("m.json"), "--quiet")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(swirl("verify", self.path("m.json")).returncode, 0)
+        with open(self.path("m.json")) as opened:
+            result = json.load(opened)
+        result["measured"]["slip"]["cluster"]["mean"] += 1
+        with open(self.path("m.json"), "w") as opened:
+            json.dump(result, opened)
+        done = swirl("verify", self.path("m.json"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("differs: measured is", done.stderr)
+
+    def test_a_text_that_is_an_array_of_texts_is_refused(self):
+        self.assertEqual(swirl("run", "--discs", 5, "--events", 1000, "--trajectory",
+                               self.path("t.h5"), "--quiet").returncode, 0)
+        changed = subprocess.run(["/usr/bin/python3", "-c", """
+import h5py, sys
+f = h5py.File(sys.argv[1], 'r+')
+text = f['parameters/parameters'][()]
+dtype = f['parameters/parameters'].dtype
+del f['parameters/parameters']
+f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
+""", self.path("t.h5")], capture_output=True, text=True)
+        if "No module named 'h5py'" in changed.stderr:
+            self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
+        self.assertEqual(changed.returncode, 0, changed.stderr)
+        done = swirl("verify", self.path("t.h5"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("is not one text", done.stderr)
+
+    def test_a_pipe_that_nobody_writes_to_is_refused_and_not_waited_for(self):
+        os.mkfifo(self.path("pipe"))
+        for call in (["measure"], ["movie", "--out", self.path("m.mp4")],
+                     ["picture", "--out", self.path("p.png")], ["verify"], ["export", "--to", "xyz"],
+                     ["track", "--out", self.path("t.csv")]):
+            done = swirl(call[0], self.path("pipe"), *call[1:], timeout=10)
+            self.assertIn(done.returncode, (1, 2), call)
+            self.assertIn("regular file", done.stderr)
+
     def stopped_at_its_first_checkpoint(self, arguments, folder, how):
         """Starts a run and sends it a signal once there is a checkpoint; code, what it said."""
         process = subprocess.Popen([SWIRL, *arguments], stdout=subprocess.DEVNULL,

@@ -1,4 +1,5 @@
-// Hard discs do not overlap: over 10⁷ events, at each collision and in looks at everybody.
+// Hard discs and spheres do not overlap: over 10⁷ events, at each collision and in looks at
+// everybody.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,6 +47,15 @@ TEST(Overlap, NoneInTwoMillionEventsOfTheHalfFullDish) {
 TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_dish(), 1000000); }
 TEST(Overlap, NoneInAMillionEventsAfterTheEnergyHasGrown) {
     expect_no_overlap(paper_dish(40, 0.0, 0.0), 1000000);
+}
+TEST(Overlap, NoneInAMillionEventsOfSpheresThatRoll) {
+    expect_no_overlap(sphere_dish(48), 1000000);
+}
+TEST(Overlap, SlowNoneInTenMillionEventsOfSpheresAndCoins) {
+    for (const std::size_t n : {5u, 28u, 48u}) expect_no_overlap(sphere_dish(n), 10'000'000);
+    expect_no_overlap(sphere_dish(48, 0.0), 10'000'000);
+    expect_no_overlap(sphere_mixture(), 10'000'000);
+    expect_no_overlap(coin_dish(48), 10'000'000);
 }
 TEST(Overlap, NoneOnTheTrueCircle) {
     InitialState scene = paper_dish(28);

@@ -8,24 +8,6 @@
 namespace swirl {
 namespace {
 
-InitialState sphere_dish(std::size_t n, double deceleration = 1.92, double mu = 0.2,
-                         double restitution = 0.9) {
-    InitialState scene =
-        state_of({unit_disc(solid_sphere_inertia(1.0, 1.0))}, n, paper_container_radius,
-                 polygon_path(paper_amplitude, paper_period, paper_sides), mu, mu);
-    scene.disc_surface = scene.wall_surface = {mu, restitution, 0.0, 1e-3};
-    scene.shape = Shape::sphere;
-    scene.floor.deceleration = deceleration;
-    return scene;
-}
-/// The same of discs that lie flat on the floor.
-InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
-    InitialState scene = sphere_dish(n, deceleration);
-    for (Disc& d : scene.discs) d.inertia = solid_inertia(d.mass, d.radius);
-    scene.shape = Shape::coin;
-    scene.floor.bodies_lie_flat = true;
-    return scene;
-}
 /// More than are looked at in pairs, as dense as the paper's 48, or thin.
 InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     const double R = std::sqrt(static_cast<double>(n) / packing),
@@ -38,22 +20,6 @@ InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     scene.floor.deceleration = deceleration;
     return scene;
 }
-/// Three kinds of sphere, solid and hollow.
-InitialState sphere_mixture() {
-    InitialState scene = mixture_dish(30);
-    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-        Disc& d = scene.discs[i];
-        d.inertia =
-            i % 2 ? shell_inertia(d.mass, d.radius) : solid_sphere_inertia(d.mass, d.radius);
-        d.rolling_spin = {0.1 * d.velocity.y, 0.3};
-    }
-    scene.disc_surface = {0.3, 0.8, 0.3, 2e-3};
-    scene.wall_surface = {0.2, 0.7, 0.1, 2e-3};
-    scene.shape = Shape::sphere;
-    scene.floor.deceleration = 0.8;
-    return scene;
-}
-
 class SpheresInEveryWidth : public OfEveryWidth {};
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBit) {
     for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})

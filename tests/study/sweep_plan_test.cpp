@@ -56,6 +56,10 @@ TEST(SweepPlan, AnAxisWithoutEffectIsRefused) {
                 testing::HasSubstr("--mu 0.1 and --mu 0.5 are the same run"));
     EXPECT_THAT(refusal({{"discs", "5,6,5"}}), testing::HasSubstr("--seeds"));
     EXPECT_EQ(refusal({{"mu", "0.1,0.5"}, {"mu_disc", "1"}}), "");
+    // Without restitution and floor nobody asks for the contact duration.
+    EXPECT_THAT(refusal({{"contact_duration", "0.001,0.01"}}), testing::HasSubstr("the same run"));
+    EXPECT_EQ(refusal({{"contact_duration", "0.001,0.01"}, {"restitution", "1,0.9"}}), "");
+    EXPECT_EQ(refusal({{"contact_duration", "0.001,0.01"}, {"floor", "sliding"}}), "");
 }
 
 class PlanFile : public testing::Test {

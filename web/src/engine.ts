@@ -25,8 +25,12 @@ export interface Estimate {
 export interface Rotation {
     by_event: Estimate;
     by_time: Estimate;
-    warmup: number;
+    warmup: number; // swirls
+    /** Those of the warm-up first. */
     blocks: (number | null)[];
+    warmup_blocks: number;
+    /** In the warm-up and after it. */
+    swirls_per_block: [number, number];
 }
 
 interface Exports {

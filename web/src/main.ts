@@ -10,6 +10,7 @@ import {Beside} from "./beside";
 import {MapsPanel} from "./maps";
 import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
 import {Recording} from "./recording";
+import {meansOf, swirlsOf, tableOf} from "./series";
 import {discAt, discOf, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
 import {lesson, presets, texts} from "./texts";
@@ -29,7 +30,8 @@ let rows: Parameter[] = [];
 let given: Record<string, string> = {};
 let configuration: Record<string, string> = {};
 let runTo = 0; // events, from the address
-let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+const lessMotion = matchMedia("(prefers-reduced-motion: reduce)");
+let playing = !lessMotion.matches;
 let view: "lab" | "m" | "both" = "lab";
 let coloring: Coloring = "spin";
 let trails = false;
@@ -65,6 +67,7 @@ function layOutViews(): void {
         canvases[each] = canvas;
         if (each === "lab") {
             takePointer(canvas);
+            takeTouch(canvas);
             takeKeys(canvas);
         }
         return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
@@ -93,6 +96,17 @@ function takePointer(canvas: HTMLCanvasElement): void {
     });
     for (const end of ["pointerup", "pointercancel"] as const)
         canvas.addEventListener(end, () => { dragged = undefined; });
+}
+
+/** A finger that moves up or down scrolls the page, and takes the disc from the pointer, unless the
+ *  first touch says that it is for the disc. */
+function takeTouch(canvas: HTMLCanvasElement): void {
+    canvas.addEventListener("touchstart", (event) => {
+        const finger = event.touches[0];
+        if (!last || byHand || !finger || event.touches.length > 1) return;
+        const at = pointedAt(canvas, last.frame, room(), finger.clientX, finger.clientY);
+        if (discAt(last.frame, ...at) !== undefined) event.preventDefault();
+    }, {passive: false});
 }
 
 /** Unless the last one is still under way. */
@@ -148,9 +162,8 @@ function hold(disc: number | undefined): void {
 function startAnew(): void {
     hasHistory = true;
     history = [];
-    blocks = [];
+    forgetAverages();
     turned = 0;
-    plot.setData([[], [], []]);
 }
 
 /** How far from S the container may come; by hand, twice as far as it is swirled. */
@@ -193,7 +206,21 @@ function sentence(rotation: Rotation): string {
     return mean > 0 ? texts.rotates(discs) : texts.counterrotates(discs);
 }
 
-let blocks: (number | null)[] = []; // of every swirl, those of the warm-up first
+let averages: Rotation | undefined; // as they were shown last
+const blocksShown = (): number => averages?.blocks.length ?? 0;
+
+function forgetAverages(): void {
+    averages = undefined;
+    plot.setData([[], [], []]);
+}
+
+/** What a reader must know before believing the averages. */
+function caution(): string {
+    const {mu_disc, mu_wall, amplitude, restitution, path} = configuration;
+    const keepsGrowing = Number(mu_disc) === 0 && Number(mu_wall) === 0 && Number(amplitude) > 0 &&
+        Number(restitution) === 1 && path !== "circle";
+    return keepsGrowing && !byHand ? texts.grows : "";
+}
 
 function showRotation(rotation: Rotation): void {
     const time = last?.frame[0] ?? 0;
@@ -207,23 +234,29 @@ function showRotation(rotation: Rotation): void {
     const early = rotation.by_time.blocks === 0 && !byHand ? texts.warmup(rotation.warmup) : "";
     byId("numbers").replaceChildren(element("dl", {id: "estimates"}, ...pairs.flatMap(
         ([name, value]) => [element("dt", {textContent: name}), element("dd", {textContent: value})])),
-        element("p", {textContent: early}));
+        element("p", {textContent: early}), element("p", {id: "caution", textContent: caution()}));
     const headline = sentence(rotation);
     if (byId("headline").textContent !== headline) byId("headline").textContent = headline;
-    if (rotation.blocks.length === blocks.length) return;
-    blocks = rotation.blocks;
-    const warm = Math.min(rotation.warmup, blocks.length);
-    let sum = 0;
-    const means = blocks.map(
-        (block, k) => k < warm ? null : (sum += block ?? 0) / (k - warm + 1));
-    if (byId("plot").hidden !== blocks.length < 2) resize();
-    plot.setData([blocks.map((_, k) => k + 1), blocks, means]);
+    const before = blocksShown();
+    averages = rotation;
+    if (blocksShown() === before) return;
+    if (byId("plot").hidden !== blocksShown() < 2) resize();
+    plot.setData([swirlsOf(rotation), rotation.blocks, meansOf(rotation)]);
 }
 
 // --- asking for a dish ------------------------------------------------------------------------
 
+/** The command line chooses a warm-up by the length of the run, and looks for its end if asked to; the
+ *  page must choose before it knows either. A run that ends within the warm-up would be refused. */
+function pagesWarmup(): Record<string, string> {
+    const given = asked()["warmup"];
+    const swirls = last?.frame[1] ?? 0;
+    if (!averages || (given !== undefined && given !== "auto") || swirls < averages.warmup) return {};
+    return {warmup: String(averages.warmup)};
+}
+
 function commandLine(): string {
-    const options = Object.entries(given).filter(([, value]) => value !== "")
+    const options = Object.entries({...asked(), ...pagesWarmup()})
         .map(([name, value]) => `--${name.replaceAll("_", "-")} ${value}`);
     return ["./swirl run", ...options, `--events ${Math.max(1, last?.events ?? 1)}`].join(" ");
 }
@@ -234,9 +267,11 @@ function address(): string {
     return text ? `?${text}` : location.pathname;
 }
 
+const manyDiscs = 1000; // so many take a moment to be placed
+
 function begin(events = 0): void {
     history = [];
-    blocks = [];
+    forgetAverages();
     last = undefined;
     waiting = true;
     hasHistory = false;
@@ -244,9 +279,10 @@ function begin(events = 0): void {
     setBackwards(false);
     recording.stop();
     turned = 0;
-    plot.setData([[], [], []]);
-    byId("headline").textContent = "…";
+    const discs = Number(given["discs"]);
+    byId("headline").textContent = discs >= manyDiscs ? texts.placing(discs) : "…";
     byId("refusal").hidden = true;
+    for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
     tell({kind: "begin", given: asked(), events});
 }
 
@@ -435,8 +471,7 @@ function layOutBar(): void {
             if (canvas) save("swirl.png", {href: canvas.toDataURL("image/png")});
         }, "save-picture"),
         button(texts.table, () => {
-            const text = blocks.map((block, k) => `${k + 1},${block ?? ""}\n`).join("");
-            save("rotation.csv", {text: `swirl,varpi\n${text}`, type: "text/csv"});
+            save("rotation.csv", {text: tableOf(averages), type: "text/csv"});
         }, "save-table"),
         button(texts.result, () => tell({kind: "result"}), "save-result"));
     setPlaying(playing);
@@ -470,7 +505,7 @@ function layOutLesson(): void {
             (byId(`choose-${texts.view}`) as HTMLSelectElement).value = view;
             layOutViews();
             changed();
-            setPlaying(true);
+            if (!lessMotion.matches) setPlaying(true);
         }
         show();
     };
@@ -583,7 +618,11 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             break;
         case "refused":
             waiting = false;
+            runTo = 0;
             refuse(data.sentence);
+            break;
+        case "progress":
+            byId("headline").textContent = texts.running(data.done, data.all);
             break;
         case "frame":
             received(data);
@@ -623,7 +662,7 @@ function steerTo([x, y]: [number, number], frame: Float64Array, swirls: number):
 }
 
 function resize(): void {
-    byId("plot").hidden = blocks.length < 2;
+    byId("plot").hidden = blocksShown() < 2;
     plot.setSize({width: byId("plot").clientWidth || 400, height: 190});
     redraw();
 }

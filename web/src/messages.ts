@@ -45,6 +45,8 @@ export type FromWorker =
     | {kind: "ready"; parameters: Parameter[]}
     | {kind: "begun"; configuration: Record<string, string>}
     | {kind: "refused"; sentence: string}
+    /** On the way to the event that the address asks for. */
+    | {kind: "progress"; done: number; all: number}
     /** The browser lacks what the engine needs. */
     | {kind: "unsupported"}
     /** Whether the discs have gone on with what was changed; if not, it is another dish. */
@@ -53,6 +55,7 @@ export type FromWorker =
     /** JSON, as the command line writes it. */
     | {kind: "result"; text: string}
     | Maps
-    | {kind: "point"; rotation: Estimate}
+    /** Nothing is known of a dish that has collapsed. */
+    | {kind: "point"; rotation: Estimate; collapsed: boolean}
     | {kind: "crossing"; curve: string; crossing: Crossing | null}
     | Frame;

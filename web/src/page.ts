@@ -20,11 +20,20 @@ export function button(text: string, act: () => void, id = ""): HTMLButtonElemen
     return made;
 }
 
-/** A file of one's own: of a text, or of what is at an address. */
-export function save(name: string, content: {href: string} | {text: string; type: string}): void {
-    const href = "href" in content ? content.href :
-        URL.createObjectURL(new Blob([content.text], {type: content.type}));
+const downloadBegins = 60_000; // milliseconds; a browser that asks where to save has no event for it
+
+/** A file of one's own: of a text, of bytes, or of what is at an address. */
+export function save(name: string,
+                     content: {href: string} | {bytes: Blob} | {text: string; type: string}): void {
+    if ("href" in content) {
+        element("a", {href: content.href, download: name}).click();
+        return;
+    }
+    const href = URL.createObjectURL(
+        "bytes" in content ? content.bytes : new Blob([content.text], {type: content.type}));
     element("a", {href, download: name}).click();
+    // An address keeps what it stands for in memory.
+    setTimeout(() => URL.revokeObjectURL(href), downloadBegins);
 }
 
 const style = (name: string): string =>

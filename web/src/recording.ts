@@ -4,7 +4,7 @@ import {frameDisc, frameHead} from "./engine";
 import {button, element, save} from "./page";
 import {texts} from "./texts";
 
-const mostFrames = 20_000;
+const mostNumbers = 2e7; // in memory, eight bytes each
 
 /** A frame as extended XYZ. */
 export function xyz(f: Float64Array): string {
@@ -21,9 +21,27 @@ export function xyz(f: Float64Array): string {
     return lines.join("\n") + "\n";
 }
 
+/** Frame by frame: one string of them all might be longer than a browser allows. */
+export function positionsOf(frames: Float64Array[]): Blob {
+    return new Blob(frames.map(xyz), {type: "chemical/x-xyz"});
+}
+
+/** The frames of a recording, as far as memory is meant for them. */
+export class Frames {
+    readonly all: Float64Array[] = [];
+    private numbers = 0;
+
+    /** False when there is no room for another one. */
+    add(frame: Float64Array): boolean {
+        this.all.push(frame);
+        this.numbers += frame.length;
+        return this.numbers + frame.length <= mostNumbers;
+    }
+}
+
 export class Recording {
     readonly panel = element("span", {id: "recording"});
-    private frames: Float64Array[] | undefined; // while it goes on
+    private frames: Frames | undefined; // while it goes on
     private done: Float64Array[] = [];
     private movie: MediaRecorder | undefined;
     private film: Blob | undefined;
@@ -36,22 +54,21 @@ export class Recording {
     }
 
     add(frame: Float64Array): void {
-        if (!this.frames) return;
-        this.frames.push(frame);
-        if (this.frames.length >= mostFrames) this.stop();
+        if (this.frames && !this.frames.add(frame)) this.stop();
     }
 
     /** Another canvas, or another dish: the film ends. */
     stop(): void {
         if (!this.frames) return;
-        this.done = this.frames;
+        this.done = this.frames.all;
         this.frames = undefined;
         if (this.movie) this.movie.stop(); // and then it hands over the film
         else this.layOut();
     }
 
     private begin(): void {
-        this.frames = [];
+        this.frames = new Frames();
+        this.done = []; // its memory is the new one's
         this.film = undefined;
         const canvas = this.canvas();
         const type = ["video/webm;codecs=vp8", "video/webm"].find(
@@ -77,12 +94,11 @@ export class Recording {
         const kept: HTMLElement[] = [];
         if (this.film && !this.frames) {
             const film = this.film;
-            kept.push(button(texts.film, () => save("swirl.webm", {href: URL.createObjectURL(film)}),
-                             "save-film"));
+            kept.push(button(texts.film, () => save("swirl.webm", {bytes: film}), "save-film"));
         }
         if (this.done.length > 0 && !this.frames)
-            kept.push(button(texts.positions, () => save("swirl.xyz", {
-                text: this.done.map(xyz).join(""), type: "chemical/x-xyz"}), "save-positions"));
+            kept.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),
+                             "save-positions"));
         this.panel.replaceChildren(this.start, ...kept);
     }
 }

@@ -9,6 +9,8 @@ import {texts} from "./texts";
 interface Point {
     mu: number;
     discs: number;
+    done?: boolean;
+    collapsed?: boolean;
     mean?: number;
     error?: number;
 }
@@ -28,6 +30,12 @@ export function numbersIn(text: string): number[] | undefined {
             all.push(from + k * by);
     }
     return all.length > 0 && all.length <= most ? all : undefined;
+}
+
+/** What a run has found; nothing of one that collapsed, whose averages end where it did. */
+function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Partial<Point> {
+    if (collapsed) return {done: true, collapsed};
+    return {done: true, mean: rotation.mean ?? undefined, error: rotation.error ?? undefined};
 }
 
 export class Study {
@@ -101,16 +109,13 @@ export class Study {
             at = this.waiting.shift();
             if (at) tell({kind: "point", swirls, given: {...this.given(), discs: String(at.discs),
                                                          mu: String(at.mu)}});
-            else if (this.points.every((each) => each.mean !== undefined)) this.askCrossings(tell);
+            else if (this.points.every((each) => each.done)) this.askCrossings(tell);
         };
         worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             if (data.kind === "ready") next();
             if (data.kind === "point" && at) {
-                at.mean = data.rotation.mean ?? NaN;
-                at.error = data.rotation.error ?? NaN;
-                this.said.textContent = texts.studyProgress(
-                    this.points.filter((each) => each.mean !== undefined).length, this.points.length);
-                this.draw();
+                Object.assign(at, found(data));
+                this.report();
                 next();
             }
             if (data.kind === "crossing") this.showCrossing(Number(data.curve), data.crossing);
@@ -119,6 +124,15 @@ export class Study {
                 this.said.textContent = data.sentence;
             }
         };
+    }
+
+    private report(): void {
+        const done = this.points.filter((each) => each.done).length;
+        const lost = this.points.filter((each) => each.collapsed);
+        const runs = lost.map((each) => texts.runOf(each.discs, each.mu)).join(", ");
+        this.said.textContent = texts.studyProgress(done, this.points.length) +
+            (lost.length > 0 ? ` ${texts.collapsed(runs)}` : "");
+        this.draw();
     }
 
     private askCrossings(tell: (message: ToWorker) => void): void {
@@ -136,10 +150,10 @@ export class Study {
     }
 
     private saveTable(): void {
-        const rows = this.points.filter((each) => each.mean !== undefined)
-            .map(({mu, discs, mean, error}) => `${mu},${discs},${mean},${error}\n`);
+        const rows = this.points.filter((each) => each.done).map((each) => [
+            each.mu, each.discs, each.mean ?? "", each.error ?? "", each.collapsed ? 1 : 0].join(",") + "\n");
         save("rotation_against_N.csv",
-             {text: `mu,discs,varpi,varpi_error\n${rows.join("")}`, type: "text/csv"});
+             {text: `mu,discs,varpi,varpi_error,collapsed\n${rows.join("")}`, type: "text/csv"});
     }
 
     private draw(): void {

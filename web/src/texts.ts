@@ -57,6 +57,9 @@ export const texts = {
     crossing: (mu: number, discs: string, lower: number | null, upper: number | null): string =>
         `μ = ${mu}: the sense of rotation changes at N_c = ${discs}` + (lower !== null && upper !== null
             ? ` (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}).` : "."),
+    collapsed: (runs: string): string => "Collapsed, and left out, since the model has no state after " +
+        `it: ${runs}.`,
+    runOf: (discs: number, mu: number): string => `N = ${discs} at μ = ${mu}`,
     noCrossing: (mu: number): string => `μ = ${mu}: no change of sense is certain at these N.`,
     presets: "Presets",
     copied: "Copied",
@@ -67,6 +70,10 @@ export const texts = {
         `The address has events=${text}, but it must be a whole number from 0 to 10000000.`,
     warmup: (swirls: number): string => `Averages begin after ${swirls} swirls.`,
     notYet: "not known yet",
+    grows: "Without friction the energy grows without bound on the polygon; the averages belong to no " +
+        "steady state.",
+    placing: (discs: number): string => `Placing ${discs} discs…`,
+    running: (done: number, all: number): string => `${done} of ${all} events done.`,
     byTime: "ϖ/Ω by time",
     byEvent: "ϖ/Ω by event",
     swirls: "swirls",
@@ -78,6 +85,16 @@ export const texts = {
     next: "Next",
     back: "Back",
     groups: {} as Record<string, string>,
+};
+
+/** What the engine's worker says: apart, so that it need not carry the page's texts. */
+export const workerTexts = {
+    collapse: "Time all but stands still: discs that lie pressed together collide ever " +
+        "faster, and the model has no state after that (a collapse). Another seed may not " +
+        "meet it; with a restitution below 1 a longer contact_duration keeps them apart.",
+    stopped: (error: string): string => `The engine stopped: ${error}. Reload the page.`,
+    tooMany: (discs: string, most: number): string => `${discs} discs are too many for a page, which ` +
+        `takes ${most} at most; the command line has no such limit: ./swirl run --discs ${discs}.`,
 };
 
 export interface Step {
@@ -115,6 +132,7 @@ export const lesson: Step[] = [
 export const presets: {name: string; given: Record<string, string>}[] = [
     {name: "48 discs, μ = 1 (the paper)", given: {discs: "48"}},
     {name: "28 discs, μ = 1", given: {discs: "28"}},
+    {name: "48 discs, μ = 0.5", given: {discs: "48", mu: "0.5"}},
     {name: "48 discs, μ = 0.1", given: {discs: "48", mu: "0.1"}},
     {name: "48 discs, no friction between discs", given: {discs: "48", mu_disc: "0", mu_wall: "1"}},
     {name: "48 discs, no friction at the wall", given: {discs: "48", mu_disc: "1", mu_wall: "0"}},

@@ -1,20 +1,22 @@
 // The engine at work, beside the page so that the page never waits for it.
+import {betweenLooks, CollapseWatch} from "./collapse";
 import {Engine, Refusal} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
+import {workerTexts} from "./texts";
 
 /** A tick works for so long at most; what is left of it is not made up for. */
 const patience = 12; // milliseconds
 const eventsAtOnce = 500;
 const betweenAverages = 200; // milliseconds
-/** So long without progress, and time stands still: a collapse. */
-const collapse = 4000; // milliseconds
+/** A swirl of so many takes seconds; of more there would be no motion to look at. */
+const mostDiscs = 20_000;
 
 let module: WebAssembly.Module | undefined;
 let engine: Engine | undefined;
 let now = 0; // the moment that is shown
 let period = 1;
 let lastAverages = 0;
-let stuckSince: number | undefined;
+let watch: CollapseWatch | undefined; // of the engine's dish, whenever that is a new one
 let change: Record<string, string> | undefined; // waits for the end of the swirl
 
 const say = (message: FromWorker): void => postMessage(message);
@@ -22,7 +24,15 @@ const say = (message: FromWorker): void => postMessage(message);
 function refuse(error: unknown): void {
     engine = undefined;
     say({kind: "refused", sentence: error instanceof Refusal ? error.message :
-        `The engine stopped: ${String(error)}. Reload the page.`});
+        workerTexts.stopped(String(error))});
+}
+
+function refuseCollapse(collapsed: boolean): void {
+    if (collapsed) throw new Refusal(workerTexts.collapse);
+}
+
+function newWatch(dish: Engine, configuration: Record<string, string>): CollapseWatch {
+    return new CollapseWatch(dish, Number(configuration["period"]), Number(configuration["discs"]));
 }
 
 function show(single = false): void {
@@ -37,18 +47,39 @@ function show(single = false): void {
     postMessage(frame, {transfer: [frame.frame.buffer]});
 }
 
+/** A dish at rest; what cannot be is refused. */
+function dishOf(module: WebAssembly.Module, given: Record<string, string>): Engine {
+    const discs = given["discs"] ?? "";
+    if (Number(discs) > mostDiscs) throw new Refusal(workerTexts.tooMany(discs, mostDiscs));
+    const dish = new Engine(module);
+    dish.begin(given);
+    return dish;
+}
+
+/** So many events, unless the dish collapses before; says on the way how far it has come. */
+function run(dish: Engine, watch: CollapseWatch, events: number): void {
+    let said = performance.now();
+    for (let done = 0; done < events; done += betweenLooks) {
+        dish.runEvents(Math.min(betweenLooks, events - done));
+        refuseCollapse(watch.look());
+        if (performance.now() - said < betweenAverages) continue;
+        said = performance.now();
+        say({kind: "progress", done: Math.min(done + betweenLooks, events), all: events});
+    }
+    refuseCollapse(watch.lookAtTheEnd());
+}
+
 function begin(given: Record<string, string>, events: number): void {
     if (!module) return;
-    engine = new Engine(module);
-    engine.begin({...given, ...watched});
+    engine = dishOf(module, {...given, ...watched});
     now = 0;
     lastAverages = 0;
-    stuckSince = undefined;
     change = undefined;
     const configuration = engine.configuration();
     period = Number(configuration["period"]);
+    watch = newWatch(engine, configuration);
     say({kind: "begun", configuration});
-    if (events > 0) engine.runEvents(events);
+    run(engine, watch, events);
     now = engine.time;
     show(events > 0);
 }
@@ -59,9 +90,11 @@ const watched = {measure: "density,flow,profile"};
 /** To a moment, or as far as patience goes; whether it has come there. */
 function advance(dish: Engine, target: number): boolean {
     const deadline = performance.now() + patience;
-    let arrived = dish.advanceTo(target, eventsAtOnce);
-    while (!arrived && performance.now() < deadline)
+    let arrived = false;
+    do {
         arrived = dish.advanceTo(target, eventsAtOnce);
+        refuseCollapse(watch?.look() ?? false);
+    } while (!arrived && performance.now() < deadline);
     return arrived;
 }
 
@@ -71,11 +104,6 @@ function tick(swirls: number): void {
     const target = change ? Math.min(now + swirls * period, swirlEnds) : now + swirls * period;
     const arrived = advance(engine, target);
     const reached = arrived ? target : Math.min(engine.time, target);
-    if (arrived || reached > now + 1e-9 * period) stuckSince = undefined;
-    else if (performance.now() - (stuckSince ??= performance.now()) > collapse)
-        throw new Refusal("Time all but stands still: discs that lie pressed together collide ever " +
-            "faster, and the model has no state after that (a collapse). Another seed may not " +
-            "meet it; with a restitution below 1 a longer contact_duration keeps them apart.");
     now = Math.max(now, reached);
     if (change && now === swirlEnds) goOn(change);
     show();
@@ -89,6 +117,7 @@ function goOn(given: Record<string, string>): void {
     if (kept) {
         now = 0;
         period = Number(configuration["period"]);
+        watch = newWatch(engine, configuration);
     }
     say({kind: "changed", kept, configuration});
 }
@@ -97,6 +126,7 @@ function steer(x: number, y: number, duration: number): void {
     if (!engine) return;
     engine.steer(now, x, y, duration);
     period = Number.POSITIVE_INFINITY;
+    watch = undefined; // no swirl to go by
     now = advance(engine, duration) ? duration : engine.time;
     show();
 }
@@ -104,7 +134,7 @@ function steer(x: number, y: number, duration: number): void {
 function reverse(): void {
     if (!engine) return;
     const done = engine.reverse(now);
-    if (done) now = 0;
+    if (done) [now, watch] = [0, newWatch(engine, engine.configuration())];
     say({kind: "reversed", done});
     show();
 }
@@ -112,7 +142,7 @@ function reverse(): void {
 function drag(disc: number, x: number, y: number): void {
     if (!engine) return;
     engine.drag(now, disc, x, y);
-    now = 0;
+    [now, watch] = [0, newWatch(engine, engine.configuration())];
     show();
 }
 
@@ -129,19 +159,13 @@ function maps(): void {
 /** A run of one's own study. Whoever asks for it asks nothing else of this worker meanwhile. */
 function point(given: Record<string, string>, swirls: number): void {
     if (!module) return;
-    engine = new Engine(module);
-    engine.begin(given);
-    const {period: length, warmup} = engine.configuration();
-    const end = (swirls + Number(warmup || engine.rotation().warmup)) * Number(length);
-    const begun = performance.now();
-    let before = engine.time;
-    let progress = begun;
-    while (!engine.advanceTo(end, eventsAtOnce)) {
-        if (engine.time > before) [before, progress] = [engine.time, performance.now()];
-        else if (performance.now() - progress > collapse) break;
-    }
-    say({kind: "point", rotation: engine.rotation().by_time});
-    engine = undefined;
+    const dish = dishOf(module, given), configuration = dish.configuration();
+    const end = (swirls + dish.rotation().warmup) * Number(configuration["period"]);
+    const ofPoint = newWatch(dish, configuration);
+    let collapsed = false;
+    while (!collapsed && !dish.advanceTo(end, betweenLooks)) collapsed = ofPoint.look();
+    collapsed ||= ofPoint.lookAtTheEnd();
+    say({kind: "point", rotation: dish.rotation().by_time, collapsed});
 }
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {

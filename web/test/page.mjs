@@ -8,9 +8,9 @@ import {chromium} from "playwright-core";
 
 const [file, executablePath, wantedHash, picture, folder] = process.argv.slice(2);
 const address = pathToFileURL(file).href;
-const browser = await chromium.launch({executablePath, args: [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
+const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+              "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+const browser = await chromium.launch({executablePath, args});
 const page = await browser.newPage({viewport: {width: 1200, height: 800}});
 const complaints = [], requests = [];
 page.on("pageerror", (error) => complaints.push(error.message));
@@ -47,7 +47,8 @@ const open = async (query) => {
 await open("?discs=28&mu=0.5&seed=3&events=20000");
 assert.equal(await text("state-hash"), wantedHash);
 assert.equal(await text("event-count"), "20000");
-assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --events 20000");
+// Averages of the command line leave out what the page leaves out, as soon as there are any.
+assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --warmup 20 --events 20000");
 
 // It draws every disc where `swirl picture` draws it, to half a pixel: places in radii of a disc from
 // the middle of the dish, which has the widest circle.
@@ -85,6 +86,16 @@ await page.evaluate(() => { for (let k = 0; k < 1000; ++k) document.getElementBy
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "21001");
 assert.equal(await page.isHidden("#refusal"), true);
 await barriers("a dish");
+await page.emulateMedia({colorScheme: "dark"});
+await barriers("a dish in the dark");
+await page.emulateMedia({colorScheme: "light"});
+assert.equal(await text("caution"), "");
+
+for (const [query, options] of [["?discs=48&events=2000", "--discs 48"], // has not come so far
+                                ["?discs=5&warmup=2&events=3000", "--discs 5 --warmup 2"]]) {
+    await open(query);
+    assert.equal(await text("command"), `./swirl run ${options} --events ${query.split("events=")[1]}`);
+}
 
 // It moves, and time goes on.
 await open("?discs=48");
@@ -102,7 +113,7 @@ assert.ok(painted > 5, `the canvas shows ${painted} shades`);
 await page.fill("#parameter-discs", "5");
 await page.waitForFunction(
     () => document.getElementById("command").textContent.includes("--discs 5 "));
-await page.selectOption("#choose-preset", {index: 3});
+await page.selectOption("#choose-preset", {label: "48 discs, μ = 0.1"});
 await page.waitForFunction(
     () => document.getElementById("command").textContent.includes("--mu 0.1"));
 await page.selectOption("#choose-View", "both");
@@ -119,6 +130,32 @@ await open("?disks=5");
 assert.match(await text("refusal"), /'disks'/);
 await open("?discs=5&events=-1");
 assert.match(await text("refusal"), /events=-1/);
+await open("?discs=30000&radius=0.01");
+assert.match(await text("refusal"), /30000 discs are too many for a page.* \.\/swirl run --discs 30000\.$/);
+
+// A collapse is no state: neither on the way to an event nor while one looks on.
+for (const events of ["&events=300000", ""]) {
+    await page.goto(`${address}?discs=48&restitution=0.5&contact_duration=0${events}`);
+    await page.waitForFunction(() => !document.getElementById("refusal").hidden, null, {timeout: 60_000});
+    assert.match(await text("refusal"), /\(a collapse\)/);
+    if (events) assert.equal(await text("state-hash"), "");
+}
+
+// What takes a while says how far it is.
+await page.goto(`${address}?discs=48&events=1000000`);
+await page.waitForFunction(
+    () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
+await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000", null,
+                           {timeout: 60_000});
+await page.evaluate(() => {
+    globalThis.headlines = [];
+    const headline = document.getElementById("headline");
+    new MutationObserver(() => globalThis.headlines.push(headline.textContent))
+        .observe(headline, {childList: true});
+});
+await page.selectOption("#choose-preset", {label: "2000 small discs"});
+await page.waitForSelector('canvas[aria-label^="2000 discs"]');
+assert.ok((await page.evaluate(() => globalThis.headlines)).includes("Placing 2000 discs…"));
 
 // Changed on the way: the same discs go on, and no command line makes them.
 await open("?discs=8");
@@ -161,6 +198,7 @@ await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headli
 await open("?discs=8");
 assert.equal(await page.isDisabled("#backwards"), true);
 await open("?discs=8&mu=0");
+assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon; /);
 await page.click("#backwards");
 await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
 assert.match(await text("command"), /^none/);
@@ -170,7 +208,7 @@ await page.waitForFunction(() => document.getElementById("backwards").textConten
 // A disc that is dragged goes where the pointer goes.
 await open("?discs=1&events=20");
 const table1 = await page.locator("#views canvas").boundingBox();
-const centroid = () => page.evaluate(() => { // of what is drawn in the disc's colour
+const centroid = (of = page) => of.evaluate(() => { // of what is drawn in the disc's colour
     const canvas = document.querySelector("#views canvas");
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let n = 0, x = 0, y = 0;
@@ -213,6 +251,34 @@ assert.ok(Math.hypot(lifted[0] - pushed[0] - radius, pushed[1] - lifted[1]) < 0.
 await page.keyboard.press("Escape");
 await page.selectOption("#choose-Colour", "spin");
 
+// A finger takes a disc up and down, which elsewhere would scroll the page.
+const phone = await browser.newPage({viewport: {width: 360, height: 740}, hasTouch: true,
+                                     reducedMotion: "reduce"});
+await phone.goto(`${address}?discs=1&events=20`);
+await phone.waitForFunction(() => document.getElementById("state-hash").textContent !== "");
+await phone.selectOption("#choose-Colour", "id");
+await phone.locator("#views canvas").scrollIntoViewIfNeeded();
+const small = await phone.locator("#views canvas").boundingBox();
+const touched = await centroid(phone);
+const fingers = await phone.context().newCDPSession(phone);
+const touch = (type, y) => fingers.send("Input.dispatchTouchEvent", {type, touchPoints: y === undefined ? [] :
+    [{x: small.x + touched[0] * small.width, y: small.y + y * small.height}]});
+const way = touched[1] > 0.5 ? -0.2 : 0.2;
+await touch("touchStart", touched[1]);
+for (let k = 1; k <= 20; ++k) {
+    await touch("touchMove", touched[1] + way * k / 20);
+    await phone.waitForTimeout(30);
+}
+const led = await centroid(phone);
+await touch("touchEnd");
+assert.ok(Math.hypot(led[0] - touched[0], led[1] - touched[1] - way) < 0.02, `a finger led it to ${led}`);
+
+// Who asked for less motion has none from the lesson either.
+await phone.click("#lesson-start");
+await phone.waitForSelector('canvas[aria-label^="8 discs"]');
+assert.equal(await phone.textContent("#play"), "Play");
+await phone.close();
+
 // A second dish, which stays as it was asked for.
 await open("?discs=12");
 await page.click("#keep-beside");
@@ -224,7 +290,8 @@ await barriers("two dishes");
 await page.click("#beside-ends");
 assert.equal(await page.locator("#beside").count(), 0);
 
-// The paper's figure by oneself, in small.
+// The paper's figure by oneself, in small; the warm-up that is looked for is the page's own here.
+await open("?discs=12&warmup=auto");
 await page.click("#study summary");
 for (const [wrong, said] of [["5:x", /must be numbers or ranges/], ["", /must be numbers/]]) {
     await page.fill("#study-discs", wrong);
@@ -242,12 +309,26 @@ await barriers("the study");
 const study = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
 const table = (await (await study[0].createReadStream()).toArray()).join("").trim().split("\n");
 assert.equal(table.length, 7);
-assert.equal(table[0], "mu,discs,varpi,varpi_error");
+assert.equal(table[0], "mu,discs,varpi,varpi_error,collapsed");
 assert.ok(table.slice(1).every((row) => row.split(",").every((x) => Number.isFinite(Number(x)))));
 await page.fill("#study-discs", "1000");
 await page.click("#study-start");
 await page.waitForFunction(
     () => /do not fit/.test(document.getElementById("study-said").textContent));
+await page.click("#study summary");
+
+// A run of it that collapses is told, and has no average.
+await page.goto(`${address}?discs=5&restitution=0.5&contact_duration=0`);
+await page.click("#study summary");
+await page.fill("#study-discs", "48");
+await page.fill("#study-mu", "1");
+await page.fill("#study-swirls", "20");
+await page.click("#study-start");
+await page.waitForFunction(() => document.querySelectorAll("#study-findings li").length === 1, null,
+                           {timeout: 60_000});
+assert.match(await text("study-said"), /^1 of 1 runs done\. Collapsed, and left out.*: N = 48 at μ = 1\.$/);
+const lost = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
+assert.match((await (await lost[0].createReadStream()).toArray()).join(""), /\n1,48,,,1\n$/);
 await page.click("#study summary");
 
 // The lesson goes through its six steps by keyboard alone.
@@ -283,6 +364,27 @@ for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
     saved[name] = Buffer.concat(chunks);
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
+
+// Positions are extended XYZ, frame for frame: later and later, everybody in the dish, nobody in another.
+const lines = saved["swirl.xyz"].toString().trimEnd().split("\n"), frames = [];
+for (let at = 0; at < lines.length; at += 30) {
+    assert.equal(lines[at], "28");
+    const [, columns, time] = lines[at + 1].match(/^Properties=(\S+) Time=(\S+) pbc="F F F"$/);
+    const width = columns.split(":").reduce((sum, word, k) => sum + (k % 3 === 2 ? Number(word) : 0), 0);
+    const rows = lines.slice(at + 2, at + 30).map((each) => each.split(" "));
+    assert.ok(rows.every((row) => row.length === width && row[0] === "D1" &&
+        row.slice(1).every((word) => word !== "" && Number.isFinite(Number(word)))), lines[at + 1]);
+    frames.push({time: Number(time), rows: rows.map((row) => row.slice(1).map(Number))});
+}
+assert.ok(frames.length > 5, `${frames.length} frames`);
+for (const [k, {time, rows}] of frames.entries()) {
+    if (k > 0) assert.ok(time >= frames[k - 1].time);
+    for (const [i, [x, y, z, , , vz, , radius, id]] of rows.entries()) {
+        assert.deepEqual([z, vz, radius, id], [0, 0, 1, i + 1]);
+        assert.ok(Math.hypot(x, y) < 8.6 + 1.892 - 1 + 1e-9);
+        for (const [u, v] of rows.slice(i + 1)) assert.ok(Math.hypot(u - x, v - y) > 2 - 1e-9);
+    }
+}
 if (folder) for (const [name, bytes] of Object.entries(saved)) writeFileSync(`${folder}/${name}`, bytes);
 
 // A narrow screen has nothing that sticks out.
@@ -292,4 +394,19 @@ assert.ok(wide <= 360, `at a width of 360 the page is ${wide} wide`);
 
 assert.deepEqual(complaints, []);
 assert.deepEqual(requests, []);
+
+// Without JavaScript there is a sentence.
+const plain = await browser.newPage({javaScriptEnabled: false});
+await plain.goto(address);
+assert.match(await plain.innerText("body"), /JavaScript, which is turned off here/);
 await browser.close();
+
+// And without vectors in WebAssembly, which Chromium leaves out where the processor has none.
+const old = await chromium.launch({executablePath, args: [
+    ...args, "--js-flags=--no-enable-sse4-1 --no-enable-ssse3 --no-enable-sse3"]});
+const without = await old.newPage();
+await without.goto(address);
+await without.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
+    !document.getElementById("refusal").hidden, null, {timeout: 60_000});
+assert.match(await without.textContent("#refusal"), /^This browser has no WebAssembly with vectors \(SIMD\)/);
+await old.close();

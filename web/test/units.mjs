@@ -31,13 +31,47 @@ try {
     assert.equal(discAt(frame(pack), 2.5, 0.5), 1);
     assert.equal(discAt(frame(pack), 2.9, 0.9), undefined);
 
-    const {xyz} = await load("recording");
+    const {xyz, positionsOf, Frames} = await load("recording");
     const lines = xyz(frame([[1, 2], [3, 4, 0.5]], {time: 7.5})).split("\n");
     assert.equal(lines[0], "2");
     assert.match(lines[1], /^Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:id:I:1 Time=7.5 /);
     assert.equal(lines[2], "D1 1 2 0 1 2 0 -0.5 1 1");
     assert.equal(lines[3], "D2 3 4 0 1 2 0 -0.5 0.5 2");
     assert.deepEqual(lines.slice(4), [""]);
+    const both = [frame([[1, 2]]), frame([[3, 4]], {time: 1})];
+    assert.equal(await positionsOf(both).text(), both.map(xyz).join(""));
+    const kept = new Frames(), large = {length: 3e6}; // as many numbers as 375,000 discs have
+    assert.deepEqual(Array.from({length: 6}, () => kept.add(large)), [true, true, true, true, true, false]);
+    assert.equal(kept.all.length, 6);
+
+    const {swirlsOf, meansOf, tableOf} = await load("series");
+    const short = {warmup: 2, warmup_blocks: 2, swirls_per_block: [1, 1], blocks: [5, 7, 1, 3, null]};
+    assert.deepEqual(swirlsOf(short), [1, 2, 3, 4, 5]);
+    assert.deepEqual(meansOf(short), [null, null, 1, 2, 4 / 3]);
+    assert.equal(tableOf(short), "swirl,varpi\n1,5\n2,7\n3,1\n4,3\n5,\n");
+    assert.equal(tableOf(undefined), "swirl,varpi\n");
+    // So long that neighbours were put together: in twos in the warm-up, in fours after it.
+    const long = {warmup: 5, warmup_blocks: 2, swirls_per_block: [2, 4], blocks: [1, 1, 3, 5]};
+    assert.deepEqual(swirlsOf(long), [2, 4, 9, 13]);
+    assert.deepEqual(meansOf(long), [null, null, 3, 4]);
+
+    const {CollapseWatch} = await load("collapse");
+    /** When a dish is found collapsed whose time stands still after so many events; and at the end. */
+    const found = (discs, stands, end) => {
+        const dish = {events: 0, time: 0}, watch = new CollapseWatch(dish, 12, discs);
+        while (dish.events < end) {
+            dish.events += 250;
+            if (dish.events <= stands) dish.time += 0.01;
+            if (watch.look()) return dish.events;
+        }
+        return watch.lookAtTheEnd() ? "at the end" : "never";
+    };
+    assert.equal(found(48, Infinity, 1e6), "never");
+    assert.equal(found(48, 0, 1e6), 20_000);
+    assert.equal(found(48, 100_000, 1e6), 120_000);
+    assert.equal(found(48, 100_000, 105_000), "at the end");
+    assert.equal(found(48, 100_000, 101_000), "never"); // too few to tell
+    assert.equal(found(2000, 0, 1e6), 400_000);
 
     const {withError} = await load("page");
     assert.equal(withError(-0.0412, 0.0013, "?"), "−0.0412 ± 0.0013");

@@ -1,0 +1,30 @@
+"""The laboratory's memory over ten minutes at full speed, in a real browser: web/test/memory.mjs looks it
+up every half minute and says what grows. Slow; another number of minutes may be given as an argument."""
+
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+from program import SOURCE, made_of_the_web
+
+LAB = os.path.join(SOURCE, "web", "lab.sh")
+CHROMIUM = shutil.which("chromium")
+MINUTES = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 10
+
+
+class Memory(unittest.TestCase):
+    def test_it_is_flat(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        page = made_of_the_web(type(self), LAB, "laboratory.html")
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "memory.mjs"), page,
+                               CHROMIUM, str(MINUTES)], capture_output=True, text=True,
+                              timeout=60 * MINUTES + 300)
+        print(done.stdout)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
