@@ -4,7 +4,7 @@
 /** Events between two looks. */
 export const betweenLooks = 256;
 const tooFast = 1e8; // events per disc and swirl
-const leastWindow = 2000; // events
+const leastWindow = 500; // events
 
 /** What is looked at. */
 export interface Clocked {
@@ -20,7 +20,7 @@ interface Mark {
 /** Of one dish, from its first event on. */
 export class CollapseWatch {
     private mark: Mark = {events: 0, swirls: 0}; // the last time that a collapse was looked for
-    private lately: [Mark, Mark] = [this.mark, this.mark]; // some thousands of events ago, and a few
+    private lately: [Mark, Mark] = [this.mark, this.mark]; // some hundreds of events ago, and fewer
     private readonly window: number;
 
     constructor(private readonly dish: Clocked, private readonly period: number,
@@ -40,7 +40,7 @@ export class CollapseWatch {
         return false;
     }
 
-    /** At the end, of the last few thousand events alone: what was before may have been as it should. */
+    /** At the end, of the last few hundred events alone: those before may have been healthy. */
     lookAtTheEnd(): boolean {
         const {events} = this.now();
         const mark = [...this.lately].reverse().find((each) => events - each.events >= leastWindow);
