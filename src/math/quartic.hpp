@@ -14,10 +14,11 @@
 // before it has been apart:
 //   f ≤ 0 and falling at 0        they touch now
 //   f rises first                 they touch when it falls through 0 after that
-//   f rises and turns below 0     they were never apart by more than a rounding error. There the
-//                                 approach is exactly 0, and a contact would change nothing, for
-//                                 ever. So they touch when f has fallen by `grain` from there:
-//                                 a rounding error of f, which their approach can be told from
+//   f rises and turns below       they were never apart by more than a rounding error. There the
+//   `grain`, a rounding error     approach is exactly 0, or so little that the time until f is 0
+//                                 again is lost in the clock's rounding, and a contact would
+//                                 change nothing, for ever. So they touch when f has fallen by
+//                                 `grain` from there, which their approach can be told from
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -64,7 +65,7 @@ SWIRL_INLINE double root_between(const Value& value, const Slope& slope, double 
 SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, double grain) {
     const double top = f.value(low), bottom = f.value(high);
     if (!(bottom < top)) return never;
-    const double level = top > 0.0 ? 0.0 : top - grain;
+    const double level = low == 0.0 && top > 0.0 ? 0.0 : smaller(0.0, top - grain);
     if (bottom > level) return never;
     const double first = low == 0.0 ? f.c0 / -f.c1 : 0.5 * (low + high);
     return root_between([&](double t) { return f.value(t) - level; },

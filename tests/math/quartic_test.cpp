@@ -148,6 +148,9 @@ TEST(Quartic, WhoHasTouchedAndIsPressedTogetherTouchesAgainLater) {
     const double below = first_fall({-1e-16, 1e-12, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
     EXPECT_GT(below, 1e-9);
     EXPECT_LT(below, 1e-7);
+    // Risen by less than a rounding error, and back within one of the clock.
+    const double hardly = first_fall({0.0, 5.6e-16, -7.0, 0.0, 0.0}, 1.0, 0x1p-50);
+    EXPECT_NEAR(hardly, square_root(0x1p-50 / 7.0), 1e-12);
     // At rest on each other, exactly.
     const double resting = first_fall({0.0, 0.0, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
     EXPECT_NEAR(resting, square_root(0x1p-51), 1e-12);

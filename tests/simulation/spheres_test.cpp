@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/same_trajectory.hpp"
@@ -191,6 +192,25 @@ TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
     EXPECT_LT(error(100000), 3e-5);
 }
 
+// Spheres that do not bounce lie on each other and on the wall, apart by less than a rounding
+// error; a contact there that changes nothing would be repeated for ever, at the same instant.
+TEST(Spheres, ThatDoNotBounceDoNotMeetForEverAtTheSameInstant) {
+    for (const std::size_t n : {2u, 20u, 48u}) {
+        Simulation simulation(sphere_dish(n, 1.92, 0.2, 0.0));
+        int at_once = 0, most_at_once = 0;
+        double before = 0.0;
+        for (int k = 0; k < 60000; ++k) {
+            const double now = simulation.step().clock;
+            at_once = now == before ? at_once + 1 : 0;
+            most_at_once = std::max(most_at_once, at_once);
+            before = now;
+        }
+        EXPECT_LT(most_at_once, 200) << n;
+        EXPECT_GT(simulation.clock() + paper_period * double(simulation.swirls()),
+                  0.5 * paper_period)
+            << n;
+    }
+}
 TEST(Spheres, ExtremesOfEveryParameterDoNotHang) {
     for (const double deceleration : {1e-6, 1.0, 1e3})
         for (const double mu : {0.0, 0.2, 10.0})
