@@ -70,7 +70,8 @@ try {
     assert.equal(found(48, 0, 1e6), 20_000);
     assert.equal(found(48, 100_000, 1e6), 120_000);
     assert.equal(found(48, 100_000, 105_000), "at the end");
-    assert.equal(found(48, 100_000, 101_000), "never"); // too few to tell
+    assert.equal(found(48, 100_000, 101_000), "at the end");
+    assert.equal(found(48, 100_000, 100_250), "never"); // too few to tell
     assert.equal(found(2000, 0, 1e6), 400_000);
 
     const {withError} = await load("page");
