@@ -80,6 +80,9 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAThinDish) {
 // Centres of skins are in single precision. Driven far, discs are soon where that is coarser than a
 // narrow skin is wide; and in a dish of ten million radii it is so everywhere.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInADishMuchWiderThanItsDiscs) {
+    // There places and times are known to 10⁻⁹ of such a radius, which the internal checks, made for
+    // dishes of usual width, take for an overlap.
+    if (sanitized) GTEST_SKIP() << "left to the release build";
     Disc grain = unit_disc();
     grain.radius = 1e-6;
     for (const double container_radius : {0.03651, 10.0}) {
