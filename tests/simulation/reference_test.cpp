@@ -80,8 +80,8 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAThinDish) {
 // Centres of skins are in single precision. Driven far, discs are soon where that is coarser than a
 // narrow skin is wide; and in a dish of ten million radii it is so everywhere.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInADishMuchWiderThanItsDiscs) {
-    // There places and times are known to 10⁻⁹ of such a radius, which the internal checks, made for
-    // dishes of usual width, take for an overlap.
+    // There places and times are known to 10⁻⁹ of such a radius, and the internal checks ask for
+    // contacts as exact as in a dish of usual width.
     if (sanitized) GTEST_SKIP() << "left to the release build";
     Disc grain = unit_disc();
     grain.radius = 1e-6;
