@@ -5,7 +5,6 @@
 #include <atomic>
 #include <bit>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "swirl/app/commands.hpp"
@@ -76,11 +75,12 @@ RunResult run_again(const RunConfig& config, bool quiet, const Look& look,
 
 /// What was measured beside the rotation.
 std::vector<std::string> measurements_in(const std::string& file, const Json& result) {
-    std::vector<std::string> names;
     const Json measured = result.value("measured", Json::object());
+    if (!measured.is_object())
+        throw Failure(fmt::format("'{}' does not say what was measured.", file));
+    std::vector<std::string> names;
     for (const auto& [name, values] : measured.items()) names.push_back(name);
-    if (measured.is_object()) return names;
-    throw Failure(fmt::format("'{}' does not say what was measured.", file));
+    return names;
 }
 
 void verify_result(const std::string& file, bool quiet) {
@@ -302,14 +302,8 @@ void add_verify_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
     subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
-        std::error_code unknown;
-        if (std::filesystem::exists(call->file, unknown) &&
-            !std::filesystem::is_regular_file(call->file, unknown))
-            throw Failure(
-                fmt::format("'{}' is not a regular file, but it must be one.", call->file));
-        std::ifstream stream(call->file, std::ios::binary);
-        if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", call->file));
-        if (stream.get() != 0x89) return verify_result(call->file, call->quiet);
+        if (!first_bytes(call->file).starts_with('\x89'))
+            return verify_result(call->file, call->quiet);
         if (is_event_log(call->file)) return verify_event_log(call->file, call->quiet);
         verify_trajectory(call->file, call->quiet);
     });

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,19 +17,6 @@
 
 namespace swirl {
 namespace {
-
-std::string first_bytes(const std::string& file) {
-    // A pipe that nobody writes to would keep us waiting, and is read more than once.
-    std::error_code unknown;
-    if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown))
-        throw Failure(fmt::format("'{}' is not a regular file, but it must be one.", file));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw Failure(fmt::format("'{}' cannot be opened.", file));
-    std::string bytes(8, '\0');
-    stream.read(bytes.data(), 8);
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
-    return bytes;
-}
 
 /// By its name too: what is wrong with it is then said by who knows trajectories.
 bool is_hdf5(const std::string& file) {

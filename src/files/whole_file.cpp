@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -168,6 +169,19 @@ std::string read_file(const std::filesystem::path& path, bool regular_only) {
 
 std::string read_whole_file(const std::filesystem::path& path) { return read_file(path, false); }
 std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
+
+std::string first_bytes(const std::filesystem::path& path) {
+    std::error_code unknown;
+    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+        throw FileError(
+            fmt::format("'{}' is not a regular file, but it must be one.", path.string()));
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw FileError(fmt::format("'{}' cannot be opened.", path.string()));
+    std::string bytes(8, '\0');
+    stream.read(bytes.data(), 8);
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
 
 void remove_leftovers(const std::filesystem::path& folder, std::string_view name) {
     std::error_code error;

@@ -47,6 +47,9 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 std::string read_whole_file(const std::filesystem::path& path);
 /// The same, but throws for pipes, devices and the like, which may never end.
 std::string read_regular_file(const std::filesystem::path& path);
+/// What a file begins with, by which it is told what it is: eight bytes or as many as there are.
+/// Throws as read_regular_file() does.
+std::string first_bytes(const std::filesystem::path& path);
 
 /// Removes what writers that were killed left in a folder; `name`: only what was to become that
 /// file.

@@ -96,7 +96,7 @@ std::optional<std::string> not_without_floor(const RunConfig& c) {
 /// error, 3 of it takes the counterrotation away.
 std::optional<std::string> floor_too_rough(const RunConfig& c) {
     constexpr double bearable = 0.5;
-    const double speed = 2.0 * pi * c.amplitude / c.period;
+    const double speed = c.amplitude * c.omega();
     const double parting = 0.5 * c.floor_friction * c.gravity * c.contact_duration;
     if (!c.floor || c.amplitude == 0.0 || parting <= bearable * speed) return {};
     return fmt::format(

@@ -211,11 +211,12 @@ bool Run::look_up() {
         refuse_collapse_lately();
         return false;
     }
-    if (now().events - mark_.events >= collapse_window()) {
+    const Mark here = now();
+    if (here.events - mark_.events >= collapse_window()) {
         refuse_collapse_since(mark_);
-        mark_ = now();
+        mark_ = here;
     }
-    if (now().events - lately_[1].events >= least_collapse_window) lately_ = {lately_[1], now()};
+    if (here.events - lately_[1].events >= least_collapse_window) lately_ = {lately_[1], here};
     const auto time = Clock::now();
     if (!control_.progress || time - last_report_ < progress_interval) return true;
     last_report_ = time;
@@ -242,14 +243,15 @@ void Run::refuse_overlaps() const {
 /// one that obeys a contact duration at most T/t_c.
 void Run::refuse_collapse_since(const Mark& mark) const {
     constexpr double too_fast = 1e8;  // events per disc and swirl
-    const std::uint64_t events = now().events - mark.events;
-    const double swirls = now().periods - mark.periods;
+    const auto [all, until_now] = now();
+    const std::uint64_t events = all - mark.events;
+    const double swirls = until_now - mark.periods;
     const double discs = static_cast<double>(simulation_.size());
     if (static_cast<double>(events) <= too_fast * discs * swirls) return;
     throw Failure(
         fmt::format("The last {} events took {:.2g} swirls, so time all but stands still after "
                     "{:.3f} swirls: {}",
-                    events, swirls, periods(), reason_for_collapse()));
+                    events, swirls, until_now, reason_for_collapse()));
 }
 
 /// At the end, or when it is stopped: of the last few hundred events alone, for what was before

@@ -37,6 +37,22 @@ const barriers = async (where) => {
     assert.deepEqual(violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], where);
 };
 const text = (id) => page.textContent(`#${id}`);
+/** The name and the bytes of what a button saves. */
+const downloaded = async (button) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+    const chunks = await (await download.createReadStream()).toArray();
+    return [download.suggestedFilename(), Buffer.concat(chunks)];
+};
+/** A study of 20 swirls a run, until all its findings are told. */
+const study = async (discs, mu, findings) => {
+    await page.fill("#study-discs", discs);
+    await page.fill("#study-mu", mu);
+    await page.fill("#study-swirls", "20");
+    await page.click("#study-start");
+    await page.waitForFunction(
+        (wanted) => document.querySelectorAll("#study-findings li").length === wanted, findings,
+        {timeout: 60_000});
+};
 const open = async (query) => {
     await page.goto(address + query);
     await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
@@ -298,16 +314,10 @@ for (const [wrong, said] of [["5:x", /must be numbers or ranges/], ["", /must be
     await page.click("#study-start");
     assert.match(await text("study-said"), said);
 }
-await page.fill("#study-discs", "5, 8:2:10");
-await page.fill("#study-mu", "0, 1");
-await page.fill("#study-swirls", "20");
-await page.click("#study-start");
-await page.waitForFunction(() => document.querySelectorAll("#study-findings li").length === 2, null,
-                           {timeout: 60_000});
+await study("5, 8:2:10", "0, 1", 2);
 assert.match(await text("study-said"), /^6 of 6 runs/);
 await barriers("the study");
-const study = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
-const table = (await (await study[0].createReadStream()).toArray()).join("").trim().split("\n");
+const table = (await downloaded("#study-table"))[1].toString().trim().split("\n");
 assert.equal(table.length, 7);
 assert.equal(table[0], "mu,discs,varpi,varpi_error,collapsed");
 assert.ok(table.slice(1).every((row) => row.split(",").every((x) => Number.isFinite(Number(x)))));
@@ -320,15 +330,9 @@ await page.click("#study summary");
 // A run of it that collapses is told, and has no average.
 await page.goto(`${address}?discs=5&restitution=0.5&contact_duration=0`);
 await page.click("#study summary");
-await page.fill("#study-discs", "48");
-await page.fill("#study-mu", "1");
-await page.fill("#study-swirls", "20");
-await page.click("#study-start");
-await page.waitForFunction(() => document.querySelectorAll("#study-findings li").length === 1, null,
-                           {timeout: 60_000});
+await study("48", "1", 1);
 assert.match(await text("study-said"), /^1 of 1 runs done\. Collapsed, and left out.*: N = 48 at μ = 1\.$/);
-const lost = await Promise.all([page.waitForEvent("download"), page.click("#study-table")]);
-assert.match((await (await lost[0].createReadStream()).toArray()).join(""), /\n1,48,,,1\n$/);
+assert.match((await downloaded("#study-table"))[1].toString(), /\n1,48,,,1\n$/);
 await page.click("#study summary");
 
 // The lesson goes through its six steps by keyboard alone.
@@ -357,11 +361,9 @@ for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
                                       ["#save-film", "swirl.webm", "\x1a\x45\xdf\xa3"],
                                       ["#save-positions", "swirl.xyz", "28\nProperties=species"],
                                       ["#save-result", "result.json", "{\n"]]) {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
-    assert.equal(download.suggestedFilename(), name);
-    const chunks = [];
-    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-    saved[name] = Buffer.concat(chunks);
+    const [called, bytes] = await downloaded(button);
+    assert.equal(called, name);
+    saved[name] = bytes;
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
 
