@@ -48,6 +48,8 @@ std::string name_of_film(const std::string& film) {
     return path.stem().string();
 }
 
+#ifdef SWIRL_CAMERA
+
 /// What tells whether tracks that are there are of this film as it is now.
 nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string& film) {
     std::error_code ignored;
@@ -60,8 +62,6 @@ nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string
             {"spin", call.spin},
             {"version", version()}};
 }
-
-#ifdef SWIRL_CAMERA
 
 /// Tracks the film unless that was done; returns the table.
 fs::path tracks_of(const ExperimentCall& call, const std::string& film, FilmedDish& dish) {
