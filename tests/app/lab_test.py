@@ -282,6 +282,14 @@ class Laboratory(unittest.TestCase):
             packed = gzip.compress(opened.read(), 9)
         self.assertLessEqual(len(packed), 400_000)
 
+    def test_it_moves_soon_and_is_drawn_often(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page,
+                               CHROMIUM], capture_output=True, text=True, timeout=120)
+        print(done.stdout)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_one_file_asks_nothing_of_anybody(self):
         with open(self.page, encoding="utf-8") as opened:
             text = opened.read()

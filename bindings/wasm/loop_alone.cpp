@@ -1,0 +1,33 @@
+// The event loop alone, with nobody who looks on: what WebAssembly comes to beside
+// `swirl bench --width baseline` (web/test/speed.mjs). No part of the laboratory.
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "swirl/run/config.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/simulation/simulation.hpp"
+
+#define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
+
+namespace swirl {
+
+// The dishes that are timed are right.
+void throw_wrong_call(const std::string&) { __builtin_trap(); }
+void throw_interrupted(const std::string&) { __builtin_trap(); }
+
+namespace {
+std::unique_ptr<Simulation> simulation;
+}
+
+EXPORTED(begin) void begin(std::uint32_t discs) {
+    RunConfig config;
+    config.discs = discs;
+    simulation = std::make_unique<Simulation>(make_initial_state(config));
+}
+
+EXPORTED(run_events) void run_events(std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k) simulation->step();
+}
+
+}  // namespace swirl
