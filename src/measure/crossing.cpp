@@ -81,43 +81,52 @@ Line fit(std::span<const RotationPoint> points) {
     return line;
 }
 
-void locate(Crossing& crossing, const Line& line) {
-    crossing.slope = line.slope;
-    const double x = -line.height / line.slope;
-    crossing.discs = line.centre + x;
-    crossing.error =
+struct Place {
+    double discs, error, lower, upper;
+};
+
+/// The zero of the line, which lies between `before` and `after`: their signs are certain.
+Place zero_between(const Line& line, double before, double after) {
+    const double anywhere = (after - before) / std::sqrt(12.0);
+    const double x = -line.height / line.slope, discs = line.centre + x;
+    if (!(discs >= before && discs <= after))
+        return {0.5 * (before + after), anywhere, before, after};
+    const double error =
         std::sqrt(line.height_variance + line.slope_variance * x * x) / std::abs(line.slope);
+    Place place{discs, std::min(error, anywhere), before, after};
     // Fieller: A x² + 2 B x + C ≤ 0.
     const double A = line.slope * line.slope - z * z * line.slope_variance;
     const double B = line.height * line.slope;
     const double C = line.height * line.height - z * z * line.height_variance;
-    const double infinite = std::numeric_limits<double>::infinity();
-    if (!(A > 0.0)) {
-        crossing.lower = -infinite;
-        crossing.upper = infinite;
-        return;
-    }
+    if (!(A > 0.0)) return place;
     const double root = std::sqrt(std::max(B * B - A * C, 0.0));
-    crossing.lower = line.centre + (-B - root) / A;
-    crossing.upper = line.centre + (-B + root) / A;
+    place.lower = std::max(before, line.centre + (-B - root) / A);
+    place.upper = std::min(after, line.centre + (-B + root) / A);
+    return place;
 }
-
-/// Errors that make a sign certain, where there are many to ask.
-constexpr double certain = 3.0;
 
 /// +1, −1, or 0 for one that is not certain.
 int sign_of(const RotationPoint& p) {
-    return p.mean > certain * p.error ? 1 : p.mean < -certain * p.error ? -1 : 0;
+    return p.mean > certain_sign * p.error ? 1 : p.mean < -certain_sign * p.error ? -1 : 0;
 }
 
 SignChange sign_change(std::span<const RotationPoint> between) {
-    const Line line = fit(between);
     SignChange change{between.front().discs, between.back().discs, between.front().mean > 0.0};
-    const double x = -line.height / line.slope;
-    change.discs = line.centre + x;
-    change.error =
-        std::sqrt(line.height_variance + line.slope_variance * x * x) / std::abs(line.slope);
+    const Place place = zero_between(fit(between), change.before, change.after);
+    change.discs = place.discs;
+    change.error = place.error;
     return change;
+}
+
+/// Of points without a change of sign.
+Crossing::Verdict one_sign(const std::vector<RotationPoint>& points) {
+    const auto all = [&](int sign) {
+        return std::all_of(points.begin(), points.end(),
+                           [&](const RotationPoint& p) { return sign_of(p) == sign; });
+    };
+    return all(1)    ? Crossing::Verdict::always_rotates
+           : all(-1) ? Crossing::Verdict::always_counterrotates
+                     : Crossing::Verdict::undecided;
 }
 
 }  // namespace
@@ -151,16 +160,13 @@ Crossing find_crossing(std::span<const RotationPoint> given, int window) {
     if (points.size() < 2) return crossing;
 
     const std::size_t cut = best_cut(points);
-    bool left = false, right = false;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const double significance = points[k].mean / points[k].error;
-        if (k < cut && significance > z) left = true;
-        if (k >= cut && significance < -z) right = true;
-    }
-    if (!left || !right) {
-        if (highest > z && !(lowest < -z)) crossing.verdict = Crossing::Verdict::always_rotates;
-        if (lowest < -z && !(highest > z))
-            crossing.verdict = Crossing::Verdict::always_counterrotates;
+    double before = not_known, after = not_known;  // the nearest whose signs are certain
+    for (std::size_t k = 0; k < cut; ++k)
+        if (sign_of(points[k]) > 0) before = points[k].discs;
+    for (std::size_t k = points.size(); k-- > cut;)
+        if (sign_of(points[k]) < 0) after = points[k].discs;
+    if (!(before < after)) {
+        crossing.verdict = one_sign(points);
         return crossing;
     }
     const std::size_t reach = static_cast<std::size_t>(std::max(window, 1));
@@ -169,8 +175,13 @@ Crossing find_crossing(std::span<const RotationPoint> given, int window) {
     const Line line = fit(std::span(points).subspan(first, last - first));
     crossing.points_used = static_cast<int>(last - first);
     if (!(line.slope < 0.0)) return crossing;
+    const Place place = zero_between(line, before, after);
     crossing.verdict = Crossing::Verdict::crosses;
-    locate(crossing, line);
+    crossing.slope = line.slope;
+    crossing.discs = place.discs;
+    crossing.error = place.error;
+    crossing.lower = place.lower;
+    crossing.upper = place.upper;
     return crossing;
 }
 

@@ -12,11 +12,15 @@
 //
 //     (a + b x)² ≤ z² (σ_a² + σ_b² x²),   x = N − N̄,  z = 1.96 for 95 %.
 //
-// The verdict does not come from the line: a crossing is claimed only if some point left of it is
-// positive and some point right of it is negative, each by more than z errors.
+// The verdict does not come from the line: a crossing is claimed only if some point left of the cut
+// is positive and some point right of it is negative, each by more than three errors, and a curve
+// has one sign throughout only if every one of its points has, by as much. Between the nearest two
+// such points of opposite signs the curve does cross zero, so nothing outside them belongs to the
+// interval; and where the line says less than they do, N_c is anywhere between them: their middle,
+// with the standard deviation of an even distribution, a √12th of their distance.
 //
 // Units: those of N. Limits: points without a finite mean and a finite, non-negative error are left
-// out; fewer than two points, or an interval that is not bounded: the bounds are NaN or infinite.
+// out; fewer than two points decide nothing.
 // An exact point (error 0) counts as having the smallest positive error there is, or 1 if there is
 // none.
 #pragma once
@@ -33,11 +37,14 @@ struct RotationPoint {
     double mean, error;  // ϖ/Ω
 };
 
+/// Errors that make a sign certain: of many points one or two are off by two.
+inline constexpr double certain_sign = 3.0;
+
 struct Crossing {
     enum class Verdict : std::uint8_t {
         crosses,
-        always_rotates,         // no point is significantly negative, and some are positive
-        always_counterrotates,  // no point is significantly positive, and some are negative
+        always_rotates,         // every point is certainly positive
+        always_counterrotates,  // every point is certainly negative
         undecided,              // the errors are too large, or there are too few points
     };
     Verdict verdict = Verdict::undecided;
@@ -60,12 +67,11 @@ struct SignChange {
     double discs = not_known, error = not_known;  // where the line between them is zero
 };
 
-/// Every change of sign that is certain, in order of N. Certain is a sign by more than three
-/// errors (of many points one or two are off by two); between two neighbours of certain and
+/// Every change of sign that is certain, in order of N: between two neighbours of certain and
 /// opposite signs, those of uncertain sign left out of the count, the curve changes sign at least
 /// once. Where: the zero of the straight line through these points and those between them, by
 /// weighted least squares, its error being that of the line, and at least that of how the points
-/// scatter about it.
+/// scatter about it; never outside the two, as above.
 std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> points);
 
 }  // namespace swirl

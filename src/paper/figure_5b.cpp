@@ -7,8 +7,11 @@
 // iterations" (SI, "Simulation parameters").
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
+#include "swirl/run/report.hpp"
 
 namespace swirl {
 namespace {
@@ -19,6 +22,25 @@ struct PointOfFigure5b {
     Friction friction;
     std::int64_t discs;
 };
+
+/// Beyond the paper's numbers the two estimators part: discs near the centre of mass, whose r² is
+/// small, weigh most in the paper's ϖ (cluster_rotation.hpp) and least in that of the rigid body.
+std::string where_estimators_part(const std::vector<RotationPoint>& individual,
+                                  const std::vector<RotationPoint>& rigid) {
+    std::size_t lowest = 0, last = 0;
+    for (std::size_t k = 0; k < individual.size(); ++k) {
+        if (!std::isfinite(individual[k].mean)) continue;
+        if (individual[k].mean < individual[lowest].mean) lowest = k;
+        last = k;
+    }
+    const auto of = [](const RotationPoint& p) { return with_error(p.mean, p.error); };
+    return fmt::format(
+        "The paper's ϖ/Ω, the mean over the discs, is lowest at N = {:.0f}, {}, and {} at N = "
+        "{:.0f}; of the "
+        "rigid body that fits the velocities best it is {} and {} there.",
+        individual[lowest].discs, of(individual[lowest]), of(individual[last]),
+        individual[last].discs, of(rigid[lowest]), of(rigid[last]));
+}
 
 FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>& points,
                      const std::vector<Json>& results, const std::filesystem::path& out) {
@@ -36,14 +58,18 @@ FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>
 
     std::vector<NamedCurve> curves;
     for (const Friction& friction : frictions_of_5b) {
-        std::vector<RotationPoint> curve;
-        for (std::size_t k = 0; k < points.size(); ++k)
-            if (points[k].friction.name == friction.name)
-                curve.push_back(
-                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_event"));
+        std::vector<RotationPoint> curve, rigid;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (points[k].friction.name != friction.name) continue;
+            const auto discs = static_cast<double>(points[k].discs);
+            curve.push_back(rotation_point(discs, results[k], "by_event"));
+            rigid.push_back(rotation_point(discs, results[k], "rigid_by_event"));
+        }
         outcome.findings.push_back(fmt::format("{} (μ_d = {}, μ_w = {}): {}.", friction.words,
                                                friction.mu_disc, friction.mu_wall,
                                                crossing_sentence(curve)));
+        if (!curve.empty() && friction.name == high_friction.name)
+            outcome.findings.push_back(where_estimators_part(curve, rigid));
         curves.push_back({friction.name, curve});
     }
     outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));

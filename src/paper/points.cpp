@@ -233,15 +233,20 @@ std::string crossing_sentence(std::span<const RotationPoint> curve) {
         return fmt::format("crosses zero at N = {} (95 %: {:.1f} to {:.1f})",
                            with_error(crossing.discs, crossing.error), crossing.lower,
                            crossing.upper);
-    const RotationPoint* lowest = nullptr;
+    // The point that is nearest to the other sense.
+    const bool counterrotates = crossing.verdict == Crossing::Verdict::always_counterrotates;
+    const RotationPoint* next = nullptr;
     for (const RotationPoint& p : curve)
-        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
-    if (!lowest) return "has no points";
-    return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f}",
+        if (std::isfinite(p.mean) &&
+            (!next || (counterrotates ? p.mean > next->mean : p.mean < next->mean)))
+            next = &p;
+    if (!next) return "has no points";
+    return fmt::format("{}; {} is ϖ/Ω = {} at N = {:.0f}",
                        crossing.verdict == Crossing::Verdict::undecided
                            ? "the errors are too large to tell whether it crosses zero"
-                           : "does not cross zero",
-                       with_error(lowest->mean, lowest->error), lowest->discs);
+                           : verdict_word(crossing.verdict),
+                       counterrotates ? "highest" : "lowest", with_error(next->mean, next->error),
+                       next->discs);
 }
 
 void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file) {
@@ -252,13 +257,8 @@ void write_crossings(const std::vector<NamedCurve>& curves, const std::filesyste
         RotationPoint lowest{not_known, not_known, not_known};
         for (const RotationPoint& p : curve.points)
             if (std::isfinite(p.mean) && !(p.mean >= lowest.mean)) lowest = p;
-        const char* const verdict =
-            c.verdict == Crossing::Verdict::crosses                 ? "crosses"
-            : c.verdict == Crossing::Verdict::always_rotates        ? "always rotates"
-            : c.verdict == Crossing::Verdict::always_counterrotates ? "always counterrotates"
-                                                                    : "undecided";
-        table.add({curve.name, std::string(verdict), c.discs, c.error, c.lower, c.upper,
-                   lowest.mean, lowest.error, lowest.discs});
+        table.add({curve.name, std::string(verdict_word(c.verdict)), c.discs, c.error, c.lower,
+                   c.upper, lowest.mean, lowest.error, lowest.discs});
     }
     table.write(file);
 }

@@ -95,7 +95,8 @@ void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& 
 /// crossing looks at it.
 RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);
 
-/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or that it does not, and why.
+/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or "always rotates" with the lowest
+/// point.
 std::string crossing_sentence(std::span<const RotationPoint> curve);
 
 /// A curve by name, for the table of the crossings.

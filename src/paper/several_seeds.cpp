@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 
 #include "swirl/files/checksum.hpp"
@@ -74,18 +76,12 @@ Json average_json(const Places& averages, std::span<const double> weights) {
     return json;
 }
 
-/// A cell of a column without errors: what all runs have, or their mean.
-double mean_cell(const std::vector<double>& cells) {
-    double sum = 0.0, known = 0.0;
-    bool same = true;
-    for (const double cell : cells) {
-        if (std::isnan(cell)) continue;
-        same = same && (known == 0.0 || cell == sum / known);
-        sum += cell;
-        known += 1.0;
-    }
-    if (known == 0.0) return not_known;
-    return same ? cells.front() : sum / known;
+/// A cell of a column without errors: what all runs have, to the bit, or their mean.
+double mean_cell(std::vector<double> cells) {
+    std::erase_if(cells, [](double cell) { return std::isnan(cell); });
+    if (cells.empty()) return not_known;
+    if (std::equal(cells.begin() + 1, cells.end(), cells.begin())) return cells.front();
+    return std::accumulate(cells.begin(), cells.end(), 0.0) / static_cast<double>(cells.size());
 }
 
 Json table_json(const Places& tables, std::span<const double> weights) {
@@ -115,7 +111,7 @@ Json table_json(const Places& tables, std::span<const double> weights) {
                 for (const double cell : cells) sum += cell;
                 json[name].push_back(sum);
             } else {
-                json[name].push_back(mean_cell(cells));
+                json[name].push_back(mean_cell(std::move(cells)));
             }
         }
     }
@@ -132,7 +128,7 @@ Json measured_together(const Places& places, std::span<const double> weights) {
     if (!first.is_object()) {
         std::vector<double> cells;
         for (const Json* place : places) cells.push_back(number(*place));
-        return mean_cell(cells);
+        return mean_cell(std::move(cells));
     }
     Json json = Json::object();
     for (const auto& [name, value] : first.items())

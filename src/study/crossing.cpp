@@ -115,8 +115,9 @@ class Search {
         for (std::size_t cut = 1; cut < all.size(); ++cut) {
             double score = 0.0;
             for (std::size_t k = 0; k < all.size(); ++k) {
-                // A sign is certain at three errors; more certain than that does not count more.
-                const double sign = std::clamp(all[k].mean / (3.0 * all[k].error), -1.0, 1.0);
+                // More than certain does not count more.
+                const double sign =
+                    std::clamp(all[k].mean / (certain_sign * all[k].error), -1.0, 1.0);
                 score += k < cut ? sign : -sign;
             }
             if (cut > 1 && score <= most) continue;
@@ -129,8 +130,8 @@ class Search {
     bool changes_sign() const {
         bool positive = false, negative = false;
         for (const RotationPoint& p : points()) {
-            positive = positive || p.mean > 2.0 * p.error;
-            negative = negative || p.mean < -2.0 * p.error;
+            positive = positive || p.mean > certain_sign * p.error;
+            negative = negative || p.mean < -certain_sign * p.error;
         }
         return positive && negative;
     }
@@ -190,11 +191,7 @@ class Search {
         const Crossing crossing = find_crossing(points());
         if (crossing.verdict == Crossing::Verdict::crosses)
             return crossing.error <= settings_.tolerance;
-        if (crossing.verdict == Crossing::Verdict::undecided) return false;
-        // No crossing: every sign must be certain.
-        for (const RotationPoint& p : points())
-            if (!(std::fabs(p.mean) > 3.0 * p.error)) return false;
-        return true;
+        return crossing.verdict != Crossing::Verdict::undecided;
     }
 
     /// `seeds` new runs at each of these numbers.
@@ -262,20 +259,6 @@ class Search {
     std::uint64_t events_ = 0, runs_ = 0;
 };
 
-const char* word(Crossing::Verdict verdict) {
-    switch (verdict) {
-        case Crossing::Verdict::crosses:
-            return "crosses";
-        case Crossing::Verdict::always_rotates:
-            return "always rotates";
-        case Crossing::Verdict::always_counterrotates:
-            return "always counterrotates";
-        case Crossing::Verdict::undecided:
-            break;
-    }
-    return "undecided";
-}
-
 /// How many discs it is at is N_c: "discs" would be a number of a run's discs.
 nlohmann::ordered_json search_json(const CrossingSettings& settings, const CrossingSearch& s,
                                    const std::string& command) {
@@ -293,7 +276,7 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
              {"from", change.before},
              {"to", change.after},
              {"sense", change.to_counterrotation ? "to counterrotation" : "to rotation"}});
-    return {{"verdict", word(s.crossing.verdict)},
+    return {{"verdict", verdict_word(s.crossing.verdict)},
             {"N_c", s.crossing.discs},
             {"N_c_error", s.crossing.error},
             {"N_c_lower", s.crossing.lower},
@@ -336,12 +319,26 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
     return Search(settings, control)();
 }
 
+const char* verdict_word(Crossing::Verdict verdict) {
+    switch (verdict) {
+        case Crossing::Verdict::crosses:
+            return "crosses";
+        case Crossing::Verdict::always_rotates:
+            return "always rotates";
+        case Crossing::Verdict::always_counterrotates:
+            return "always counterrotates";
+        case Crossing::Verdict::undecided:
+            break;
+    }
+    return "undecided";
+}
+
 std::vector<std::string> crossing_columns() {
     return {"verdict", "N_c", "N_c_error", "N_c_lower", "N_c_upper"};
 }
 
 void add_crossing(std::vector<Table::Cell>& row, const Crossing& c) {
-    row.emplace_back(std::string(word(c.verdict)));
+    row.emplace_back(std::string(verdict_word(c.verdict)));
     for (const double value : {c.discs, c.error, c.lower, c.upper}) row.emplace_back(value);
 }
 

@@ -71,6 +71,9 @@ struct CrossingControl {
 CrossingSearch search_crossing(const CrossingSettings& settings,
                                const CrossingControl& control = {});
 
+/// "crosses", "always rotates", "always counterrotates" or "undecided".
+const char* verdict_word(Crossing::Verdict verdict);
+
 /// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
 /// Of a curve that changes its sign more than once, a sentence for each change; else nothing.

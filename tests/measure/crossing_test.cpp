@@ -64,6 +64,39 @@ TEST(Crossing, IsNotClaimedWithoutEvidenceOnBothSides) {
     EXPECT_NEAR(c.most_positive, 360.0, 1e-9);
 }
 
+TEST(Crossing, ACurveHasOneSignOnlyIfEveryPointCertainlyHas) {
+    std::vector<RotationPoint> points = line(60.0, -0.01, 0.001);
+    points.back() = {48.0, 0.0029, 0.001};  // 2.9 errors
+    EXPECT_EQ(find_crossing(points).verdict, Crossing::Verdict::undecided);
+    points.back().mean = -0.0029;
+    EXPECT_EQ(find_crossing(points).verdict, Crossing::Verdict::undecided);
+    points.back().mean = 0.0031;
+    EXPECT_EQ(find_crossing(points).verdict, Crossing::Verdict::always_rotates);
+    points.back().mean = -0.0031;
+    EXPECT_EQ(find_crossing(points).verdict, Crossing::Verdict::crosses);
+}
+
+TEST(Crossing, IsBetweenTheNeighboursWhoseSignsAreCertain) {
+    // Between 30 and 40 nothing is known: the line has hardly a slope, and its interval no end.
+    const std::vector<RotationPoint> vague{
+        {30.0, 0.1, 0.03}, {33.0, -0.2, 0.2}, {36.0, 0.2, 0.2}, {40.0, -0.1, 0.03}};
+    const Crossing c = find_crossing(vague);
+    EXPECT_EQ(c.verdict, Crossing::Verdict::crosses);
+    EXPECT_GE(c.lower, 30.0);
+    EXPECT_LE(c.upper, 40.0);
+    EXPECT_LE(c.error, 10.0 / std::sqrt(12.0));
+    // The line through a step is zero beyond it: it is no line, and the step is known.
+    const std::vector<RotationPoint> step{{10.0, 1.0, 0.001},   {12.0, 1.0, 0.001},
+                                          {14.0, 1.0, 0.001},   {16.0, -0.01, 0.003},
+                                          {30.0, -0.02, 0.001}, {40.0, -0.03, 0.001}};
+    const Crossing s = find_crossing(step);
+    EXPECT_EQ(s.verdict, Crossing::Verdict::crosses);
+    EXPECT_EQ(s.discs, 15.0);
+    EXPECT_EQ(s.lower, 14.0);
+    EXPECT_EQ(s.upper, 16.0);
+    EXPECT_NEAR(s.error, 2.0 / std::sqrt(12.0), 1e-15);
+}
+
 TEST(Crossing, AFluctuationFarAwayDoesNotMoveIt) {
     std::vector<RotationPoint> points = line(36.0, -0.01, 0.002);
     points[1].mean = -0.001;  // N = 25, half an error below zero

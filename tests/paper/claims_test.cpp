@@ -72,6 +72,25 @@ TEST(PaperClaimsSlow, WithoutDiscFrictionThereIsNoCrossing) {
     for (const RotationPoint& p : points) EXPECT_GT(p.mean, 0.5) << "N = " << p.discs;
 }
 
+// Not in the paper: at its lowest N and friction it averages over two states, of which the second
+// stays.
+TEST(PaperClaimsSlow, FiveSmoothDiscsEndTurningWithTheSwirl) {
+    const auto rotation = [](std::uint64_t seed, std::int64_t warmup) {
+        RunConfig config;
+        config.discs = 5;
+        config.mu_disc = config.mu_wall = 0.1;
+        config.seed = seed;
+        config.warmup = warmup;
+        config.periods = warmup + 200;
+        return run(config).rotation.by_time;
+    };
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Estimate first = rotation(seed, 20), later = rotation(seed, 3000);
+        EXPECT_LT(first.mean, 1.0 - 5.0 * first.error) << "seed " << seed;
+        EXPECT_NEAR(later.mean, 1.0, 5.0 * later.error) << "seed " << seed;
+    }
+}
+
 // Not in the paper, but why its table's I = 10 matters: solid discs do not counterrotate.
 TEST(PaperClaimsSlow, SolidDiscsRotateAtEveryNumber) {
     for (const std::int64_t discs : {28, 48}) {

@@ -39,6 +39,19 @@ TEST(SeveralSeeds, AveragesAreThoseOfTheRunsAndHaveTheErrorOfAll) {
     EXPECT_EQ(steadiness(all), "steady");
 }
 
+TEST(SeveralSeeds, ACellThatAllHaveStaysAsItIsToTheBit) {
+    const auto with = [](double layer) {
+        Json run = run_of(0.1);
+        run["measured"]["wall"]["sensitivity"] = {{"layer", {layer}}};
+        return run;
+    };
+    // (1.3 + 1.3 + 1.3) / 3 is another number.
+    const Json all = several_seeds({with(1.3), with(1.3), with(1.3), with(1.3), with(1.3)});
+    EXPECT_EQ(all["measured"]["wall"]["sensitivity"]["layer"][0], 1.3);
+    const Json later = several_seeds({with(not_known), with(1.7), with(1.7)});
+    EXPECT_EQ(later["measured"]["wall"]["sensitivity"]["layer"][0], 1.7);
+}
+
 TEST(SeveralSeeds, ByTimeLongRunsCountMore) {
     const Json all = several_seeds({run_of(0.0, "steady", 120.0), run_of(0.4, "steady", 320.0)});
     EXPECT_NEAR(number(at(all, {"rotation", "by_time", "mean"})), 0.3, 1e-12);

@@ -88,11 +88,36 @@ TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
 
 INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
                          testing::Values(Point{8, 1.0}, Point{28, 1.0}, Point{36, 0.2},
-                                         Point{48, 1.0}),
+                                         Point{47, 1.0}, Point{48, 1.0}),
                          [](const auto& point) {
                              return "N" + std::to_string(point.param.discs) +
                                     (point.param.mu == 1.0 ? "Rough" : "Smooth");
                          });
+
+// Dense dishes have states that outlive such a run, which no run can know of by itself: with 52
+// discs its interval holds the truth far too seldom. Eight seeds, as every point of the paper's
+// figures has, know.
+TEST(SlowCalibrationOfADenseDish, EightSeedsKnowOfStatesThatOutliveARun) {
+    const auto rotations = [](std::size_t count, std::int64_t swirls, std::uint64_t first_seed) {
+        std::vector<Estimate> all(count);
+        on_all_cores(count, [&](std::size_t k) {
+            RunConfig config;
+            config.discs = 52;
+            config.periods = default_warmup + swirls;
+            config.seed = first_seed + k;
+            all[k] = swirl::run(config).rotation.by_event;
+        });
+        return all;
+    };
+    const std::vector<Estimate> runs = rotations(8 * repetitions, 100, 1);
+    const double truth = several_runs(runs).estimate.mean;
+    std::vector<Estimate> collected;
+    for (std::size_t k = 0; k < repetitions; ++k)
+        collected.push_back(several_runs(std::span(runs).subspan(8 * k, 8)).estimate);
+    std::printf("single runs: %d of %zu hold the truth\n", judge(runs, truth).held, runs.size());
+    // The truth is that of all runs together: uncertain by a sixth of one's error, and shared.
+    expect_calibrated("eight runs", collected, truth);
+}
 
 TEST(SlowCalibrationOfTheCrossing, ItsIntervalHoldsTheCrossing) {
     CrossingSettings settings;
