@@ -16,7 +16,7 @@ class Bench(InFolder):
         with open(self.path("b.json")) as f:
             result = json.load(f)
         rows = {(row["scene"], row["discs"]): row for row in result["rows"]}
-        self.assertEqual(len(rows), 10)
+        self.assertEqual(len(rows), 11)
         for row in rows.values():
             self.assertGreater(row["rate"], 0)
             # Lanes are filled up, and those a list may take are laid out in columns of 512 (36 bytes
@@ -30,11 +30,14 @@ class Bench(InFolder):
             row = rows["spheres, mu = 0.2", spheres]
             self.assertEqual(row["plain_width"], "scalar")
             self.assertGreater(row["ratio"], 1)
-        self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_rate"])
-        self.assertIsNone(rows["gas, packing 0.7", 100000]["plain_width"])
+        for gas in (("gas, packing 0.7", 100000), ("gas, packing 0.2", 1000), ("gas, packing 0.01", 1000)):
+            self.assertEqual(rows[gas]["plain_width"], "lists")
+            self.assertGreater(rows[gas]["plain_rate"], 0)
+        self.assertIsNone(rows["large dish, mu = 1", 100000]["plain_rate"])
+        self.assertIsNone(rows["large dish, mu = 1", 100000]["plain_width"])
         self.check_targets(result, done.stdout)
         with open(self.path("b.csv")) as f:
-            self.assertEqual(len(f.readlines()), 11)
+            self.assertEqual(len(f.readlines()), 12)
 
     def check_targets(self, result, printed):
         """Every rate and ratio that has a target, and what else was measured without --full."""

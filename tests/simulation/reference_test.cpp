@@ -8,6 +8,7 @@
 #include "simulation/plain_grid.hpp"
 #include "simulation/same_trajectory.hpp"
 #include "simulation/scenes.hpp"
+#include "swirl/study/rival/plain_lists.hpp"
 #include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
@@ -266,6 +267,22 @@ TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
         Reference plain(scene);
         PlainLoop rival(scene, GetParam());
         for (int k = 0; k < 5000; ++k) {
+            const Event expected = plain.step(), found = rival.step();
+            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+            ASSERT_EQ(expected.i, found.i) << "event " << k;
+            ASSERT_EQ(expected.j, found.j) << "event " << k;
+        }
+    }
+}
+
+TEST(PlainLists, AreTheReferenceBitForBit) {
+    // Dense, thin, and with lists that hold nearly everybody; over the end of a swirl, too.
+    for (const auto& [packing, reach] : {std::pair{0.7, 1.6}, {0.2, 3.0}, {0.02, 6.0}}) {
+        InitialState scene = gas_at_rest(101, packing);
+        scene.path = still_path(3.0);
+        Reference plain(scene);
+        PlainLists rival(scene, reach);
+        for (int k = 0; k < (sanitized ? 1000 : 10000); ++k) {
             const Event expected = plain.step(), found = rival.step();
             ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
             ASSERT_EQ(expected.i, found.i) << "event " << k;
