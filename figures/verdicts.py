@@ -138,13 +138,15 @@ def parts(*statements):
 
 # A step back of this share of the whole rise is none.
 STEP_BACK = 0.1
+# Of fewer points one cannot say that they rise all the way.
+LEAST_POINTS = 3
 
 
 def rises(values):
     """A curve that rises: certainly higher at its end than at its beginning, and with no certain
     fall between neighbours of more than STEP_BACK of the whole."""
     values = [v for v in values if v.mean == v.mean]
-    if len(values) < 3:
+    if len(values) < LEAST_POINTS:
         return Part(UNDECIDED, frozenset().union(*(v.points for v in values)))
     rise = values[-1] - values[0]
     overall = above(rise, 0.0)
