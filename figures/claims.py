@@ -22,7 +22,7 @@ import sys
 
 import tables
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part, Value,  # noqa: F401
-                      above, below, either, every, falls, mean_of, parts, rises, true, within)
+                      above, agreed, below, either, every, falls, mean_of, parts, rises, true, within)
 
 # What the paper leaves open.
 NEAR_OMEGA = 0.05          # of Ω: "remains at that of the container"
@@ -445,22 +445,49 @@ def unwrapped(rows, name):
     return result
 
 
+def by_choice(folder):
+    """Places and shares of the stays for every choice of the wall's layer and of the least length
+    of a stay: (layer in disc radii, length in swirls): rows in order of N."""
+    points = {row["discs"]: row.get("point") for row in folder.table("3a")}
+    choices = {}
+    for row in folder.curve("3a_sensitivity"):
+        # The layer is computed from the dish's radius, and its last digit differs between N.
+        choice = (round(row["layer"], 6), round(row["least_length"], 6))
+        choices.setdefault(choice, []).append(row | {"point": points.get(row["discs"])})
+    return choices
+
+
+def from_to(choices, found):
+    """Of numbers found for each choice the lowest and the highest, and what was chosen."""
+    found = [v.mean for v in found if v.known]
+    layers, lengths = sorted({c[0] for c in choices}), sorted({c[1] for c in choices})
+    return (f"{min(found):.0f} to {max(found):.0f}" if found else "not known"), (
+        f"{len(choices)} choices of the layer ({layers[0]:g} to {layers[-1]:g} radii from the wall) "
+        f"and of the least length of a stay ({lengths[0]:.2f} to {lengths[-1]:.2f} swirls)")
+
+
 def pinned_grows(folder):
-    rows = angles(folder)
-    return rises(values(rows, "stay_share")), (
-        f"Share of the discs that is on a stay at the wall: {ends(rows, 'stay_share')}. Pinned by "
-        f"the SI's criterion: {ends(rows, 'share')}.")
+    rows, choices = angles(folder), by_choice(folder)
+    found = [rises(values(c, "share")) for c in choices.values()]
+    return agreed(found), (
+        f"Share of the discs that is on a stay at the wall: {ends(rows, 'stay_share')}; it rises for "
+        f"{count(found)} of {from_to(choices, [])[1]}. Pinned by the SI's criterion: "
+        f"{ends(rows, 'share')}.")
 
 
 def pinned_earlier(folder):
-    rows = angles(folder)
-    path = unwrapped(rows, "stay_begins")
-    # Discs run clockwise, so earlier is at a larger θ.
-    shift = path[-1] - path[0]
-    return above(shift, EARLIER), (
+    def moved(rows, name):
+        path = unwrapped(rows, name)
+        # Discs run clockwise, so earlier is at a larger θ.
+        return path[-1] - path[0]
+
+    rows, choices = angles(folder), by_choice(folder)
+    shifts = [moved(c, "becoming_pinned") for c in choices.values()]
+    span, choice = from_to(choices, shifts)
+    return agreed([above(shift, EARLIER) for shift in shifts]), (
         f"Stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees); the place moves "
-        f"upstream by {number(shift)}° (earlier: more than {EARLIER:.0f}°). By the SI's sharp "
-        f"turns: {ends(rows, 'becoming_pinned')}.")
+        f"upstream by {number(moved(rows, 'stay_begins'))}° (earlier: more than {EARLIER:.0f}°), and "
+        f"by {span}° with the {choice}. By the SI's sharp turns: {ends(rows, 'becoming_pinned')}.")
 
 
 def resultants(rows, name):
@@ -468,16 +495,22 @@ def resultants(rows, name):
 
 
 def free_fixed(folder):
-    rows = angles(folder)
-    path = unwrapped(rows, "stay_ends")
-    low, high = min(path, key=lambda a: a.mean), max(path, key=lambda a: a.mean)
-    return below(high - low, SAME_PLACE), (
+    def spread(rows, name):
+        path = unwrapped(rows, name)
+        return max(path, key=lambda a: a.mean) - min(path, key=lambda a: a.mean)
+
+    rows, choices = angles(folder), by_choice(folder)
+    spreads = [spread(c, "becoming_free") for c in choices.values()]
+    same = [below(s, SAME_PLACE) for s in spreads]
+    span, choice = from_to(choices, spreads)
+    return agreed(same), (
         f"Stays at the wall end at θ = {ends(rows, 'stay_ends')} (degrees; resultant length "
         f"{resultants(rows, 'stay_ends_resultant')}): over all N the place moves by "
-        f"{number(high - low)}° (the same place: within {SAME_PLACE:.0f}°). By the SI's criterion "
-        f"{ends(rows, 'becoming_free')}, with resultants "
-        f"{resultants(rows, 'becoming_free_resultant')}: it counts discs that fly along the wall "
-        "far from it, its places have two maxima, and their mean says little.")
+        f"{number(spread(rows, 'stay_ends'))}°, and by {span}° with the {choice}. The same place "
+        f"(within {SAME_PLACE:.0f}°) for certain with {count(same)} of them, another for certain "
+        f"with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'becoming_free')}, with "
+        f"resultants {resultants(rows, 'becoming_free_resultant')}: it counts discs that fly along "
+        "the wall far from it, its places have two maxima, and their mean says little.")
 
 
 def left_of_M(folder):

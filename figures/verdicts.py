@@ -12,6 +12,8 @@ lies above or below a bound, and three standard errors decide:
                     that says one thing this is never the verdict
 
 What the paper leaves open ("roughly", "slightly", "nearly") is a bound with a name, in claims.py.
+Where what is measured depends on a choice of ours (how thick is the layer at the wall?), a claim is
+judged for each of the choices, and decided only if they agree.
 """
 
 import math
@@ -123,6 +125,19 @@ def either(statements):
     if open_ones or not statements:
         return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
     return Part(FAILS)
+
+
+def agreed(statements):
+    """One statement, judged once for each choice that could have been made of what is measured. If
+    for one choice it holds and for another it does not, that is for certain, and no seeds would
+    decide it."""
+    statements = list(statements)
+    verdicts = {s.verdict for s in statements}
+    if {HOLDS, FAILS} <= verdicts:
+        return Part(UNDECIDED)
+    if UNDECIDED in verdicts or not statements:
+        return Part(UNDECIDED, frozenset().union(*(s.points for s in statements)))
+    return Part(verdicts.pop())
 
 
 def parts(*statements):

@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True
 import claims  # noqa: E402
 import report  # noqa: E402
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part,  # noqa: E402
-                      Value, above, below, either, every, falls, mean_of, parts, rises, true,
+                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, true,
                       within)
 
 
@@ -55,6 +55,19 @@ class Rules(unittest.TestCase):
         self.assertEqual(either([no, yes, open_one]), HOLDS)
         self.assertEqual(either([no, open_one]), UNDECIDED)
         self.assertEqual(either([no, no]), FAILS)
+
+    def test_a_choice_of_ours_decides_nothing(self):
+        yes, no = Part(HOLDS), Part(FAILS)
+        open_one = Part(UNDECIDED, ["a"])
+        self.assertEqual(agreed([yes, yes]), HOLDS)
+        self.assertEqual(agreed([no, no]), FAILS)
+        self.assertEqual(agreed([yes, no]), UNDECIDED)
+        self.assertEqual(agreed([]), UNDECIDED)
+        # More seeds help where errors are in the way, not where choices disagree.
+        self.assertEqual(agreed([yes, open_one]).points, {"a"})
+        self.assertEqual(agreed([no, open_one]).points, {"a"})
+        self.assertEqual(agreed([yes, no, open_one]), UNDECIDED)
+        self.assertEqual(agreed([yes, no, open_one]).points, frozenset())
 
     def test_several_statements_may(self):
         yes, no, open_one = Part(HOLDS), Part(FAILS), Part(UNDECIDED)
@@ -246,21 +259,68 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(20, 1), UNDECIDED)
         self.assertEqual(judged(0, 0, 8), UNDECIDED)
 
-    def stays(self, *places, error=1.0):
+    def stays(self, *choices, name="becoming_free", error=1.0):
+        """For each choice of the layer one place or share at N = 24, 36, 48."""
+        numbers = (24, 36, 48)
         self.table("3a", [
-            {"discs": n, "stay_ends": a, "stay_ends_error": error, "stay_ends_resultant": 0.8,
+            {"discs": n, "point": f"high_N{n}", "stay_begins": 200 + n, "stay_begins_error": 1,
+             "stay_ends": 120 - n, "stay_ends_error": 1, "stay_ends_resultant": 0.8,
+             "stay_share": n / 100, "stay_share_error": 0.01, "share": 0.5, "share_error": 0.01,
+             "becoming_pinned": 250, "becoming_pinned_error": 1,
              "becoming_free": 50, "becoming_free_error": 1, "becoming_free_resultant": 0.3}
-            for n, a in zip((24, 36, 48), places)])
+            for n in numbers])
+        # The last digit of the layer differs between N, as it does in the study's table.
+        self.table("3a_sensitivity", [
+            {"discs": n, "layer": 1.3 + 0.2 * k + (n == 36) * 2e-16 * (1 + k), "least_length": 0.078,
+             name: a, f"{name}_error": error}
+            for k, places in enumerate(choices) for n, a in zip(numbers, places)])
 
     def test_angles_pass_through_zero(self):
-        self.stays(8, 355, 1)
+        near, far = (8, 355, 1), (8, 355, 300)
+        self.stays(near)
         verdict, found = claims.free_fixed(self.folder)
         self.assertEqual(verdict, HOLDS)  # they span 13°, not 354°
-        self.assertIn("13.0 ± 1.4°", found)
-        self.stays(8, 355, 300)
+        self.assertIn("by 13 to 13°", found)
+        self.stays(far)
         self.assertEqual(claims.free_fixed(self.folder)[0], FAILS)
-        self.stays(8, 355, 1, error=9.0)
-        self.assertEqual(claims.free_fixed(self.folder)[0], UNDECIDED)
+        self.stays(near, error=9.0)
+        undecided = claims.free_fixed(self.folder)[0]
+        self.assertEqual(undecided, UNDECIDED)
+        self.assertEqual(undecided.points, {"high_N24", "high_N36"})
+
+    def test_a_place_that_depends_on_our_layer_is_undecided(self):
+        near, far = (100, 105, 95), (100, 80, 60)
+        self.stays(near, far, far)
+        verdict, found = claims.free_fixed(self.folder)
+        self.assertEqual(verdict, UNDECIDED)
+        self.assertEqual(verdict.points, frozenset())  # no seeds would tell
+        self.assertIn("by 10 to 40° with the 3 choices", found)
+        self.assertIn("with 1 of them, another for certain with 2", found)
+        self.stays(far, far, far)
+        self.assertEqual(claims.free_fixed(self.folder)[0], FAILS)
+
+    def test_entering_earlier_is_at_a_larger_angle_for_every_layer(self):
+        def judged(*choices, error=1.0):
+            self.stays(*choices, name="becoming_pinned", error=error)
+            return claims.pinned_earlier(self.folder)[0]
+        upstream, downstream, a_little = (200, 250, 300), (300, 250, 200), (200, 202, 205)
+        self.assertEqual(judged(upstream, upstream), HOLDS)
+        self.assertEqual(judged(downstream, downstream), FAILS)
+        self.assertEqual(judged(a_little, a_little), FAILS)  # 5° are not "earlier"
+        self.assertEqual(judged(upstream, downstream), UNDECIDED)
+        self.assertEqual(judged((300, 340, 20)), HOLDS)  # through zero
+        self.assertEqual(judged((200, 205, 212)), UNDECIDED)
+        self.assertEqual(judged((200, 205, 212)).points, {"high_N24", "high_N48"})
+
+    def test_the_pinned_region_grows_for_every_layer(self):
+        def judged(*choices, error=0.01):
+            self.stays(*choices, name="share", error=error)
+            return claims.pinned_grows(self.folder)[0]
+        up, down = (0.2, 0.3, 0.4), (0.4, 0.3, 0.2)
+        self.assertEqual(judged(up, up), HOLDS)
+        self.assertEqual(judged(down, down), FAILS)
+        self.assertEqual(judged(up, down), UNDECIDED)
+        self.assertEqual(judged(up, error=0.1), UNDECIDED)
 
     def test_a_ball_that_nothing_turns_does_not_rotate(self):
         def judged(slipping, rolling):
