@@ -6,7 +6,8 @@ the one threshold; every other number is a constant with a name, below.
 
 Claims that the paper does not make are none of these; nor is a fact of its experiment judged, whose
 friction is not known, by the paper's discs. Spheres that roll on a floor are that experiment but for
-their friction: of those, what is claimed must come out for one of the frictions that were tried.
+their friction: of those, what is claimed must come out for one of the frictions that were tried, all of it
+for the same one. Only what is said of several frictions must come out for all.
 
 Source of all claims: L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon, S. M. Rubinstein, Physical
 Review E 100, 012903 (2019), main text and Supplementary Information (SI).
@@ -22,7 +23,8 @@ import sys
 
 import tables
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part, Value,  # noqa: F401
-                      above, agreed, below, either, every, falls, mean_of, parts, rises, true, within)
+                      above, agreed, below, either, every, falls, mean_of, parts, rises, step_back,
+                      true, within)
 
 # What the paper leaves open.
 NEAR_OMEGA = 0.05          # of Ω: "remains at that of the container"
@@ -171,6 +173,19 @@ def ends(rows, name):
 
 def values(rows, name):
     return [value(row, name) for row in rows]
+
+
+def rising(rows, name, falling=False):
+    """The verdict on a curve that should rise (or fall) with N, and where it does not, in words."""
+    found = values(rows, name)
+    sought = [-v for v in found] if falling else found
+    back = step_back(sought)
+    if back is None:
+        return rises(sought), ""
+    a, b = (rows[k] for k in back)
+    return rises(sought), (
+        f", but it {'rises' if falling else 'falls'} from {number(value(a, name))} at N = "
+        f"{a['discs']:.0f} to {number(value(b, name))} at N = {b['discs']:.0f}")
 
 
 def count(statements, verdict=HOLDS):
@@ -349,7 +364,8 @@ def pinned_reach_wall(folder):
 
 def pinned_faster(folder):
     rows = pinned_means(folder, "3a", "varpi_m")
-    return falls(values(rows, "mean")), f"⟨ϖ_M⟩/Ω in the pinned region: {ends(rows, 'mean')}."
+    part, but = rising(rows, "mean", falling=True)
+    return part, f"⟨ϖ_M⟩/Ω in the pinned region: {ends(rows, 'mean')}{but}."
 
 
 def loose_peak(folder):
@@ -372,10 +388,10 @@ def loose_peak(folder):
 
 def slip_rises(folder):
     rows = folder.curve("4a", setting="high")
-    return parts(rises(values(rows, "pinned_at_wall")),
-                 above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
-        f"s of the pinned discs in the wall layer: {ends(rows, 'pinned_at_wall')} (nearly 1: above "
-        f"{NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. The "
+    part, but = rising(rows, "pinned_at_wall")
+    return parts(part, above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
+        f"s of the pinned discs in the wall layer: {ends(rows, 'pinned_at_wall')}{but} (nearly 1: "
+        f"above {NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. The "
         "0.5 at N = 25 is of the experiment, whose friction is not known.")
 
 
@@ -395,8 +411,9 @@ def slip_rough(folder):
 
 def wall_spin(folder):
     rows = folder.curve("4b", setting="high")
-    return falls(values(rows, "pinned_wall_spin")), (
-        f"⟨|ω|⟩/Ω of the pinned discs at the wall: {ends(rows, 'pinned_wall_spin')}.")
+    part, but = rising(rows, "pinned_wall_spin", falling=True)
+    return part, (
+        f"⟨|ω|⟩/Ω of the pinned discs at the wall: {ends(rows, 'pinned_wall_spin')}{but}.")
 
 
 def gears(folder):
@@ -677,13 +694,30 @@ def spheres_at(folder, figure, curve, discs):
     return value(rows[0], "by_time")
 
 
+def for_some_friction(folder, figure, judge):
+    """A statement on spheres is true if it is for one of the frictions, as that of the experiment's
+    is not known. `judge` takes the rows of one friction and returns its verdict and words."""
+    judged = [(mu, *judge(folder.curve(figure, most=math.inf, mu=mu)))
+              for mu in sorted({row["mu"] for row in folder.table(figure)})]
+    found = [part for _, part, _ in judged]
+    told = "; ".join(f"μ = {mu:g}: {words}" for mu, _, words in judged)
+    return either(found), f"{told}. It holds for {count(found)} of {len(found)} frictions"
+
+
+def at(rows, discs):
+    return [row for row in rows if row["discs"] == discs][0]
+
+
 def spheres_transition(folder):
-    rows = folder.curve("spheres", most=math.inf, mu=PLASTIC)
-    dense = [spheres_at(folder, "spheres", f"{PLASTIC:g}", n) for n in DENSE_SPHERES]
-    return parts(above(value(rows[0], "by_time"), 0), every([below(v, 0) for v in dense])), (
-        f"With their real moment of inertia, μ = {PLASTIC:g}: ϖ/Ω = "
-        f"{number(value(rows[0], 'by_time'))} at N = {rows[0]['discs']:.0f}, " + ", ".join(
-            f"{number(v)} at N = {n}" for v, n in zip(dense, DENSE_SPHERES)) + ".")
+    def judge(rows):
+        dense = [at(rows, n) for n in DENSE_SPHERES]
+        return (every([above(value(rows[0], "by_time"), 0)] +
+                      [below(v, 0) for v in values(dense, "by_time")]),
+                ", ".join(f"{number(value(row, 'by_time'))} at N = {row['discs']:.0f}"
+                          for row in [rows[0], *dense]))
+
+    part, told = for_some_friction(folder, "spheres", judge)
+    return part, f"ϖ/Ω with their real moment of inertia: {told}."
 
 
 def last_changes(folder):
@@ -728,13 +762,18 @@ def spheres_friction_order(folder):
 
 
 def spheres_minimum(folder):
-    rows = folder.curve("spheres", most=math.inf, mu=PLASTIC)
-    lowest, last = min(rows, key=lambda row: row["by_time"]), rows[-1]
-    rise = value(last, "by_time") - value(lowest, "by_time")
-    return above(rise, 0), (
-        f"Lowest at N = {lowest['discs']:.0f}, ϖ/Ω = {number(value(lowest, 'by_time'))}; at N = "
-        f"{last['discs']:.0f}, the last that was run, it is {number(value(last, 'by_time'))} "
-        f"(μ = {PLASTIC:g}).")
+    def judge(rows):
+        # Whether a curve that is lowest at its end falls to it or is only uncertain there, errors
+        # tell.
+        lowest, last = min(rows[:-1], key=lambda row: row["by_time"]), rows[-1]
+        return (every([below(value(lowest, "by_time"), 0),
+                       above(value(last, "by_time") - value(lowest, "by_time"), 0)]),
+                f"lowest before the end {number(value(lowest, 'by_time'))} at N = "
+                f"{lowest['discs']:.0f}, at the end {number(value(last, 'by_time'))} at N = "
+                f"{last['discs']:.0f}")
+
+    part, told = for_some_friction(folder, "spheres", judge)
+    return part, f"ϖ/Ω: {told}."
 
 
 def spheres_frustration(folder):
@@ -759,27 +798,26 @@ def spheres_elastic(folder):
             f"{number(v)} at N = {n}" for v, n in zip(found, DENSE_SPHERES)) + ".")
 
 
-def spheres_against_n(name, judge_rows, words):
+def spheres_against_n(name, words, falling=False):
+    def judge_rows(rows):
+        rows = [row for row in rows if row[name] == row[name]]
+        part, but = rising(rows, name, falling)
+        return part, ends(rows, name) + but
+
     def judge(folder):
-        found, told = [], []
-        for mu in sorted({row["mu"] for row in folder.table("spheres_pinned")}):
-            rows = [row for row in folder.curve("spheres_pinned", most=math.inf, mu=mu)
-                    if row[name] == row[name]]
-            found.append(judge_rows(values(rows, name)))
-            told.append(f"μ = {mu:g}: {ends(rows, name)}")
-        return every(found), f"{words} {'; '.join(told)}."
+        part, told = for_some_friction(folder, "spheres_pinned", judge_rows)
+        return part, f"{words} {told}."
     return judge
 
 
 def spheres_kept_from_rolling(folder):
-    found, told = [], []
-    for mu in sorted({row["mu"] for row in folder.table("spheres_pinned")}):
-        row = folder.curve("spheres_pinned", most=math.inf, mu=mu)[-1]
-        wall, every_one = value(row, "wall_rolling_share"), value(row, "rolling_share")
-        found.append(below(wall, every_one))
-        told.append(f"μ = {mu:g}, N = {row['discs']:.0f}: {number(wall)} at the wall, "
-                    f"{number(every_one)} of all")
-    return every(found), f"Share of the spheres that roll: {'; '.join(told)}."
+    def judge(rows):
+        wall, every_one = (value(rows[-1], name) for name in ("wall_rolling_share", "rolling_share"))
+        return below(wall, every_one), (
+            f"{number(wall)} at the wall, {number(every_one)} of all at N = {rows[-1]['discs']:.0f}")
+
+    part, told = for_some_friction(folder, "spheres_pinned", judge)
+    return part, f"Share of the spheres that roll: {told}."
 
 
 CLAIMS = [
@@ -869,9 +907,9 @@ CLAIMS = [
     Claim("main text", "Damping is not needed for spheres to counterrotate.", "spheres_ingredients",
           spheres_elastic),
     Claim("experiment, Fig. 4a", "The slip parameter of pinned spheres rises with N.",
-          "spheres_pinned", spheres_against_n("pinned_region", rises, "s of the pinned:")),
+          "spheres_pinned", spheres_against_n("pinned_region", "s of the pinned:")),
     Claim("experiment, Fig. 4b", "The spin of pinned spheres at the wall falls with N.",
-          "spheres_pinned", spheres_against_n("pinned_wall_spin", falls, "|ω_z|/Ω:")),
+          "spheres_pinned", spheres_against_n("pinned_wall_spin", "|ω_z|/Ω:", falling=True)),
 ]
 
 

@@ -157,19 +157,29 @@ STEP_BACK = 0.1
 LEAST_POINTS = 3
 
 
+def step_back(values):
+    """Of a curve that should rise: (k, k + 1) of the neighbours between which it falls most, if it
+    certainly falls there by more than STEP_BACK of the whole; None if it does so nowhere."""
+    known = [k for k, v in enumerate(values) if v.mean == v.mean]
+    if not known:
+        return None
+    rise = values[known[-1]] - values[known[0]]
+    steps = [(values[b] - values[a], (a, b)) for a, b in zip(known, known[1:])]
+    back = [(step.mean, pair) for step, pair in steps
+            if below(step, -STEP_BACK * abs(rise.mean)).verdict == HOLDS]
+    return min(back)[1] if back else None
+
+
 def rises(values):
     """A curve that rises: certainly higher at its end than at its beginning, and with no certain
     fall between neighbours of more than STEP_BACK of the whole."""
     values = [v for v in values if v.mean == v.mean]
     if len(values) < LEAST_POINTS:
         return Part(UNDECIDED, frozenset().union(*(v.points for v in values)))
-    rise = values[-1] - values[0]
-    overall = above(rise, 0.0)
+    overall = above(values[-1] - values[0], 0.0)
     if overall.verdict != HOLDS:
         return overall
-    back = any(below(b - a, -STEP_BACK * rise.mean).verdict == HOLDS
-               for a, b in zip(values, values[1:]))
-    return Part(FAILS if back else HOLDS)
+    return Part(FAILS if step_back(values) else HOLDS)
 
 
 def falls(values):

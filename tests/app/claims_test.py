@@ -16,8 +16,8 @@ sys.dont_write_bytecode = True
 import claims  # noqa: E402
 import report  # noqa: E402
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part,  # noqa: E402
-                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, true,
-                      within)
+                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, step_back,
+                      true, within)
 
 
 class Rules(unittest.TestCase):
@@ -100,6 +100,13 @@ class Rules(unittest.TestCase):
         self.assertEqual(falls(curve(0.8, 0.6, 0.5)), HOLDS)
         self.assertEqual(rises(curve(0.5, 0.6, 0.8, error=0.2)), UNDECIDED)
         self.assertEqual(rises(curve(0.5, 0.8)), UNDECIDED)
+        # Which step is in the way is known, also where points are missing.
+        self.assertEqual(step_back(curve(0.5, 0.9, 0.6, 0.8)), (1, 2))
+        self.assertEqual(step_back(curve(0.5, 0.9, float("nan"), 0.6, 0.8)), (1, 3))
+        self.assertEqual(step_back(curve(0.1, 0.9, 0.8, 0.7, 0.2, 1.0)), (3, 4))  # the largest
+        self.assertIsNone(step_back(curve(0.5, 0.6, 0.59, 0.8)))
+        self.assertIsNone(step_back(curve(0.5, 0.9, 0.6, 0.8, error=0.2)))  # not certain
+        self.assertIsNone(step_back(curve()))
 
 
 class OnMadeUpTables(unittest.TestCase):
@@ -178,6 +185,78 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.spheres_change_near(28)(self.folder)[0], FAILS)
         self.changes((0.15, 40, 0.2, "counterrotation"), (0.2, 33.5, 1.0, "counterrotation"))
         self.assertEqual(claims.spheres_change_near(36)(self.folder)[0], UNDECIDED)
+
+    def spheres_by_friction(self, name, columns, error=0.001):
+        """Of each friction a curve: {mu: [(N, number, …)]}, a column for each of the numbers."""
+        def judged(judge, curves):
+            self.table(name, [
+                {"curve": mu, "mu": mu, "discs": row[0], "point": f"{mu:g}_N{row[0]}",
+                 **dict(zip(columns, row[1:])), **{f"{c}_error": error for c in columns}}
+                for mu, rows in curves.items() for row in rows])
+            return judge(self.folder)
+        return judged
+
+    def test_few_spheres_rotate_and_many_do_not_for_the_same_friction(self):
+        judged = self.spheres_by_friction("spheres", ["by_time"])
+        both = [(8, 0.2), (44, -0.1), (48, -0.1)]
+        few_against, many_with = ([(8, -0.2), (44, -0.1), (48, -0.1)],
+                                  [(8, 0.2), (44, 0.1), (48, -0.1)])
+        verdict, found = judged(claims.spheres_transition, {0.2: both, 0.5: few_against})
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("It holds for 1 of 2 frictions", found)
+        self.assertEqual(judged(claims.spheres_transition,
+                                {0.1: many_with, 0.5: few_against})[0], FAILS)
+        doubtful = judged(claims.spheres_transition,
+                          {0.2: [(8, 0.2), (44, -0.001), (48, -0.1)], 0.5: few_against})[0]
+        self.assertEqual(doubtful, UNDECIDED)
+        self.assertEqual(doubtful.points, {"0.2_N44"})
+
+    def test_spheres_have_a_minimum_if_they_have_it_with_one_friction(self):
+        judged = self.spheres_by_friction("spheres", ["by_time"])
+        rising, falling = ([(8, 0.2), (48, -0.1), (54, -0.05)], [(8, 0.2), (48, -0.1), (54, -0.2)])
+        self.assertEqual(judged(claims.spheres_minimum, {0.1: falling, 0.2: rising})[0], HOLDS)
+        self.assertEqual(judged(claims.spheres_minimum, {0.1: falling})[0], FAILS)
+        # Lowest at the end, but perhaps by chance.
+        level = judged(claims.spheres_minimum, {0.1: [(8, 0.2), (48, -0.1), (54, -0.101)]})[0]
+        self.assertEqual(level, UNDECIDED)
+        self.assertEqual(level.points, {"0.1_N48", "0.1_N54"})
+        # A minimum of what still rotates is not beyond a crossing.
+        self.assertEqual(judged(claims.spheres_minimum,
+                                {0.1: [(8, 0.2), (48, 0.1), (54, 0.15)]})[0], FAILS)
+
+    def test_a_step_back_of_the_spheres_is_told(self):
+        spin = claims.spheres_against_n("pinned_wall_spin", "spin:", falling=True)
+        judged = self.spheres_by_friction("spheres_pinned", ["pinned_wall_spin"])
+        falling, with_step = ([(30, 0.5), (36, 0.4), (48, 0.2)], [(30, 0.5), (36, 0.6), (48, 0.2)])
+        verdict, found = judged(spin, {0.15: with_step, 0.5: falling})
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("μ = 0.15: 0.5000 ± 0.0010 at N = 30, 0.2000 ± 0.0010 at N = 48, but it rises "
+                      "from 0.5000 ± 0.0010 at N = 30 to 0.6000 ± 0.0010 at N = 36; μ = 0.5", found)
+        self.assertIn("It holds for 1 of 2 frictions", found)
+        self.assertEqual(judged(spin, {0.15: with_step})[0], FAILS)
+        self.assertEqual(judged(spin, {0.15: with_step, 0.5: falling[:2]})[0], UNDECIDED)
+        slip = claims.spheres_against_n("pinned_region", "s:")
+        judged = self.spheres_by_friction("spheres_pinned", ["pinned_region"])
+        self.assertEqual(judged(slip, {0.15: [(30, 0.7), (36, 0.8), (48, 0.9)]})[0], HOLDS)
+        self.assertEqual(judged(slip, {0.15: [(30, 0.9), (36, 0.8), (48, 0.7)]})[0], FAILS)
+
+    def test_spheres_are_kept_from_rolling_where_fewer_roll_at_the_wall(self):
+        judged = self.spheres_by_friction("spheres_pinned",
+                                          ["wall_rolling_share", "rolling_share"])
+        fewer, more, alike = [(48, 0.6, 0.7)], [(48, 0.8, 0.7)], [(48, 0.699, 0.7)]
+        judge = claims.spheres_kept_from_rolling
+        self.assertEqual(judged(judge, {0.15: fewer, 0.5: more})[0], HOLDS)
+        self.assertEqual(judged(judge, {0.15: more, 0.5: more})[0], FAILS)
+        self.assertEqual(judged(judge, {0.15: alike, 0.5: more})[0], UNDECIDED)
+
+    def test_damping_is_not_needed_where_spheres_counterrotate_without_it(self):
+        def judged(*rotations):
+            self.spheres("spheres_ingredients", no_damping=list(zip((44, 48), rotations)))
+            return claims.spheres_elastic(self.folder)[0]
+        self.assertEqual(judged(-0.03, -0.05), HOLDS)
+        self.assertEqual(judged(0.03, -0.05), FAILS)
+        self.assertEqual(judged(-0.002, -0.05), UNDECIDED)
+        self.assertEqual(judged(-0.002, -0.05).points, {"no_damping_N44"})
 
     def test_a_curve_that_does_not_cross_comes_after_one_that_does(self):
         self.crossings("5b", high=(36, .3), medium=(40, .3), low=(None, "always rotates"))
