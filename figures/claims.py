@@ -300,17 +300,24 @@ def frames(folder):
 def steady(folder):
     rows = [row for row in folder.table("5b")
             if row["setting"] in ("high", "medium", "low") and row["discs"] <= MOST_DISCS]
-    runs = sum(row["steady_runs"] + row["drifting_runs"] for row in rows)
-    drifting = sum(row["drifting_runs"] for row in rows)
-    short = sum(row["seeds"] for row in rows) - runs
-    if not runs:
-        return Part(UNDECIDED), "All runs are too short to tell."
-    share = drifting / runs
-    # Of no drifting run among n one knows only that the share is below about 1/n.
-    found = Value(share, max(math.sqrt(share * (1 - share) / runs), 1 / runs))
+    judged = [row for row in rows if row["steady_runs"] + row["drifting_runs"] > 0]
+    open_ones = [row for row in rows if row["steady_runs"] < row["seeds"]] or rows
+    points = {row["point"] for row in open_ones if isinstance(row.get("point"), str)}
+    if not judged:
+        return Part(UNDECIDED, points), "All runs are too short to tell."
+    runs = [row["steady_runs"] + row["drifting_runs"] for row in judged]
+    drifting = [row["drifting_runs"] for row in judged]
+    # Every point counts once, however many seeds were spent on it: they are spent where runs drift.
+    share = sum(k / n for k, n in zip(drifting, runs)) / len(judged)
+    # The error of a point as if one more of its runs had been seen, that drifts as often as all do;
+    # of no drifting run among n one knows only that the share is below about 1/n.
+    seen = [(k + share) / (n + 1) for k, n in zip(drifting, runs)]
+    error = math.sqrt(sum(p * (1 - p) / n for p, n in zip(seen, runs))) / len(judged)
+    found = Value(share, max(error, 1 / sum(runs)), points)
     return below(found, CHANCE_OF_DRIFT), (
-        f"{drifting:.0f} of {runs:.0f} runs with both frictions drift after 20 swirls "
-        f"({short:.0f} more are too short to tell); by chance, and for slow states, "
+        f"{sum(drifting):.0f} of {sum(runs):.0f} runs with both frictions drift after 20 swirls "
+        f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short to tell), a share "
+        f"of {number(found)} if every N and friction counts alike; by chance, and for slow states, "
         f"{100 * CHANCE_OF_DRIFT:.0f} % are allowed.")
 
 

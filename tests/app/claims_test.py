@@ -329,14 +329,34 @@ class OnMadeUpTables(unittest.TestCase):
                       claims.no_disc_drop(self.folder)[1])
 
     def test_steady_runs_are_counted(self):
-        def judged(steady, drifting, short=0):
-            self.table("5b", [{"setting": "high", "discs": 28, "seeds": steady + drifting + short,
-                               "steady_runs": steady, "drifting_runs": drifting}])
+        def judged(*points):
+            self.table("5b", [{"setting": "high", "discs": 20 + k, "point": f"high_N{20 + k}",
+                               "seeds": steady + drifting + short, "steady_runs": steady,
+                               "drifting_runs": drifting}
+                              for k, (steady, drifting, short) in enumerate(points)])
             return claims.steady(self.folder)[0]
-        self.assertEqual(judged(200, 1), HOLDS)
-        self.assertEqual(judged(100, 100), FAILS)
-        self.assertEqual(judged(20, 1), UNDECIDED)
-        self.assertEqual(judged(0, 0, 8), UNDECIDED)
+        self.assertEqual(judged((200, 1, 0)), HOLDS)
+        self.assertEqual(judged((100, 100, 0)), FAILS)
+        self.assertEqual(judged(*[(8, 0, 0)] * 28), HOLDS)
+        # Seeds go to the points that are in question: where runs drift, or are too short to tell.
+        doubtful = judged((8, 0, 0), (7, 1, 0), (6, 0, 2))
+        self.assertEqual(doubtful, UNDECIDED)
+        self.assertEqual(doubtful.points, {"high_N21", "high_N22"})
+        self.assertEqual(judged((0, 0, 8)).points, {"high_N20"})
+        # Too few runs, though none drifts.
+        self.assertEqual(judged((8, 0, 0), (8, 0, 0)).points, {"high_N20", "high_N21"})
+
+    def test_seeds_spent_where_runs_drift_do_not_make_the_whole_drift(self):
+        def judged(seeds):
+            self.table("5b", [{"setting": "high", "discs": 20 + k, "point": f"high_N{20 + k}",
+                               "seeds": n, "steady_runs": n - drifting, "drifting_runs": drifting}
+                              for k, (n, drifting) in enumerate([(8, 0)] * 27 +
+                                                                [(seeds, seeds // 4)])])
+            return claims.steady(self.folder)
+        for seeds in (8, 32, 320):  # of all the runs 1 to 15 % drift, and of the points always 1 %
+            verdict, found = judged(seeds)
+            self.assertEqual(verdict, HOLDS, seeds)
+            self.assertIn("a share of 0.009", found)
 
     def stays(self, *choices, name="becoming_free", error=1.0):
         """For each choice of the layer one place or share at N = 24, 36, 48."""
