@@ -156,16 +156,25 @@ class OnMadeUpTables(unittest.TestCase):
             {"curve": mu, "mu": mu, "crossing": at, "crossing_error": error, "before": at - 1,
              "after": at + 1, "sense": sense} for mu, at, error, sense in rows])
 
-    def test_spheres_that_rub_horizontally_alone_do_not_counterrotate(self):
+    def test_spheres_whose_rolling_is_not_frustrated_counterrotate_less(self):
         down, up = [(44, -0.04), (48, -0.05)], [(44, 0.15), (48, 0.04)]
-        self.spheres("spheres_ingredients", mu2=down, no_vertical=up, no_vertical_disc=up,
-                     no_vertical_wall=down)
-        verdict, found = claims.spheres_frustration(self.folder)
+        less = [(44, -0.02), (48, -0.03)]
+
+        def judged(full, without):
+            self.spheres("spheres_ingredients", mu2=full, no_vertical=without,
+                         no_vertical_disc=up, no_vertical_wall=down)
+            return claims.spheres_frustration(self.folder)
+        verdict, found = judged(down, up)
         self.assertEqual(verdict, HOLDS)
         self.assertIn("at the wall alone: −0.0400", found)
-        self.spheres("spheres_ingredients", mu2=down, no_vertical=down, no_vertical_disc=up,
-                     no_vertical_wall=down)
-        self.assertNotEqual(claims.spheres_frustration(self.folder)[0], HOLDS)
+        self.assertIn("without vertical friction they rotate holds, and is no claim", found)
+        # That they rotate without it is not what the paper says, and not judged.
+        verdict, found = judged(down, less)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("they rotate does not hold", found)
+        self.assertEqual(judged(less, down)[0], IN_PART)
+        self.assertEqual(judged(up, down)[0], FAILS)
+        self.assertEqual(judged(down, down)[0], UNDECIDED)
 
     def test_of_several_changes_of_sense_the_last_to_counterrotation_counts(self):
         self.spheres("spheres", mu2=[(16, 0.1), (36, -0.1)])
@@ -420,6 +429,77 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(down, down), FAILS)
         self.assertEqual(judged(up, down), UNDECIDED)
         self.assertEqual(judged(up, error=0.1), UNDECIDED)
+
+    def contacts(self, error=0.01, **columns):
+        """The frustration of Figure 4b at N = 24, 36, 48."""
+        default = {"correlation_by_impulse": (-0.2, -0.2, -0.2), "pinned_correlation": (0, 0, -0.2),
+                   "spin_correlation": (0, 0, 0), "pinned_wall_spin": (0.4, 0.3, 0.2),
+                   "triangles": (0.1, 0.2, 0.3), "psi6": (0.5, 0.5, 0.6),
+                   "psi6_pinned": (0.5, 0.6, 0.7), "disc_disc_rate": (2, 4, 8),
+                   "disc_wall_rate": (0.2, 0.2, 0.2)} | columns
+        self.table("4b", [
+            {"setting": "high", "discs": n, "point": f"high_N{n}",
+             **{name: found[k] for name, found in default.items()},
+             **{f"{name}_error": error for name in default}} for k, n in enumerate((24, 36, 48))])
+
+    def test_spins_are_opposed_in_strong_contacts_and_among_the_pinned(self):
+        def judged(by_impulse, pinned=-0.2):
+            self.contacts(correlation_by_impulse=by_impulse, pinned_correlation=(0, 0, pinned))
+            return claims.gears(self.folder)[0]
+        self.assertEqual(judged((-0.2, -0.2, -0.2)), HOLDS)
+        # One N where nothing is certain does not undo the others.
+        self.assertEqual(judged((-0.2, -0.2, -0.001)), HOLDS)
+        self.assertEqual(judged((0.2, 0.2, 0.2)), IN_PART)
+        self.assertEqual(judged((-0.2, -0.2, -0.2), pinned=0.2), IN_PART)
+        self.assertEqual(judged((0.2, 0.2, 0.2), pinned=0.2), FAILS)
+        self.assertEqual(judged((-0.01, 0.01, -0.01)), UNDECIDED)
+        doubtful = judged((-0.2, -0.2, -0.2), pinned=-0.02)
+        self.assertEqual(doubtful, UNDECIDED)
+        self.assertEqual(doubtful.points, {"high_N48"})
+
+    def test_six_fold_is_what_has_more_order_than_a_liquid(self):
+        def judged(last, everywhere=0.5):
+            self.contacts(psi6_pinned=(0.5, 0.6, last), psi6=(everywhere,) * 3)
+            return claims.six_fold(self.folder)[0]
+        self.assertEqual(judged(0.7), HOLDS)
+        self.assertEqual(judged(0.5), FAILS)
+        self.assertEqual(judged(0.64), UNDECIDED)
+        self.assertEqual(judged(0.64).points, {"high_N48"})
+        # All the discs have nothing to do with it: the pinned are among them.
+        self.assertEqual(judged(0.7, everywhere=0.9), HOLDS)
+        self.assertEqual(judged(0.5, everywhere=0.1), FAILS)
+
+    def test_the_spin_at_the_wall_falls_whatever_the_triangles_do(self):
+        def judged(*spin, error=0.01):
+            self.contacts(pinned_wall_spin=spin, triangles=(0.3, 0.2, 0.1), error=error)
+            return claims.wall_spin(self.folder)
+        self.assertEqual(judged(0.4, 0.3, 0.2)[0], HOLDS)
+        self.assertIn("no claim of the paper's", judged(0.4, 0.3, 0.2)[1])
+        self.assertEqual(judged(0.2, 0.3, 0.4)[0], FAILS)
+        self.assertEqual(judged(0.4, 0.3, 0.2, error=0.1)[0], UNDECIDED)
+        verdict, found = judged(0.4, 0.6, 0.2)
+        self.assertEqual(verdict, FAILS)
+        self.assertIn("but it rises from 0.400 ± 0.010 at N = 24 to 0.600 ± 0.010 at N = 36", found)
+
+    def test_all_slices_are_clockwise(self):
+        def judged(varpi_m, error=0.01, by_time=0.0):
+            self.table("3a", [{"discs": 28, "theta": t, "visits": 1000, "varpi_m": v,
+                               "varpi_m_error": error, "point": "high_N28"}
+                              for t, v in ((90, -1.0), (180, varpi_m))])
+            self.table("1b", [{"discs": 28, "by_time": by_time}])
+            return claims.clockwise(self.folder)
+        verdict, found = judged(-1.0)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("not counted as a claim", found)
+        self.assertIn("as they must.", found)
+        self.assertEqual(judged(0.5)[0], FAILS)
+        self.assertEqual(judged(-0.02)[0], UNDECIDED)
+        # The identity is told, also where it is broken, and changes no verdict.
+        verdict, found = judged(-1.0, by_time=0.5)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("which they must not", found)
+        os.remove(os.path.join(self.scratch.name, "figure_1b.csv"))
+        self.assertEqual(claims.clockwise(self.folder)[0], HOLDS)
 
     def test_a_ball_that_nothing_turns_does_not_rotate(self):
         def judged(slipping, rolling):
