@@ -65,6 +65,47 @@ def mean_of(values, weights=None):
                  frozenset().union(*(v.points for v in values)))
 
 
+# Student's t: 95 % lie within ± this, for 1, 2, … degrees of freedom, and for very many; between,
+# linear in 1/freedom.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
+STUDENT_OF_MANY = 1.960
+
+
+def student(freedom):
+    """What errors from few numbers are multiplied with, as in src/measure/several_runs.hpp."""
+    if freedom <= len(STUDENT):
+        t = STUDENT[freedom - 1]
+    else:
+        t = STUDENT_OF_MANY + (STUDENT[-1] - STUDENT_OF_MANY) * len(STUDENT) / freedom
+    return t / STUDENT_OF_MANY
+
+
+def scattered(numbers, points=(), least=0.0):
+    """The mean of numbers that have no errors of their own: the error is that of their scatter, or
+    of the least that it can be. Of a single one nothing is known."""
+    numbers = [x for x in numbers if math.isfinite(x)]
+    n = len(numbers)
+    if n < 2:
+        return Value(numbers[0] if n else math.nan, math.nan, points)
+    mean = sum(numbers) / n
+    scatter = math.sqrt(sum((x - mean) ** 2 for x in numbers) / (n - 1)) * student(n - 1)
+    return Value(mean, max(scatter, least) / math.sqrt(n), points)
+
+
+def trend(numbers, points=()):
+    """How much a straight line through numbers at equal distances rises from the first to the last,
+    in units of their mean. The error is that of the scatter about the line."""
+    n = len(numbers)
+    if n < LEAST_POINTS or not all(math.isfinite(x) for x in numbers):
+        return Value(math.nan, math.nan, points)
+    mean, middle = sum(numbers) / n, (n - 1) / 2
+    squares = sum((k - middle) ** 2 for k in range(n))
+    slope = sum((k - middle) * x for k, x in enumerate(numbers)) / squares
+    about = sum((x - mean - slope * (k - middle)) ** 2 for k, x in enumerate(numbers))
+    error = math.sqrt(about / (n - 2) / squares) * student(n - 2)
+    return Value(slope, error, points) * ((n - 1) / mean)
+
+
 class Part:
     """The verdict on one statement, and the points that could decide it if it is undecided."""
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import os
 import subprocess
 import struct
@@ -16,8 +17,8 @@ sys.dont_write_bytecode = True
 import claims  # noqa: E402
 import report  # noqa: E402
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part,  # noqa: E402
-                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, step_back,
-                      true, within)
+                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, scattered,
+                      step_back, trend, true, within)
 
 
 class Rules(unittest.TestCase):
@@ -90,6 +91,27 @@ class Rules(unittest.TestCase):
         mean = mean_of([Value(1, 0.3), Value(3, 0.4)])
         self.assertEqual(mean.mean, 2)
         self.assertAlmostEqual(mean.error, 0.25)
+
+    def test_what_has_no_error_has_a_scatter(self):
+        found = scattered([1.0, 2.0, 3.0], ["a"])
+        self.assertEqual(found.mean, 2)
+        # 1/√3, times Student's t of two degrees of freedom.
+        self.assertAlmostEqual(found.error, 4.303 / 1.96 / 3 ** 0.5, 3)
+        self.assertEqual(found.points, {"a"})
+        self.assertAlmostEqual(scattered([1.0, 1.0, 1.0, 1.0], least=0.5).error, 0.25)
+        self.assertEqual(above(scattered([1.0]), 0), UNDECIDED)
+        self.assertEqual(above(scattered([]), 0), UNDECIDED)
+        many = scattered([0.0, 1.0] * 500)
+        self.assertAlmostEqual(many.error, 0.5 / 1000 ** 0.5, 3)
+
+    def test_a_trend_has_the_error_of_what_is_not_straight(self):
+        self.assertAlmostEqual(trend([1.0, 2.0, 3.0]).mean, 1.0)
+        self.assertAlmostEqual(trend([1.0, 2.0, 3.0]).error, 0.0)
+        self.assertEqual(above(trend([1.0, 2.1, 2.9, 4.0, 5.1]), 0.5), HOLDS)
+        self.assertEqual(above(trend([3.0, 3.1, 2.9, 3.0, 3.05]), 0.5), FAILS)
+        self.assertEqual(above(trend([3.0, 1.0, 4.0, 2.0, 4.5]), 0.5), UNDECIDED)
+        self.assertEqual(above(trend([1.0, 2.0]), 0), UNDECIDED)
+        self.assertEqual(above(trend([1.0, 2.0, float("inf")]), 0), UNDECIDED)
 
     def test_rises_ignores_noise_but_not_a_fall(self):
         def curve(*means, error=0.01):
@@ -533,13 +555,83 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(0.08, 0.01), UNDECIDED)
 
     def test_smallest_times_are_compared_by_their_order(self):
-        def judged(rough, smooth):
-            self.table("times", [{"mu": mu, "smallest": t}
-                                 for mu, t in ((1, rough), (1, rough), (0, smooth))])
-            return claims.smallest_times(self.folder)[0]
-        self.assertEqual(judged(3e-11, 2e-10), HOLDS)
-        self.assertEqual(judged(3e-11, 2e-11), IN_PART)
-        self.assertEqual(judged(1e-8, 1e-11), FAILS)
+        def judged(rough, smooth, events=1e6, seeds=32, column=True):
+            def smallest(typical, k):
+                # Quantiles of the exponential distribution, that of the smallest of many times.
+                return -typical * math.log(1 - (k + 0.5) / seeds)
+            self.table("times", [{"mu": mu, "smallest": smallest(t, k)} | (
+                {"events": events} if column else {})
+                for mu, t in ((1, rough), (0, smooth)) for k in range(seeds)])
+            return claims.smallest_times(self.folder)
+        self.assertEqual(judged(2e-11, 2e-9)[0], HOLDS)
+        self.assertEqual(judged(2e-11, 2e-11)[0], IN_PART)
+        self.assertEqual(judged(1e-8, 1e-11)[0], FAILS)
+        # A tenth of the events has a smallest time ten times as long.
+        verdict, found = judged(2e-10, 2e-8, events=1e5)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("from runs of 100000 events", found)
+        self.assertEqual(judged(2e-11, 2e-9, events=1e4)[0], FAILS)
+        # Between seeds such times scatter by half an order; three tell little of what is close.
+        self.assertEqual(judged(1e-10, 2e-9, seeds=3)[0], UNDECIDED)
+        self.assertEqual(judged(2e-11, 2e-9, seeds=1)[0], UNDECIDED)
+        # Without a word on their length they tell nothing; Figure 5b's runs are as long.
+        self.assertEqual(judged(2e-11, 2e-9, column=False)[0], UNDECIDED)
+        self.table("5b", [{"setting": "high", "discs": 48, "events": 1e5}])
+        self.assertEqual(judged(2e-10, 2e-8, column=False)[0], HOLDS)
+
+    def test_an_energy_blows_up_if_it_grows_beyond_its_scatter(self):
+        def judged(energy):
+            self.table("energy", [{"sides": sides, "discs": 28, "swirl": t, "energy": energy(t)}
+                                  for sides in (0, 6, 30) for t in range(100)])
+            return claims.blow_up(self.folder)
+        wave = [1.0, 3.0, 2.0, 1.5, 2.5, 3.5, 0.5, 2.0, 1.0, 3.0]
+        verdict, found = judged(lambda t: 1 + 0.1 * t)
+        self.assertEqual(verdict, IN_PART)  # it does not crash
+        self.assertIn("does not crash", found)
+        self.assertEqual(judged(lambda t: 1.0 + 0.01 * (t % 2))[0], FAILS)
+        self.assertEqual(judged(lambda t: wave[t // 10])[0], UNDECIDED)
+        self.assertNotEqual(judged(lambda t: 1 + 0.1 * t if t < 50 else float("inf"))[0], IN_PART)
+
+    def test_forces_have_the_range_of_their_highest_values(self):
+        unit = claims.EXPERIMENTS_R_OMEGA_SQUARE / (2 * math.pi / claims.PERIOD) ** 2
+
+        def judged(centrifugal, coriolis):
+            self.table("1b", [{"setting": "high", "discs": n, "point": f"high_N{n}",
+                               "most_centrifugal": a / unit, "most_coriolis": b / unit,
+                               "coriolis": 100 / unit, "coriolis_error": 1}
+                              for n, a, b in zip((24, 36, 48), centrifugal, coriolis)])
+            return claims.forces(self.folder)[0]
+        at_460, at_200 = (455, 460, 465), (198, 200, 202)
+        self.assertEqual(judged(at_460, at_200), HOLDS)
+        self.assertEqual(judged(at_460, (900, 1000, 1100)), IN_PART)
+        self.assertEqual(judged((200, 201, 202), (900, 1000, 1100)), FAILS)
+        doubtful = judged((300, 460, 620), at_200)
+        self.assertEqual(doubtful, UNDECIDED)
+        self.assertEqual(doubtful.points, {"high_N24", "high_N36", "high_N48"})
+        self.assertEqual(judged((460,), (200,)), UNDECIDED)  # one extreme tells nothing
+
+    def test_a_gas_is_hotter_and_has_fewer_contacts(self):
+        def judged(temperature, contacts, error=0.01, drifting=0):
+            self.table("states", [
+                {"setting": setting, "discs": n, "granular": t, "granular_error": error,
+                 "coordination": c, "coordination_error": error, "seeds": 8,
+                 "steady_runs": 8 - drifting * (setting == "no-disc"),
+                 "drifting_runs": drifting * (setting == "no-disc"), "point": f"{setting}_N{n}"}
+                for n in (28, 48)
+                for setting, t, c in (("high", 0.3, 2.0), ("no-disc", temperature, contacts))])
+            return claims.gas(self.folder)
+        self.assertEqual(judged(0.6, 1.0)[0], HOLDS)
+        self.assertEqual(judged(0.1, 1.0)[0], IN_PART)
+        self.assertEqual(judged(0.1, 3.0)[0], FAILS)
+        self.assertEqual(judged(0.6, 1.0, error=0.2)[0], UNDECIDED)
+        self.assertTrue(judged(0.6, 1.0, error=0.2)[0].points)
+        # What still changes decides nothing, however small its errors, and more seeds do not help.
+        verdict, found = judged(0.6, 1.0, drifting=8)
+        self.assertEqual(verdict, UNDECIDED)
+        self.assertEqual(verdict.points, frozenset())
+        self.assertIn("decide nothing: no-disc, N = 28; no-disc, N = 48", found)
+        self.assertEqual(judged(0.1, 3.0, drifting=8)[0], UNDECIDED)
+        self.assertEqual(judged(0.6, 1.0, drifting=1)[0], HOLDS)  # by chance one of eight drifts
 
     def test_a_table_that_is_not_there_is_said(self):
         for claim in claims.CLAIMS:
