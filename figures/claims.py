@@ -212,18 +212,31 @@ def transition(folder):
             f"{c.text}; ϖ/Ω = {ends(rows, 'by_event')} (μ = 1).")
 
 
+def after_minimum(rows, name):
+    """The row of the lowest before the last, the last, and how much higher the last is: below zero
+    if the curve falls to its end."""
+    rows = [row for row in rows if row[name] == row[name]]
+    lowest, last = min(rows[:-1], key=lambda row: row[name]), rows[-1]
+    return lowest, last, value(last, name) - value(lowest, name)
+
+
 def minimum(folder):
-    rows = [row for row in folder.curve("5b", most=math.inf, setting="high")
-            if row["by_event"] == row["by_event"]]
-    lowest = min(rows, key=lambda row: row["by_event"])
-    last = rows[-1]
-    if lowest is last:
-        return true(False), f"ϖ falls to the end: {ends(rows, 'by_event')}."
-    rise = value(last, "by_event") - value(lowest, "by_event")
-    return above(rise, 0), (
-        f"Lowest at N = {lowest['discs']:.0f}, ϖ/Ω = {number(value(lowest, 'by_event'))}; at N = "
-        f"{last['discs']:.0f}, the last that was run, it is {number(value(last, 'by_event'))}, "
-        f"higher by {number(rise)} (μ = 1).")
+    rows = folder.curve("5b", most=math.inf, setting="high")
+    lowest, last, rise = after_minimum(rows, "by_event")
+    text = (f"Lowest before the end at N = {lowest['discs']:.0f}, ϖ/Ω = "
+            f"{number(value(lowest, 'by_event'))}; at N = {last['discs']:.0f}, the last that was run, "
+            f"it is {number(value(last, 'by_event'))}, a rise of {number(rise)} (μ = 1).")
+    if all("rigid_by_event" in row for row in rows):
+        # The paper's mean of single angular velocities is judged. A disc near the centre of mass
+        # counts there for as much as any other, and has the highest of them.
+        low, end, rigid = after_minimum(rows, "rigid_by_event")
+        so = {HOLDS: "rises, too", FAILS: "falls to the end",
+              UNDECIDED: "neither rises nor falls for certain"}[above(rigid, 0).verdict]
+        text += (f" That is the paper's mean over the discs of their angular velocities. The cluster's "
+                 f"as that of a rigid body, Σ r × v / Σ r², {so}: from "
+                 f"{number(value(low, 'rigid_by_event'))} at N = {low['discs']:.0f} to "
+                 f"{number(value(end, 'rigid_by_event'))} at N = {end['discs']:.0f}.")
+    return above(rise, 0), text
 
 
 def friction_order(folder):
@@ -825,11 +838,8 @@ def spheres_friction_order(folder):
 
 def spheres_minimum(folder):
     def judge(rows):
-        # Whether a curve that is lowest at its end falls to it or is only uncertain there, errors
-        # tell.
-        lowest, last = min(rows[:-1], key=lambda row: row["by_time"]), rows[-1]
-        return (every([below(value(lowest, "by_time"), 0),
-                       above(value(last, "by_time") - value(lowest, "by_time"), 0)]),
+        lowest, last, rise = after_minimum(rows, "by_time")
+        return (every([below(value(lowest, "by_time"), 0), above(rise, 0)]),
                 f"lowest before the end {number(value(lowest, 'by_time'))} at N = "
                 f"{lowest['discs']:.0f}, at the end {number(value(last, 'by_time'))} at N = "
                 f"{last['discs']:.0f}")

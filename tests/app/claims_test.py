@@ -336,6 +336,21 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.minimum(self.folder)[0], UNDECIDED)
         self.assertEqual(claims.minimum(self.folder)[0].points, {"high_N44", "high_N48"})
 
+    def test_a_minimum_of_the_mean_is_told_beside_that_of_the_rigid_body(self):
+        def found(rigid):
+            self.table("5b", [{"setting": "high", "discs": n, "point": f"high_N{n}", "by_event": v,
+                               "by_event_error": 0.001, "rigid_by_event": r,
+                               "rigid_by_event_error": 0.001}
+                              for n, v, r in ((48, -0.036, -0.035), (51, -0.042, -0.043),
+                                              (54, -0.032, rigid))])
+            return claims.minimum(self.folder)
+        verdict, text = found(-0.049)
+        self.assertEqual(verdict, HOLDS)  # judged is what the paper measures
+        self.assertIn("Σ r², falls to the end: from −0.0430 ± 0.0010 at N = 51 to −0.0490 ± "
+                      "0.0010 at N = 54", text)
+        self.assertIn("rises, too", found(-0.030)[1])
+        self.assertIn("neither rises nor falls", found(-0.042)[1])
+
     def test_without_wall_friction_every_n_counts(self):
         at_omega = [(n, 1.0) for n in range(5, 49)]
         self.rotation("5b", "no-wall", at_omega)
