@@ -360,6 +360,151 @@ class OnMadeUpTables(unittest.TestCase):
         self.rotation("5b", "no-wall", at_omega[:-1] + [(48, 0.96)])
         self.assertEqual(claims.no_wall_at_omega(self.folder)[0], UNDECIDED)
 
+    def test_without_disc_friction_rotation_is_close_to_omega_below_very_high_n(self):
+        def judged(last, error=0.01, beyond=0.5):
+            # From HIGH_N on the paper has a drop, and that is another claim.
+            self.rotation("5b", "no-disc", [(20, 1.0), (30, 1.0), (40, last), (46, beyond)], error)
+            return claims.no_disc_close(self.folder)[0]
+        self.assertEqual(judged(0.95), HOLDS)
+        self.assertEqual(judged(0.8), FAILS)
+        self.assertEqual(judged(1.2), FAILS)
+        self.assertEqual(judged(0.91), UNDECIDED)
+        self.assertEqual(judged(0.91).points, {"no-disc_N40"})
+
+    def test_a_pancake_is_approached_and_reached(self):
+        def judged(first, last, error=0.003):
+            self.table("1b", [{"setting": "high", "discs": n, "by_time": v, "by_time_error": error,
+                               "pancake": -0.1, "pancake_error": 0, "point": f"high_N{n}"}
+                              for n, v in ((24, first), (48, last))])
+            return claims.pancake(self.folder)[0]
+        self.assertEqual(judged(0.1, -0.08), HOLDS)
+        self.assertEqual(judged(0.1, 0.0), IN_PART)  # nearer, and not near
+        self.assertEqual(judged(-0.1, -0.13), IN_PART)  # near, and not nearer
+        self.assertEqual(judged(0.0, 0.1), FAILS)
+        self.assertEqual(judged(0.1, -0.08, error=0.02), UNDECIDED)
+        # The other side of the line is as far from it.
+        self.assertEqual(judged(0.1, -0.25), IN_PART)
+
+    def pinned_profile(self, table, name, curve, error=0.01):
+        """A profile at N = 24, 36, 48 whose pinned region, from 200° down to 100°, has this value;
+        elsewhere it is another, that must not count."""
+        self.table(table, [
+            {"discs": n, "theta": theta, "visits": 1000, "stay_begins": 200, "stay_ends": 100,
+             name: v if 100 <= theta <= 200 else -5.0, f"{name}_error": error,
+             "point": f"high_N{n}"}
+            for n, v in zip((24, 36, 48), curve) for theta in (50, 120, 150, 180, 300)])
+
+    def test_pinned_discs_lag_behind_the_wall_and_reach_it(self):
+        def judged(*curve, error=0.01):
+            self.pinned_profile("3b", "normalised", curve, error)
+            return claims.pinned_reach_wall(self.folder)[0]
+        self.assertEqual(judged(0.8, 0.9, 1.0), HOLDS)
+        self.assertEqual(judged(0.8, 0.8, 0.8), IN_PART)
+        self.assertEqual(judged(1.2, 1.0, 1.0), IN_PART)
+        self.assertEqual(judged(1.2, 1.0, 0.8), FAILS)
+        self.assertEqual(judged(0.8, 0.9, 0.96), UNDECIDED)
+        self.assertEqual(judged(0.8, 0.9, 0.96).points, {"high_N48"})
+        # Slices of one run are not independent: three of them are no more certain than one.
+        self.assertEqual(judged(0.8, 0.9, 1.0, error=0.02), UNDECIDED)
+
+    def test_pinned_discs_are_faster_where_there_are_more(self):
+        def judged(*curve, error=0.01):
+            self.pinned_profile("3a", "varpi_m", curve, error)
+            return claims.pinned_faster(self.folder)[0]
+        self.assertEqual(judged(-0.9, -1.0, -1.1), HOLDS)
+        self.assertEqual(judged(-1.1, -1.0, -0.9), FAILS)
+        self.assertEqual(judged(-0.9, -0.7, -1.1), FAILS)  # a step back
+        self.assertEqual(judged(-0.9, -0.95, -1.0, error=0.05), UNDECIDED)
+
+    def test_the_loose_peak_has_one_height_wherever_it_stands(self):
+        def judged(*heights, error=0.01):
+            self.table("3a", [
+                {"discs": n, "theta": theta, "visits": visits, "varpi_m": v, "varpi_m_error": error,
+                 "point": f"high_N{n}"}
+                for k, (n, height) in enumerate(zip((24, 36, 48), heights))
+                # A slice that hardly anybody visits has no peak.
+                for theta, v, visits in ((300 + 20 * k, -height, 1000), (90, -0.8, 1000),
+                                         (10, -9.0, 5))])
+            return claims.loose_peak(self.folder)[0]
+        self.assertEqual(judged(1.1, 1.1, 1.2), HOLDS)
+        self.assertEqual(judged(1.0, 1.0, 2.0), FAILS)
+        self.assertEqual(judged(1.0, 1.1, 1.2, error=0.1), UNDECIDED)
+
+    def slip(self, rough, smooth=(0.5, 0.6, 0.7), error=0.01):
+        self.table("4a", [
+            {"setting": setting, "discs": n, "pinned_at_wall": s, "pinned_at_wall_error": error,
+             "pinned_region": 0.99, "pinned_region_error": error, "point": f"{setting}_N{n}"}
+            for setting, curve in (("high", rough), ("low", smooth))
+            for n, s in zip((24, 36, 48), curve)])
+
+    def test_the_slip_parameter_rises_and_ends_near_one(self):
+        def judged(*curve, error=0.01):
+            self.slip(curve, error=error)
+            return claims.slip_rises(self.folder)
+        self.assertEqual(judged(0.8, 0.9, 0.97)[0], HOLDS)
+        self.assertEqual(judged(0.5, 0.6, 0.7)[0], IN_PART)
+        self.assertEqual(judged(0.99, 0.98, 0.94)[0], IN_PART)
+        self.assertEqual(judged(0.8, 0.7, 0.6)[0], FAILS)
+        self.assertEqual(judged(0.8, 0.9, 0.92)[0], UNDECIDED)
+        self.assertEqual(judged(0.8, 0.9, 0.92)[0].points, {"high_N48"})
+        verdict, found = judged(0.6, 0.9, 0.8)
+        self.assertEqual(verdict, FAILS)
+        self.assertIn("but it falls from 0.900 ± 0.010 at N = 36", found)
+
+    def test_rough_discs_are_closer_to_rolling_at_every_n(self):
+        def judged(rough, smooth, error=0.01):
+            self.slip(rough, smooth, error)
+            return claims.slip_rough(self.folder)[0]
+        smooth = (0.5, 0.6, 0.7)
+        self.assertEqual(judged((0.8, 0.9, 0.95), smooth), HOLDS)
+        self.assertEqual(judged((0.8, 0.9, 0.5), smooth), FAILS)
+        self.assertEqual(judged((0.8, 0.9, 0.71), smooth), UNDECIDED)
+        self.assertEqual(judged((0.8, 0.9, 0.71), smooth).points, {"high_N48", "low_N48"})
+        # Closer counts, on either side of 1.
+        self.assertEqual(judged((0.8, 0.9, 1.2), smooth), HOLDS)
+        self.assertEqual(judged((0.8, 0.9, 1.5), smooth), FAILS)
+
+    def test_collisions_of_both_kinds_count(self):
+        def judged(discs, wall, error=0.01):
+            self.contacts(disc_disc_rate=discs, disc_wall_rate=wall, error=error)
+            return claims.more_collisions(self.folder)[0]
+        self.assertEqual(judged((2, 4, 8), (1, 1, 1)), HOLDS)
+        self.assertEqual(judged((2, 2.5, 3), (9, 5, 1)), FAILS)
+        self.assertEqual(judged((2, 4, 8), (1, 1, 1), error=2), UNDECIDED)
+
+    def test_left_of_m_is_most_of_the_discs_and_their_centre(self):
+        def judged(left, x, error=0.01):
+            self.table("1b", [{"setting": "high", "discs": n, "left": share, "left_error": error,
+                               "centre_x": x, "centre_x_error": error, "centre_theta": 180,
+                               "point": f"high_N{n}"} for n, share in zip((24, 48), left)])
+            return claims.left_of_M(self.folder)
+        verdict, found = judged((0.7, 0.6), -1.0)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("lags behind the swirl by 90°", found)
+        self.assertEqual(judged((0.7, 0.4), -1.0)[0], IN_PART)
+        self.assertEqual(judged((0.3, 0.4), 1.0)[0], FAILS)
+        self.assertEqual(judged((0.7, 0.51), -1.0)[0], UNDECIDED)
+        self.assertEqual(judged((0.7, 0.51), -1.0)[0].points, {"high_N48"})
+
+    def test_rough_discs_cross_earlier(self):
+        def judged(rough, smooth):
+            self.crossings("4c", high=rough, low=smooth)
+            return claims.rough_earlier(self.folder)[0]
+        self.assertEqual(judged((36, 0.3), (44, 0.3)), HOLDS)
+        self.assertEqual(judged((36, 0.3), (None, "always rotates")), HOLDS)
+        self.assertEqual(judged((44, 0.3), (36, 0.3)), FAILS)
+        self.assertEqual(judged((36, 0.3), (None, "always counterrotates")), FAILS)
+        self.assertEqual(judged((36, 0.3), (37, 0.3)), UNDECIDED)
+        self.assertEqual(judged((36, 0.3), (None, "undecided")), UNDECIDED)
+
+    def test_elastic_discs_cross_or_do_not(self):
+        def judged(elastic):
+            self.crossings("restitution", **{"1": elastic, "0.99": (36, 0.3), "0.9": (32, 0.3)})
+            return claims.elastic(self.folder)[0]
+        self.assertEqual(judged((36, 0.3)), HOLDS)
+        self.assertEqual(judged((None, "always rotates")), FAILS)
+        self.assertEqual(judged((None, "undecided")), UNDECIDED)
+
     def test_a_drop_is_more_than_its_error(self):
         def judged(last, error):
             self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, last)], error)
