@@ -6,8 +6,8 @@ the one threshold; every other number is a constant with a name, below.
 
 Claims that the paper does not make are none of these; nor is a fact of its experiment judged, whose
 friction is not known, by the paper's discs. Spheres that roll on a floor are that experiment but for
-their friction: of those, what is claimed must come out for one of the frictions that were tried, all of it
-for the same one. Only what is said of several frictions must come out for all.
+their friction: of those, what is claimed must come out for one of the frictions that were tried,
+all of it for the same one. Only what is said of several frictions must come out for all.
 
 Source of all claims: L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon, S. M. Rubinstein, Physical
 Review E 100, 012903 (2019), main text and Supplementary Information (SI).
@@ -232,8 +232,8 @@ def minimum(folder):
         low, end, rigid = after_minimum(rows, "rigid_by_event")
         so = {HOLDS: "rises, too", FAILS: "falls to the end",
               UNDECIDED: "neither rises nor falls for certain"}[above(rigid, 0).verdict]
-        text += (f" That is the paper's mean over the discs of their angular velocities. The cluster's "
-                 f"as that of a rigid body, Σ r × v / Σ r², {so}: from "
+        text += (" That is the paper's mean over the discs of their angular velocities. The "
+                 f"cluster's as that of a rigid body, Σ r × v / Σ r², {so}: from "
                  f"{number(value(low, 'rigid_by_event'))} at N = {low['discs']:.0f} to "
                  f"{number(value(end, 'rigid_by_event'))} at N = {end['discs']:.0f}.")
     return above(rise, 0), text
@@ -293,8 +293,8 @@ def no_disc_drop(folder):
     rows = folder.curve("5b", setting="no-disc")
     level, drop = drop_of(rows)
     text = (f"Mean of N = {LEVEL_FROM} … {HIGH_N - 1}: {number(level)}; at N = "
-            f"{rows[-1]['discs']:.0f}: {number(value(rows[-1], 'by_event'))}, lower by {number(drop)} (a drop is more than "
-            f"{SLIGHT_DROP}).")
+            f"{rows[-1]['discs']:.0f}: {number(value(rows[-1], 'by_event'))}, lower by {number(drop)} (a "
+            f"drop is more than {SLIGHT_DROP}).")
     try:
         steady = folder.curve("5b-steady", setting="no-disc")
         text += (" It belongs to the beginning: after a long warm-up ϖ/Ω = "
@@ -425,8 +425,8 @@ def slip_rises(folder):
     part, but = rising(rows, "pinned_at_wall")
     return parts(part, above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
         f"s of the pinned discs in the wall layer: {ends(rows, 'pinned_at_wall')}{but} (nearly 1: "
-        f"above {NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. The "
-        "0.5 at N = 25 is of the experiment, whose friction is not known.")
+        f"above {NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. "
+        "The 0.5 at N = 25 is of the experiment, whose friction is not known.")
 
 
 def slip_rough(folder):
@@ -629,8 +629,8 @@ def forces(folder):
     return parts(*agree), (
         f"In the experiment's units the centrifugal force on a disc is "
         f"{number(found['centrifugal'])} and the Coriolis force {number(found['coriolis'])} cm/s² at "
-        f"most, on average over N (the paper's range: within {100 * SAME_RANGE:.0f} % of its end). The "
-        f"mean Coriolis force is {number(mean)}, that of a disc that moves with the wall about "
+        f"most, on average over N (the paper's range: within {100 * SAME_RANGE:.0f} % of its end). "
+        f"The mean Coriolis force is {number(mean)}, that of a disc that moves with the wall about "
         f"{wall:.0f}, so 200 can only hold for slow ones.")
 
 

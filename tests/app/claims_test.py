@@ -17,8 +17,8 @@ sys.dont_write_bytecode = True
 import claims  # noqa: E402
 import report  # noqa: E402
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part,  # noqa: E402
-                      Value, above, agreed, below, either, every, falls, mean_of, parts, rises, scattered,
-                      step_back, trend, true, within)
+                      Value, above, agreed, below, either, every, falls, mean_of, parts,
+                      rises, scattered, step_back, trend, true, within)
 
 
 class Rules(unittest.TestCase):
@@ -195,6 +195,11 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(verdict, HOLDS)
         self.assertIn("they rotate does not hold", found)
         self.assertEqual(judged(less, down)[0], IN_PART)
+        # At each of the two numbers.
+        verdict, found = judged(down, [(44, 0.15), (48, -0.06)])
+        self.assertEqual(verdict, IN_PART)
+        self.assertIn("they rotate does not hold", found)
+        self.assertEqual(judged([(44, -0.04), (48, 0.02)], up)[0], IN_PART)
         self.assertEqual(judged(up, down)[0], FAILS)
         self.assertEqual(judged(down, down)[0], UNDECIDED)
 
@@ -206,6 +211,13 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.spheres_change_near(28)(self.folder)[0], HOLDS)
         self.assertEqual(claims.spheres_change_near(20)(self.folder)[0], FAILS)
         self.assertEqual(claims.spheres_friction_order(self.folder)[0], HOLDS)
+        # Of every two neighbours, that with more friction changes its sense earlier.
+        self.changes((0.2, 36, 0.2, "counterrotation"), (0.3, 38, 0.2, "counterrotation"),
+                     (0.5, 28, 0.2, "counterrotation"))
+        self.assertEqual(claims.spheres_friction_order(self.folder)[0], FAILS)
+        self.changes((0.2, 36, 0.2, "counterrotation"), (0.3, 35.8, 0.2, "counterrotation"),
+                     (0.5, 28, 0.2, "counterrotation"))
+        self.assertEqual(claims.spheres_friction_order(self.folder)[0], UNDECIDED)
 
     def test_a_friction_between_two_that_were_run_can_be_that_of_the_spheres(self):
         self.spheres("spheres", mu2=[(16, 0.1), (36, -0.1)])
@@ -401,6 +413,7 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(0.8, 0.9, 1.0), HOLDS)
         self.assertEqual(judged(0.8, 0.8, 0.8), IN_PART)
         self.assertEqual(judged(1.2, 1.0, 1.0), IN_PART)
+        self.assertEqual(judged(0.8, 1.0, 1.2), IN_PART)  # faster than the wall
         self.assertEqual(judged(1.2, 1.0, 0.8), FAILS)
         self.assertEqual(judged(0.8, 0.9, 0.96), UNDECIDED)
         self.assertEqual(judged(0.8, 0.9, 0.96).points, {"high_N48"})
@@ -428,6 +441,7 @@ class OnMadeUpTables(unittest.TestCase):
             return claims.loose_peak(self.folder)[0]
         self.assertEqual(judged(1.1, 1.1, 1.2), HOLDS)
         self.assertEqual(judged(1.0, 1.0, 2.0), FAILS)
+        self.assertEqual(judged(1.0, 1.0, 1.3), FAILS)  # one of them is enough
         self.assertEqual(judged(1.0, 1.1, 1.2, error=0.1), UNDECIDED)
 
     def slip(self, rough, smooth=(0.5, 0.6, 0.7), error=0.01):
@@ -473,15 +487,17 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged((2, 4, 8), (1, 1, 1), error=2), UNDECIDED)
 
     def test_left_of_m_is_most_of_the_discs_and_their_centre(self):
-        def judged(left, x, error=0.01):
+        def judged(left, x, error=0.01, turned=False):
             self.table("1b", [{"setting": "high", "discs": n, "left": share, "left_error": error,
-                               "centre_x": x, "centre_x_error": error, "centre_theta": 180,
+                               "centre_x": x * (-1 if turned and n == 48 else 1),
+                               "centre_x_error": error, "centre_theta": 180,
                                "point": f"high_N{n}"} for n, share in zip((24, 48), left)])
             return claims.left_of_M(self.folder)
         verdict, found = judged((0.7, 0.6), -1.0)
         self.assertEqual(verdict, HOLDS)
         self.assertIn("lags behind the swirl by 90°", found)
         self.assertEqual(judged((0.7, 0.4), -1.0)[0], IN_PART)
+        self.assertEqual(judged((0.7, 0.6), -1.0, turned=True)[0], IN_PART)  # at 48 to the right
         self.assertEqual(judged((0.3, 0.4), 1.0)[0], FAILS)
         self.assertEqual(judged((0.7, 0.51), -1.0)[0], UNDECIDED)
         self.assertEqual(judged((0.7, 0.51), -1.0)[0].points, {"high_N48"})
@@ -631,6 +647,7 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged((-0.2, -0.2, -0.2)), HOLDS)
         # One N where nothing is certain does not undo the others.
         self.assertEqual(judged((-0.2, -0.2, -0.001)), HOLDS)
+        self.assertIn("certainly negative at 2 of 3 N", claims.gears(self.folder)[1])
         self.assertEqual(judged((0.2, 0.2, 0.2)), IN_PART)
         self.assertEqual(judged((-0.2, -0.2, -0.2), pinned=0.2), IN_PART)
         self.assertEqual(judged((0.2, 0.2, 0.2), pinned=0.2), FAILS)
@@ -684,24 +701,35 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(claims.clockwise(self.folder)[0], HOLDS)
 
     def test_a_ball_that_nothing_turns_does_not_rotate(self):
-        def judged(slipping, rolling):
-            self.table("ball", [{"mu": mu, "restitution": 0.5, "gamma": g, "gamma_error": 0,
-                                 "slip": g / 1.72} for mu, g in ((0, slipping), (1, rolling))])
+        def judged(slipping, rolling, error=0):
+            self.table("ball", [{"mu": mu, "restitution": 0.5, "gamma": g, "gamma_error": error,
+                                 "slip": g / 1.72}
+                                for mu, found in ((0, slipping), (1, rolling)) for g in found])
             return claims.ball(self.folder)[0]
-        self.assertEqual(judged(0.9, 1.7), HOLDS)
-        self.assertEqual(judged(1.0, 1.7), IN_PART)
-        self.assertEqual(judged(1.0, 0.9), FAILS)
+        self.assertEqual(judged([0.9], [1.7]), HOLDS)
+        self.assertEqual(judged([1.0], [1.7]), IN_PART)
+        self.assertEqual(judged([1.0], [0.9]), FAILS)
+        self.assertEqual(judged([0.9], [1.7], error=0.1), UNDECIDED)
+        # Whatever its size.
+        self.assertEqual(judged([0.9, 1.1], [1.7, 1.2]), IN_PART)
+        self.assertEqual(judged([0.9, 0.8], [1.7, 0.9]), IN_PART)
 
     def test_the_oblong_cluster_needs_both_distance_and_speed(self):
-        def judged(distance, speed):
+        def judged(*places, error=0.01):
             self.table("3a", [
-                {"discs": 28, "theta": t, "visits": 1000, "varpi_m": v, "distance": d,
-                 "distance_error": 0.01, "speed": u, "speed_error": 0.01}
+                {"discs": n, "theta": t, "visits": 1000, "varpi_m": v, "distance": d,
+                 "distance_error": error, "speed": u, "speed_error": error}
+                for n, (distance, speed) in zip((28, 48), places)
                 for t, v, d, u in ((90, -1, 4, 2), (180, -0.8, distance, speed), (270, -1, 4, 2))])
             return claims.oblong(self.folder)[0]
-        self.assertEqual(judged(5, 2), HOLDS)
-        self.assertEqual(judged(3, 2), IN_PART)
-        self.assertEqual(judged(3, 1), FAILS)
+        self.assertEqual(judged((5, 2)), HOLDS)
+        self.assertEqual(judged((3, 2)), IN_PART)
+        self.assertEqual(judged((3, 1)), FAILS)
+        self.assertEqual(judged((3, 4)), FAILS)  # faster is not as fast either
+        self.assertEqual(judged((5, 2), error=1), UNDECIDED)
+        # At every N.
+        self.assertEqual(judged((5, 2), (3, 2)), IN_PART)
+        self.assertEqual(judged((5, 2), (5, 1)), IN_PART)
 
     def test_without_wall_friction_motion_is_little_below_a_tenth_of_the_wall(self):
         def judged(speed, error):
@@ -773,18 +801,22 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged((460,), (200,)), UNDECIDED)  # one extreme tells nothing
 
     def test_a_gas_is_hotter_and_has_fewer_contacts(self):
-        def judged(temperature, contacts, error=0.01, drifting=0):
+        def judged(temperature, contacts, error=0.01, drifting=0, at_48=None):
+            found = {28: (temperature, contacts), 48: at_48 or (temperature, contacts)}
             self.table("states", [
                 {"setting": setting, "discs": n, "granular": t, "granular_error": error,
                  "coordination": c, "coordination_error": error, "seeds": 8,
                  "steady_runs": 8 - drifting * (setting == "no-disc"),
                  "drifting_runs": drifting * (setting == "no-disc"), "point": f"{setting}_N{n}"}
                 for n in (28, 48)
-                for setting, t, c in (("high", 0.3, 2.0), ("no-disc", temperature, contacts))])
+                for setting, t, c in (("high", 0.3, 2.0), ("no-disc", *found[n]))])
             return claims.gas(self.folder)
         self.assertEqual(judged(0.6, 1.0)[0], HOLDS)
         self.assertEqual(judged(0.1, 1.0)[0], IN_PART)
         self.assertEqual(judged(0.1, 3.0)[0], FAILS)
+        # At both numbers.
+        self.assertEqual(judged(0.6, 1.0, at_48=(0.1, 1.0))[0], IN_PART)
+        self.assertEqual(judged(0.6, 1.0, at_48=(0.6, 3.0))[0], IN_PART)
         self.assertEqual(judged(0.6, 1.0, error=0.2)[0], UNDECIDED)
         self.assertTrue(judged(0.6, 1.0, error=0.2)[0].points)
         # What still changes decides nothing, however small its errors, and more seeds do not help.
