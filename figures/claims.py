@@ -674,21 +674,11 @@ def gas(folder):
 
 def smallest_times(folder):
     rows = folder.table("times")
-
-    def length():
-        """Events of a run: as in Figure 5b, whose runs are as long, unless the table has them."""
-        if "events" in rows[0]:
-            return rows[0]["events"]
-        try:
-            return folder.curve("5b", setting="high")[-1]["events"]
-        except (FileNotFoundError, IndexError):
-            return math.nan
-
     # The smallest of n independent times falls as 1/n (twelve runs of 10^6 events with friction:
     # log10 −8.77 ± 0.15; their tenths: −7.72 ± 0.05): shorter runs than the paper's have larger ones,
     # by that factor. Without friction the discs get faster as long as a run lasts, so that the
     # beginning of a run says nothing of the whole.
-    events = length()
+    events = rows[0]["events"]
     found = {mu: scattered([math.log10(row["smallest"] * events / EVENTS)
                             for row in tables.select(rows, mu=mu) if row["smallest"] > 0],
                            least=SCATTER_OF_SMALLEST)

@@ -32,7 +32,7 @@ Json smallest_time(const RunConfig& config, const RunControl& control) {
         run.pass_event();
     }
     if (!run.complete()) throw Interrupted("Stopped.");
-    return {{"smallest", smallest}};
+    return {{"events", config.events}, {"smallest", smallest}};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ static FigurePlan plan_figure_times(const PaperSettings& settings) {
         }
     plan.finish = [frictions, seeds = settings.seeds()](const std::vector<Json>& results,
                                                         const std::filesystem::path& out) {
-        Table table({"mu", "discs", "seed", "smallest"});
+        Table table({"mu", "discs", "seed", "events", "smallest"});
         FigureOutcome outcome;
         for (std::size_t m = 0; m < frictions.size(); ++m) {
             std::vector<double> found;
@@ -59,7 +59,8 @@ static FigurePlan plan_figure_times(const PaperSettings& settings) {
                 const Json& r = results[m * std::size_t(seeds) + std::size_t(s)];
                 if (failed(r)) continue;
                 found.push_back(number(r["smallest"]));
-                table.add({frictions[m], counterrotating, std::int64_t{s + 1}, found.back()});
+                table.add({frictions[m], counterrotating, std::int64_t{s + 1}, whole(r["events"]),
+                           found.back()});
             }
             std::sort(found.begin(), found.end());
             if (!found.empty())
