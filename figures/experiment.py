@@ -128,12 +128,16 @@ def maps(folder, film, amplitude):
     # One scale for both, which a few cells that are hardly visited must not set.
     levels = sorted(row["density"] for part in density.values() for row in part)
     top = levels[int(0.995 * (len(levels) - 1))]
-    for axes, source in zip(panels[0], there):
+    cells = style.select(rows, map="flow")
+    spacing = 2 * style.COARSE * R / max(len({row["x"] for row in cells}), 1)
+    flows = [style.often_visited(
+        style.blocks(style.select(cells, source=source), style.COARSE), 2e-4) for source in there]
+    fastest = max((style.speed(row) for flow in flows for row in flow), default=1.0)
+    for axes, source, flow in zip(panels[0], there, flows):
         shown = style.cells(axes, density[source], "density", R)
         shown.set_clim(0, top)
-        flow = [row for row in style.select(rows, source=source, map="flow") if row["visits"] > 0]
-        style.arrows(axes, flow, R, color="white",
-                     least=0.002 * sum(row["visits"] for row in flow) / 10)
+        if flow:
+            style.arrows(axes, flow, spacing, fastest, color="white")
         style.dish(axes, R, color="white")
         axes.set_title(f"{source}, $N = {rows[0]['discs']:.0f}$")
     bar = drawing.colorbar(shown, ax=list(panels[0]), shrink=0.85)

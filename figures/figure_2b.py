@@ -13,8 +13,12 @@ def main():
     density = style.select(rows, map="density")
     R = max(row["x"] for row in density) * 100 / 99
     shown = style.cells(axes, density, "density", R)
-    flow = [row for row in style.select(rows, map="flow") if row["visits"] > 0]
-    style.arrows(axes, flow, R, color="white", least=0.002 * sum(r["visits"] for r in flow) / 10)
+    # Every cell would have an arrow of its own in 5d; here they lie on the density.
+    cells = style.select(rows, map="flow")
+    spacing = style.COARSE * 2 * R / len({row["x"] for row in cells})
+    flow = style.often_visited(style.blocks(cells, style.COARSE), 2e-4)
+    if flow:
+        style.arrows(axes, flow, spacing, max(map(style.speed, flow)), color="white")
     style.dish(axes, R, color="white")
     axes.set_title(f"$N = {rows[0]['discs']:.0f}$")
     bar = drawing.colorbar(shown, ax=axes, shrink=0.85)

@@ -19,16 +19,16 @@ def main():
     style.legend(spin)
     style.zero_line(contacts)
     style.curve(contacts, rows, "discs", "spin_correlation", color=style.BLACK, marker="v",
-                label="spins of neighbours")
+                label="spins, neighbours")
     style.curve(contacts, rows, "discs", "triangles", color=style.GREEN, marker="^",
                 label="contacts in triangles")
     style.curve(contacts, rows, "discs", "disc_sticking", color=style.PINK, marker="D",
-                label="sticking collisions, disc–disc")
+                label="sticking, disc–disc")
     style.curve(contacts, rows, "discs", "wall_sticking", color=style.ORANGE, marker="P",
-                label="sticking collisions, disc–wall")
+                label="sticking, disc–wall")
     style.curve(contacts, rows, "discs", "pinned_correlation", color=style.BLUE, marker="<",
-                label="spins of pinned neighbours")
-    style.legend(contacts, fontsize=6)
+                label="spins, pinned neighbours")
+    style.legend(contacts)
     contacts.set_xlabel(r"number of discs $N$")
     style.save(drawing, table)
 

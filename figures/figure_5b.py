@@ -26,9 +26,9 @@ def main():
     axes.axvspan(48.5, max(row["discs"] for row in rows) + 1.5, color="0.93", zorder=-1,
                  linewidth=0)
     axes.set_xlim(3.5, max(row["discs"] for row in rows) + 1.5)
-    axes.set_ylim(bottom=-0.16)
-    axes.text(5, -0.12, "counterrotation", color=style.GREY, fontsize=7)
-    style.legend(axes, fontsize=6.5)
+    axes.set_ylim(bottom=min(-0.16, axes.get_ylim()[0]))
+    axes.text(5, -0.12, "counterrotation", color=style.GREY, fontsize=style.SMALLEST)
+    style.legend(axes)
     style.note(drawing, "grey: denser than in the paper"
                + ("; in a ring: not shown to be steady" if style.not_steady(rows) else ""))
     style.save(drawing, table)

@@ -27,7 +27,7 @@ def main():
     both.set_ylabel(r"$\varpi/\Omega$")
     both.plot([], [], color=style.GREY, linestyle=":", marker="o", fillstyle="none",
               label="by time (filled: by event)")
-    style.legend(both, fontsize=6)
+    style.legend(both)
     difference.set_ylabel(r"by event $-$ by time")
     difference.set_xlabel(r"number of discs $N$")
     style.save(drawing, table)

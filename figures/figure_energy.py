@@ -18,7 +18,7 @@ def main():
     axes.set_yscale("log")
     axes.set_xlabel("swirls")
     axes.set_ylabel("kinetic energy ($m v_c^2$)")
-    style.legend(axes, ncol=4, fontsize=6.5)
+    style.legend(axes)
     style.save(drawing, table)
 
 

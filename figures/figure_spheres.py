@@ -6,7 +6,7 @@ from smooth to rough.
 
 import style
 
-MOST = 0.16  # of Ω: what lies above is few spheres, which rotate
+FINE = 0.16  # of Ω: above are few spheres, which rotate
 
 
 def main():
@@ -15,8 +15,8 @@ def main():
     curves = [(style.select(rows, mu=mu),
                {"label": rf"$\mu = {mu:g}$", "color": style.CYCLE[k], "marker": style.MARKERS[k]})
               for k, mu in enumerate(sorted({row["mu"] for row in rows}))]
-    style.rotation_figure(table, curves, of="spheres", width=1.45 * style.COLUMN, height=3.1,
-                          limits=(-0.1, MOST), ncol=3)
+    style.rotation_figure(table, curves, of="spheres", width=style.PAGE, height=3.4,
+                          fine=FINE, ncol=6)
 
 
 if __name__ == "__main__":

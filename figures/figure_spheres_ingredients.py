@@ -9,10 +9,10 @@ CURVES = [
     ("0.2", "all ingredients", style.BLACK, "o"),
     ("no-damping", r"no damping ($e = 1$)", style.SKY, "D"),
     ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s"),
-    ("no-vertical-wall", "no vertical friction at the wall", style.PINK, "P"),
-    ("no-vertical-disc", "no vertical friction between spheres", style.ORANGE, "^"),
-    ("no-vertical", "no vertical friction at all", style.RED, "v"),
     ("no-floor", "no floor", style.GREEN, "X"),
+    ("no-vertical", "no vertical friction", style.RED, "v"),
+    ("no-vertical-wall", "none at the wall", style.PINK, "P"),
+    ("no-vertical-disc", "none between spheres", style.ORANGE, "^"),
 ]
 
 
@@ -23,7 +23,7 @@ def main():
     curves = [([row for row in rows if str(row["curve"]) == name],
                {"label": label, "color": color, "marker": marker})
               for name, label, color, marker in CURVES]
-    style.rotation_figure(table, curves, of="spheres", height=3.2, fontsize=6.2)
+    style.rotation_figure(table, curves, of="spheres", height=3.2)
 
 
 if __name__ == "__main__":

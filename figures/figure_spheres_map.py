@@ -9,8 +9,7 @@ import style
 def main():
     table = style.table_from_arguments("figure_spheres_map")
     rows = style.read(table)
-    large = len({row["mu"] for row in rows}) > 5
-    drawing, axes = style.figure(width=(1.4 if large else 1) * style.COLUMN, height=2.9)
+    drawing, axes = style.figure(height=2.9)
     style.rotation_map(drawing, axes, rows, ("mu", "floor_friction"),
                        label=r"$\varpi/\Omega$ at $N = 36$")
     axes.set_xlabel(r"friction of spheres and wall $\mu$")

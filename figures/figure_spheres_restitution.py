@@ -15,7 +15,7 @@ def main():
     curves = [(style.select(rows, curve=e),
                {"label": rf"$e = {e:g}$", "color": color, "marker": marker})
               for e, color, marker in zip(restitutions, COLORS, "osD^vP")]
-    style.rotation_figure(table, curves, of="spheres", height=2.9)
+    style.rotation_figure(table, curves, of="spheres", height=2.9, ncol=3)
 
 
 if __name__ == "__main__":

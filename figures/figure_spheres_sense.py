@@ -18,7 +18,7 @@ def main():
     for discs, kind in EXPERIMENT:
         axes.axhline(discs, color=style.GREY, linewidth=0.7, linestyle="--", zorder=0)
         axes.annotate(f" {kind}\n experiment", (1.0, discs), xycoords=("axes fraction", "data"),
-                      fontsize=6.5, color="0.3", ha="left", va="center")
+                      fontsize=style.SMALLEST, color="0.3", ha="left", va="center")
     for sense, filled, label in CHANGES:
         here = style.select(rows, sense=sense)
         if here:

@@ -8,7 +8,7 @@ import math
 import style
 
 SETTINGS = (("high", "both frictions 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
-            ("no-disc", r"$\mu_d = 0$", style.PINK))
+            ("no-disc", r"$\mu_d = 0$", style.ORANGE))
 PERIOD, RADIUS = 11.866071, 8.6
 
 
@@ -16,7 +16,7 @@ def main():
     table = style.table_from_arguments("figure_states")
     rows = style.read(table)
     numbers = sorted({row["discs"] for row in rows})
-    drawing, (speed, heat) = style.figure(height=2.3, ncols=2)
+    drawing, (speed, heat) = style.figure(height=2.5, ncols=2)
     per_speed = 1 / (2 * (2 * math.pi / PERIOD) ** 2 * RADIUS)
     for k, (setting, label, color) in enumerate(SETTINGS):
         here = style.select(rows, setting=setting)
@@ -31,9 +31,12 @@ def main():
     for axes in (speed, heat):
         axes.set_xticks(range(len(numbers)), [f"{n:.0f}" for n in numbers])
         axes.set_xlabel("number of discs $N$")
-    speed.set_ylabel(r"mean speed in the M-frame ($\Omega R$)")
-    heat.set_ylabel("granular temperature ($m v^2$)")
-    style.legend(speed, ncol=1)
+        style.zero_line(axes)
+    speed.set_title(r"mean speed ($\Omega R$)")
+    heat.set_title("granular temp. ($m v_c^2$)")
+    drawing.suptitle(" ", fontsize=style.SMALLEST)  # room for the legend of both
+    drawing.legend(*speed.get_legend_handles_labels(), loc="upper center", ncol=3,
+                   borderaxespad=0.2)
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 

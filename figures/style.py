@@ -9,9 +9,11 @@ import os
 import sys
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 
 import tables  # noqa: E402
@@ -20,6 +22,7 @@ from tables import column, select  # noqa: E402, F401
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
 PAGE = 7.0
+SMALLEST = 7  # points: no letter is smaller where a figure is as wide as its column
 AMPLITUDE = 1.892  # of the container's path, in disc radii: where S is in the M-frame
 
 BLACK = "#000000"
@@ -52,7 +55,7 @@ SETTINGS = {
     "ytick.major.width": 0.6,
     "xtick.major.size": 3,
     "ytick.major.size": 3,
-    "legend.fontsize": 7,
+    "legend.fontsize": SMALLEST,
     "legend.frameon": False,
     "legend.handlelength": 1.6,
     "lines.linewidth": 1.0,
@@ -102,7 +105,7 @@ def ring(axes, rows, x, y):
 
 def note(drawing, text):
     """A remark below the figure."""
-    drawing.supxlabel(text, fontsize=6.5, color="0.3")
+    drawing.supxlabel(text, fontsize=SMALLEST, color="0.3")
 
 
 def note_not_steady(drawing, rows):
@@ -130,17 +133,42 @@ def rotation_curves(name, parameter, symbol):
     rotation_figure(table, curves, ncol=3)
 
 
-def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, limits=None, **more):
-    """A whole figure: rotation against the number of `of`; `curves` are rows and how they look."""
+def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=None, **more):
+    """A whole figure: rotation against the number of `of`; `curves` are rows and how they look.
+    Above `fine` the scale is coarser, where there is anything."""
     drawing, axes = figure(width, height)
     zero_line(axes)
     for rows, look in curves:
         curve(axes, rows, "discs", "by_time", **look)
-    if limits:
-        axes.set_ylim(*limits)
+    if fine:
+        coarser_above(axes, fine, [row for rows, _ in curves for row in rows])
     rotation_axes(axes, of=of)
     legend(axes, **more)
     save(drawing, table)
+
+
+COARSER = 6  # times
+
+
+def coarser_above(axes, level, rows):
+    """Every point is shown, and those near zero can be told apart: above the level, which a dotted
+    line marks, the scale of ϖ is coarser."""
+    ends = [row["by_time"] + sign * (row["by_time_error"] if row["by_time_error"] >= 0 else 0)
+            for row in rows if row["by_time"] == row["by_time"] for sign in (-1, 1)]
+    if not ends or max(ends) <= level:
+        return
+    axes.set_yscale("function", functions=(
+        lambda y: np.where(y <= level, y, level + (y - level) / COARSER),
+        lambda z: np.where(z <= level, z, level + (z - level) * COARSER)))
+    axes.set_ylim(min(ends) - 0.02, max(ends) + 0.02 * COARSER)
+    step = 0.05
+    axes.set_yticks([step * k for k in range(math.ceil(min(ends) / step), math.ceil(level / step))]
+                    + [0.2 * k for k in range(2, 6) if level + 0.1 < 0.2 * k < max(ends) + 0.1])
+    axes.yaxis.set_major_formatter(
+        matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:.2f}".replace("-", "−")))
+    axes.axhline(level, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
+    axes.annotate(f"coarser\nabove {level:g}", (1.0, level), xycoords=("axes fraction", "data"),
+                  fontsize=SMALLEST, color="0.3", ha="left", va="center")
 
 
 def legend(axes, ncol=2, **more):
@@ -151,6 +179,7 @@ def legend(axes, ncol=2, **more):
 
 def rotation_axes(axes, average="by time", of="discs"):
     axes.set_xlabel(rf"number of {of} $N$")
+    axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, steps=(1, 2, 5, 10)))
     axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
 
 
@@ -212,18 +241,17 @@ def dish(axes, radius, color=BLACK):
     bare(axes)
     axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=BLACK, linewidth=0.8))
     axes.plot(0, -radius, "o", color=PINK, markersize=3, clip_on=False, zorder=5)
-    axes.text(0.07 * radius, -1.17 * radius, "$M$", color=PINK, fontsize=7, ha="center",
-              va="center")
+    axes.text(0, -1.07 * radius, "$M$", color=PINK, fontsize=SMALLEST + 1, ha="center", va="top")
     # Seen on arrows and on any colour of a map.
     edge = [withStroke(linewidth=1.6, foreground=BLACK if color == "white" else "white")]
     axes.plot(0, AMPLITUDE, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
               path_effects=edge)
-    axes.text(0.05 * radius, AMPLITUDE + 0.02 * radius, "$S$", color=color, fontsize=7,
-              va="bottom", zorder=5, path_effects=edge)
+    axes.text(0.05 * radius, AMPLITUDE + 0.02 * radius, "$S$", color=color,
+              fontsize=SMALLEST + 1, va="bottom", zorder=5, path_effects=edge)
     for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
         turn = math.radians(degrees)
         axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),
-                  r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=6, color="0.3",
+                  r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=SMALLEST, color="0.3",
                   ha=align, va="center")
     axes.set_xlim(-1.3 * radius, 1.3 * radius)
     axes.set_ylim(-1.3 * radius, 1.2 * radius)
@@ -239,16 +267,54 @@ def cells(axes, rows, name, radius):
     return shown
 
 
-def arrows(axes, rows, radius, color, least=0):
-    """Velocities in units of the container's speed; cells seldom visited are left out."""
-    rows = [row for row in rows if row["visits"] > least]
+def often_visited(rows, least):
+    """Cells of a flow where more than this share of all visits was, so that their mean is one."""
+    total = sum(row["visits"] for row in rows)
+    return [row for row in rows if row["visits"] > least * total]
+
+
+COARSE = 2  # cells of the table beside each other that share an arrow, where it lies on a map
+
+
+def blocks(rows, side):
+    """The flow in squares of side × side cells, each visit counted alike."""
+    across, up = (sorted({row[axis] for row in rows}) for axis in ("x", "y"))
+    members = {}
+    for row in rows:
+        members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side),
+                           []).append(row)
+
+    def middle(places, k):
+        here = places[k * side:(k + 1) * side]
+        return sum(here) / len(here)
+
+    result = []
+    for (i, j), here in members.items():
+        here = [row for row in here if row["visits"] > 0]
+        visits = sum(row["visits"] for row in here)
+        if visits:
+            result.append({"x": middle(across, i), "y": middle(up, j), "visits": visits} | {
+                name: sum(row["visits"] * row[name] for row in here) / visits
+                for name in ("u_x", "u_y")})
+    return result
+
+
+def speed(row):
+    return math.hypot(row["u_x"], row["u_y"])
+
+
+def arrows(axes, rows, spacing, fastest, color):
+    """Velocities in units of the container's speed, each in the middle of its cell; the fastest is as
+    long as cells are apart, so that none runs into another."""
     drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
                         column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
-                        scale=0.8, width=0.0075, headwidth=3.5, headlength=4, headaxislength=3.6)
+                        scale=fastest / spacing, pivot="mid", units="xy", width=0.095 * spacing,
+                        headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
     # The scale, outside of the dish.
-    axes.quiverkey(drawn, 0.88, 0.03, 1.0, "speed 1", labelpos="N", coordinates="axes",
-                   color=BLACK if color == "white" else color, fontproperties={"size": 7},
-                   labelsep=0.03)
+    known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
+    axes.quiverkey(drawn, 0.9, 0.03, known, f"speed {known:g}", labelpos="N", coordinates="axes",
+                   color=BLACK if color == "white" else color,
+                   fontproperties={"size": SMALLEST}, labelsep=0.03)
 
 
 def save(drawing, table):
@@ -277,7 +343,7 @@ def table_from_arguments(name):
     return sys.argv[1]
 
 
-def rotation_map(drawing, axes, rows, columns, label, fontsize=7):
+def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
     """ϖ/Ω over two parameters, as colour and as number; `columns` are those along x and y."""
     across, up = (sorted({row[column] for row in rows}) for column in columns)
     values = [[float("nan")] * len(across) for _ in up]

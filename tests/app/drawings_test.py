@@ -1,0 +1,218 @@
+"""What the scripts of the figures draw, from tables made up as large as those of a whole study: letters that
+can be read, legends beside the data, every point inside its axes, arrows that do not touch."""
+
+import csv
+import glob
+import importlib
+import itertools
+import math
+import os
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+from program import SOURCE
+
+sys.path.insert(0, os.path.join(SOURCE, "figures"))
+import style  # noqa: E402
+from matplotlib.collections import LineCollection  # noqa: E402
+from matplotlib.quiver import Quiver  # noqa: E402
+from matplotlib.text import Text  # noqa: E402
+
+SMALLEST = 7.0  # points, where the figure is shown as wide as it is
+R = 8.6
+ONE_POINT = 300 / 72  # in pixels
+
+
+def rotation(numbers, high=0.2, low=-0.05, **more):
+    """Rows of one curve, some of them of runs that are not steady."""
+    numbers = list(numbers)
+    for k, discs in enumerate(numbers):
+        level = high + (low - high) * k / max(len(numbers) - 1, 1)
+        yield {"discs": discs, "by_time": level, "by_time_error": 0.01, "by_event": level + 0.02,
+               "by_event_error": 0.02, "steady_state": "drifting" if k % 3 else "steady", **more}
+
+
+def curves(column, values, numbers=range(5, 56, 3), **more):
+    return [row for k, value in enumerate(values)
+            for row in rotation(numbers, high=1.0 / (k + 1), **{column: value}, **more)]
+
+
+def with_errors(row, **values):
+    row.update({name: value for name, value in values.items()})
+    row.update({name + "_error": 0.01 for name in values})
+    return row
+
+
+def cells(side, **more):
+    for j, i in itertools.product(range(side), repeat=2):
+        x, y = ((2 * k + 1 - side) * R / side for k in (i, j))
+        inside = math.hypot(x, y) < 0.95 * R
+        yield {"x": x, "y": y, "density": 0.4 * inside, "by_event": 0.4 * inside, "by_time": 0.4,
+               "visits": 100 * inside, "u_x": 0.5 + 0.1 * x, "u_y": -2.2, **more}
+
+
+def profile():
+    for discs, theta in itertools.product((24, 36, 48), range(5, 360, 10)):
+        yield with_errors({"discs": discs, "theta": theta, "visits": 1000, "stay_begins": 200.0,
+                           "stay_ends": 90.0, "steady_state": "drifting", "wall": -1.0},
+                          varpi_m=-1 + 0.1 * math.sin(theta / 57), normalised=1.2)
+
+
+FRICTIONS = ("no-wall", "no-disc", "low", "medium", "high")
+STEPS = (0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1)
+SPHERES = (0.1, 0.15, 0.2, 0.25, 0.3, 0.5)
+
+TABLES = {
+    "1b": [with_errors(row, pancake=-0.1) for row in rotation(range(24, 49))],
+    "2b": [*cells(100, map="density", discs=48, steady_state="drifting"),
+           *cells(20, map="flow", discs=48, steady_state="drifting")],
+    "3a": list(profile()),
+    "3b": list(profile()),
+    "4a": [with_errors(row, pinned_at_wall=0.9, pinned_region=0.95, cluster=0.5)
+           for row in curves("setting", ("high", "low"), range(24, 49))],
+    "4b": [with_errors(row, pinned_wall_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
+                       triangles=0.3, disc_sticking=0.9, wall_sticking=0.9, pinned_correlation=-0.1)
+           for row in rotation(range(24, 49))],
+    "4c": curves("setting", ("high", "low"), range(24, 49)),
+    "5b": curves("setting", FRICTIONS) + list(rotation(range(40, 56), low=-0.4, setting="high")),
+    "5c": [row for n in (28, 48) for row in cells(100, discs=n, steady_state="drifting")],
+    "5d": [row for n in (28, 48) for row in cells(20, discs=n, steady_state="drifting")],
+    "averages": curves("setting", FRICTIONS),
+    "ball": [{"ball_radius": r, "mu": mu, "restitution": e, "gamma": 1 + mu, "gamma_error": 0.4,
+              "gamma_no_slip": R / r} for r in (4.3, 5, 7) for mu in STEPS for e in (0.5, 1)],
+    "energy": [{"sides": m, "swirl": k, "energy": 10.0 + k * m} for m in (6, 30, 300, 0)
+               for k in range(1, 100)],
+    "friction": [{"mu": mu, "crosses": float(mu > 0.1), "crossing": 50 - 10 * mu,
+                  "crossing_error": 0.5, "steady_state": "drifting"} for mu in (0.05, 0.1, 0.5, 2)],
+    "inertia": curves("inertia", (0.5, 1, 10)),
+    "map": [row for a in STEPS for b in STEPS
+            for row in rotation([48], high=b - a, mu_disc=a, mu_wall=b)],
+    "polygon": [row for m in (6, 10, 30, 300, 0) for row in rotation((28, 48), sides=m)],
+    "restitution": curves("restitution", (1, 0.99, 0.9)),
+    "spheres": curves("mu", SPHERES, range(8, 56, 4)),
+    "spheres_coins": curves("curve", ("coins_f0", "coins_f0.01", "coins_f0.02", "coins_f0.03")),
+    "spheres_ingredients": curves("curve", ("0.2", "no-damping", "shell", "no-vertical-wall",
+                                            "no-vertical-disc", "no-vertical", "no-floor")),
+    "spheres_map": [row for a in STEPS[1:8] for b in STEPS[1:6]
+                    for row in rotation([36], high=a - b, mu=a, floor_friction=b)],
+    "spheres_pinned": [with_errors(row, pinned_region=0.9, pinned_wall_spin=0.3, rolling_share=0.7,
+                                   contact_correlation=0.9)
+                       for row in curves("mu", (0.15, 0.5))],
+    "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
+    "spheres_sense": [{"mu": mu, "crossing": 20 + 20 * mu, "crossing_error": 9.0, "sense": sense}
+                      for mu in SPHERES for sense in ("counterrotation", "rotation")],
+    "states": [with_errors(row, coriolis=5.0, granular=0.5)
+               for row in curves("setting", ("high", "no-wall", "no-disc"), (28, 48))],
+    "tangential": curves("tangential_restitution", (0, 0.5, 1)),
+    "transient": [{"discs": n, "swirl": k, "varpi": k / 200, "spin": -k / 50, "events": 1e4 * k}
+                  for n in (40, 43, 46, 48) for k in range(200)],
+}
+
+
+class Drawings(unittest.TestCase):
+    def drawn(self, name, rows):
+        """The figure that the script makes of the table, before it is saved."""
+        module = importlib.import_module(f"figure_{name}")
+        with tempfile.TemporaryDirectory() as folder:
+            table = os.path.join(folder, f"figure_{name}.csv")
+            with open(table, "w", newline="", encoding="utf-8") as file:
+                columns = list(dict.fromkeys(column for row in rows for column in row))
+                out = csv.DictWriter(file, columns)
+                out.writeheader()
+                out.writerows(rows)
+            made = []
+            with mock.patch.object(style, "save", lambda drawing, table: made.append(drawing)), \
+                    mock.patch.object(sys, "argv", [f"figure_{name}.py", table]):
+                if hasattr(module, "main"):
+                    module.main()
+                else:
+                    with open(module.__file__, encoding="utf-8") as script:
+                        exec(compile(script.read(), module.__file__, "exec"),
+                             {"__name__": "__main__"})
+        style.plt.close(made[0])  # of pyplot's list; the drawing stays
+        made[0].canvas.draw()
+        return made[0]
+
+    def test_every_script_has_a_table_here(self):
+        scripts = glob.glob(os.path.join(SOURCE, "figures", "figure_*.py"))
+        self.assertEqual({os.path.basename(s)[len("figure_"):-len(".py")] for s in scripts},
+                         set(TABLES))
+
+    def test_what_is_drawn(self):
+        for name, rows in TABLES.items():
+            with self.subTest(figure=name):
+                drawing = self.drawn(name, rows)
+                self.letters(drawing)
+                self.nothing_sticks_out(drawing)
+                self.legends(drawing)
+                self.points(drawing)
+
+    def letters(self, drawing):
+        for text in drawing.findobj(Text):
+            if text.get_visible() and text.get_text().strip():
+                self.assertGreaterEqual(text.get_fontsize(), SMALLEST, text.get_text())
+
+    def nothing_sticks_out(self, drawing):
+        box = drawing.get_tightbbox(drawing.canvas.get_renderer())
+        width, height = drawing.get_size_inches()
+        self.assertGreaterEqual(min(box.x0, box.y0), -0.01)
+        self.assertLessEqual(box.x1, width + 0.01)
+        self.assertLessEqual(box.y1, height + 0.01)
+        self.assertIn(round(width, 3), (style.COLUMN, style.PAGE))  # what the report shows as it is
+
+    def legends(self, drawing):
+        found = drawing.legends + [a.get_legend() for a in drawing.axes if a.get_legend()]
+        for legend in found:
+            box = legend.get_window_extent()
+            self.assertGreaterEqual(box.x0, -1)
+            self.assertLessEqual(box.x1, drawing.bbox.x1 + 1)
+            for axes in drawing.axes:
+                inside = axes.get_window_extent()
+                self.assertFalse(box.x0 < inside.x1 - 1 and inside.x0 < box.x1 - 1
+                                 and box.y0 < inside.y1 - 1 and inside.y0 < box.y1 - 1)
+
+    def points(self, drawing):
+        for axes in drawing.axes:
+            inside = axes.get_window_extent().padded(0.5 * ONE_POINT)
+            shown = [line.get_xydata() for line in axes.lines
+                     if line.get_transform() == axes.transData]
+            for bars in axes.collections:
+                if isinstance(bars, LineCollection):
+                    shown += bars.get_segments()
+            for place in (place for points in shown for place in points):
+                if not any(math.isnan(float(number)) for number in place):
+                    x, y = axes.transData.transform(place)
+                    self.assertTrue(inside.contains(x, y), (axes.get_ylabel(), place))
+
+    def test_arrows_do_not_reach_each_other(self):
+        for name, side in (("2b", 10), ("5d", 20)):
+            drawing = self.drawn(name, TABLES[name])
+            quivers = [(axes, q) for axes in drawing.axes for q in axes.collections
+                       if isinstance(q, Quiver)]
+            self.assertEqual(len(quivers), 1 if name == "2b" else 2)
+            for _, quiver in quivers:
+                longest = max(math.hypot(u, v) for u, v in zip(quiver.U, quiver.V)) / quiver.scale
+                self.assertLessEqual(longest, 2 * R / side * 1.001)
+                self.assertGreater(longest, 1.5 * R / side)
+            scales = {quiver.scale for _, quiver in quivers}
+            self.assertEqual(len(scales), 1)
+
+    def test_blocks_of_a_flow_count_each_visit_alike(self):
+        rows = [{"x": x, "y": y, "visits": 1 + 2 * x, "u_x": 1.0 * x, "u_y": 2.0}
+                for y in (0, 1) for x in (0, 1)]
+        self.assertEqual(style.blocks(rows, 2),
+                         [{"x": 0.5, "y": 0.5, "visits": 8, "u_x": 0.75, "u_y": 2.0}])
+        empty = [row | {"visits": 0, "u_x": math.nan} for row in rows]
+        self.assertEqual(style.blocks(empty, 2), [])
+
+    def test_spheres_all_near_zero_need_no_second_scale(self):
+        near = curves("mu", (0.5,), range(8, 56, 4))
+        near = [row | {"by_time": -0.05} for row in near]
+        self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")
+        self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "function")
+
+
+if __name__ == "__main__":
+    unittest.main()
