@@ -69,7 +69,7 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     empty.resize(0);
     SceneStyle style;
     style.theme = theme;
-    style.point_type = 1.6;
+    style.point_type = 1.8;
     const auto square = [&](int k) {
         return Rectangle{width * (k + 0.5) / 3.0 - 0.5 * side, 3.0 * type, side,
                          height - 3.2 * type};
@@ -86,7 +86,7 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     for (int k = 0; k < 3; ++k) {
         views[k].pixels_per_unit = scale;
         draw_label(canvas, says[k], {width * (k + 0.5) / 3.0, 2.2 * type},
-                   {.size = 0.66 * type, .color = theme.faint_ink, .align = Align::center});
+                   {.size = 0.76 * type, .color = theme.faint_ink, .align = Align::center});
         draw_label(canvas, titles[k], {width * (k + 0.5) / 3.0, 1.2 * type},
                    {.size = type, .color = theme.ink, .align = Align::center});
     }
@@ -144,21 +144,22 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
                                .align = Align::center,
                                .bold = true,
                                .halo = theme.floor};
-        const auto named = [&](const Vec2& arm, const Vec2& beside, const Color& color,
-                               const char* name) {
+        const auto named = [&](const Vec2& arm, double along_arm, const Vec2& beside,
+                               const Color& color, const char* name) {
             draw_arrow(canvas, place, views[2].on_page(p + arm), 0.17 * r, color);
             LabelStyle label = plain;
             label.color = color;
-            const Vec2 at_label = views[2].on_page(p + 0.75 * arm);
+            const Vec2 at_label = views[2].on_page(p + along_arm * arm);
             draw_label(canvas, name,
                        {at_label.x + type * beside.x, at_label.y - type * beside.y + 0.25 * type},
                        label);
         };
-        // Each name stands beside its arrow, away from the other one.
+        // Each name stands beside its arrow: that of v away from the force, that of the force on
+        // the side where v points to, as C may stand on the other.
         const Vec2 along = (1.0 / std::sqrt(dot(u, u))) * u;
         const Vec2 right = -1.0 * perpendicular(along);
-        named(u, -0.75 * right, theme.velocity, "$v$");
-        named(force, -1.0 * along, theme.coriolis, "$F_{Cor}$");
+        named(u, 0.75, -0.75 * right, theme.velocity, "$v$");
+        named(force, 1.0, 0.8 * along, theme.coriolis, "$F_{Cor}$");
         LabelStyle field = plain;
         field.color = theme.centrifugal;
         field.halo = std::nullopt;

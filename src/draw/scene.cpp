@@ -352,7 +352,9 @@ void draw_slice(const Canvas& canvas, const View& view, const SceneStyle& style,
 void draw_angles(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const Snapshot& now) {
     if (!style.angles || view.frame != Frame::m) return;
-    const double unit = line_unit(view, now), type = 0.055 * unit;
+    // In a small dish larger, so that they can be read.
+    const double unit = line_unit(view, now),
+                 type = std::max(0.055 * unit, std::min(9.5, 0.09 * unit));
     if (type < 7.0) return;
     const LabelStyle label{.size = type, .color = style.theme.ink, .align = Align::center};
     const double away = (1.0 + wall_thickness) * unit + 0.9 * type;

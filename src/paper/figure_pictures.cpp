@@ -47,7 +47,17 @@ PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& 
     config.appearance.clock = false;
     config.at = 50.3;
     config.out = file;
+    // What goes to print is as wide as a column, 86 mm or 245 points. Letters can be read there
+    // only if it is drawn small, without what its caption says.
+    if (!file.ends_with(".png")) {
+        config.appearance.size = {300, 300};
+        config.sources.front().parameters.clear();
+    }
     return config;
+}
+
+void title(PictureConfig& config, const std::string& text) {
+    if (config.out.ends_with(".png")) config.appearance.title = text;
 }
 
 void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
@@ -85,7 +95,7 @@ static FigurePlan plan_figure_2a(const PaperSettings& settings) {
                             config.appearance.coloring = Coloring::pinned;
                             config.appearance.angles = true;
                             config.appearance.slice = 0.75 * pi;
-                            config.appearance.title = "Pinned and loose discs";
+                            title(config, "Pinned and loose discs");
                             make_picture(config);
                         });
 }
@@ -94,7 +104,7 @@ static FigurePlan plan_figure_5a(const PaperSettings& settings) {
     return picture_plan("figure_5a", "Figure 5a: 48 discs in the lab frame at swirl 50.3.",
                         [seed = settings.seed](const std::string& file) {
                             PictureConfig config = light_picture(seed, Frame::lab, file);
-                            config.appearance.title = "The simulated discs";
+                            title(config, "The simulated discs");
                             make_picture(config);
                         });
 }
