@@ -86,6 +86,66 @@ QUESTIONS = {
     "map": "Which of the two frictions decides?",
 }
 
+# What each figure shows, in the words of the field. Numbers are the findings', from the tables.
+CAPTIONS = {
+    "1b": "Rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, "
+          "against the number of discs: above zero the cluster rotates with the swirl, below it "
+          "counterrotates. Dashed: a rigid pancake of the cluster's perimeter that rolls along the "
+          "wall without slipping, 1 − P_container/P_cluster. Averages over time.",
+    "1c": "Left: the centre C of the dish runs round the centre S of the swirl, and the dish does not "
+          "turn; M is the point of the wall farthest from S. Middle: in the M-frame, which turns with "
+          "the swirl, S, C and M stand still and the wall turns clockwise with −Ω. Right: the inertial "
+          "forces there, the centrifugal force away from S (orange) and, on one disc, the Coriolis "
+          "force to the right of its velocity v.",
+    "2a": "One instant in the M-frame. Pinned discs fly along the wall until their path turns sharply "
+          "(the SI's criterion); loose ones cross the dish. Shaded: one of the angular slices over "
+          "which the profiles of Figure 3 are averaged. M is at the bottom, at θ = 270°.",
+    "2b": "Averages in the M-frame, on few discs: number density of their centres (colour), and their mean "
+          "velocity relative to the dish (arrows), in units of the speed of the dish. S is the centre "
+          "of the swirl, M the point of the wall farthest from it. Where an arrow is short, discs move "
+          "with the wall.",
+    "2c": "The same on many discs. The layers of the density lie parallel to the wall; compare the "
+          "colour bars, as each map has its own.",
+    "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, "
+          "against the angle θ; one curve for each number of discs. Dashed: −Ω, the wall's. Discs move "
+          "clockwise, to smaller θ. Triangles: where stays in the wall layer begin, on average, "
+          "circles: where they end.",
+    "3b": "The same, divided by the angular velocity that the wall has at this θ about the same centre "
+          "of mass: 1 (dashed) is motion with the wall.",
+    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. Of the pinned discs in the "
+          "wall layer, of all that the SI's criterion calls pinned, and of the whole cluster; for a rough "
+          "wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
+    "4b": "Above: mean magnitude of the spin of discs at the wall, in Ω. Below: how discs in contact "
+          "hinder each other: the correlation of the spins of neighbours (gears would have −1), the share "
+          "of contacts that close a triangle, which cannot all roll, and the share of collisions in which "
+          "friction stops the slip altogether.",
+    "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) "
+          "discs and walls. The frictions of the experiment's smooth and roughened spheres are not "
+          "known: these two are a choice. Averages over time.",
+    "5a": "A snapshot of the simulation in the lab frame; the line on each disc turns with it. The "
+          "circle is the path of the dish's centre C round S.",
+    "5b": "Rotation of the cluster against the number of discs for five pairs of frictions, between discs "
+          "(μ_d) and at the wall (μ_w), averaged over events as in the paper.",
+    "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in "
+          "the paper; each map has its own scale.",
+    "5d": "Mean velocity of the discs relative to the dish, in units of the speed of the dish, in the "
+          "M-frame on 20 × 20 cells. One scale for both numbers of discs.",
+    "ball": "The paper's minimal model, simulated: one large disc in the dish. γ is its angular "
+            "velocity in the M-frame over Ω, so that it counterrotates above 1; dashed: γ of rolling "
+            "without slip. With e = 0.5 it stays at the wall, with e = 1 it keeps bouncing.",
+    "states": "Motion in the M-frame with both frictions and without one of them. Left: the mean speed of "
+              "the discs; right: the granular temperature, the mean energy of what is left after the local "
+              "mean flow is taken off.",
+    "times": "How close in time two collisions of a run come, which is what the precision of the event "
+             "times must resolve.",
+    "spheres_sense": "Every number of spheres at which the sense of rotation changes, against the friction "
+                     "of spheres and wall. Dashed: where the paper's experiment has the change.",
+    "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their "
+                           "contacts.",
+    "spheres_map": "Rotation of the cluster in colour and as a number: positive rotates with the swirl, "
+                   "negative against it.",
+}
+
 CSS = """
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #1b1b1b; background: #fff;
@@ -102,13 +162,16 @@ td.verdict { font-weight: 600; }
 code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
 td code { white-space: normal; overflow-wrap: anywhere; }
 sub { line-height: 0; font-size: .72em; }
-.figures { display: grid; grid-template-columns: 1fr 1fr; grid-auto-flow: dense; gap: 1.6rem 2rem; }
+.figures { display: grid; grid-template-columns: 1fr 1fr; gap: 1.6rem 2rem; }
+.figures > div { min-width: 0; }
+.figures > div > figure + figure { margin-top: 1.6rem; }
 figure { margin: 0; break-inside: avoid; min-width: 0; }
 figure.wide { grid-column: 1 / -1; }
 figure.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
-figure img { display: block; width: 100%; height: auto; max-height: 34rem; object-fit: contain;
+figure img { display: block; width: 100%; height: auto; max-height: 44rem; object-fit: contain;
              margin: 0 0 .5rem; }
 figcaption { font-size: .88rem; }
+figcaption p { margin: 0 0 .3rem; }
 figcaption ul { padding-left: 1.1rem; margin: .3rem 0 .6rem; }
 figcaption li { margin-bottom: .25rem; }
 .small { color: #555; font-size: .92em; }
@@ -118,13 +181,14 @@ table.claims { table-layout: fixed; }
 .claims th:nth-child(4) { width: 12%; }
 .claims th:nth-child(5) { width: 16%; }
 .question { color: #333; font-style: italic; margin: 0 0 .3rem; }
-@media (max-width: 50rem) { .figures, figure.beside { grid-template-columns: 1fr; } }
+@media screen and (max-width: 50rem) { .figures, figure.beside { grid-template-columns: 1fr; } }
 @page { size: A4; margin: 16mm 15mm; }
 @media print {
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
   .figures { gap: .5cm .7cm; }
+  .figures > div > figure + figure { margin-top: .5cm; }
   figure.beside { gap: .7cm; }
-  figure img { max-height: 11cm; }
+  figure img { max-height: 15cm; }
   table { font-size: 8pt; }
   figcaption { font-size: 8pt; }
   tr { break-inside: avoid; }
@@ -257,13 +321,73 @@ def question_of(figure):
     return QUESTIONS.get(figure["name"], "")
 
 
+def caption_of(figure):
+    return CAPTIONS.get(figure["name"], "")
+
+
+# What `swirl paper` calls its points and runs, in words.
+CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": "μ_w = 0",
+          "no-disc": "μ_d = 0"}
+POINT = re.compile(r"\b(?:(?:run|measured|spheres)_)*((?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?|[\d.]+)"
+                   r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
+SYMBOLS = {"inertia": "I", "restitution": "e", "tangential_restitution": "β"}
+PARAMETER = re.compile(rf"^({'|'.join(SYMBOLS)}) (?=[\d.])")
+
+
+def in_words(finding):
+    """A finding without the names that only the program gives its points."""
+    def point(match):
+        curve, discs, seed = match.groups()
+        curve = CURVES.get(curve) or (f"μ = {curve}" if curve[0].isdigit() else
+                                      curve.replace("_f", ", μ_f = ").replace("-", " "))
+        return f"{curve} with N = {discs}" + (f" (seed {seed})" if seed else "")
+    finding = re.sub(r"^Figure \S+: (drawn; )?", "", finding)
+    return PARAMETER.sub(lambda match: f"{SYMBOLS[match.group(1)]} = ", POINT.sub(point, finding))
+
+
+# What is said of the runs, not of what they show.
+REMARK = re.compile(r"(Not shown to be steady|At \d+ of \d+ points the seeds|\d+ of them ended|"
+                    r"\d+ runs failed|The run '|Figure \S+: )")
+
+
+class Said(dict):
+    """Findings by the figure that has them first: what stands below one is not said again below the
+    next."""
+
+    def of(self, figure):
+        """(findings, remarks on the runs, name of an earlier figure that has more of them)"""
+        new = [f for f in figure["findings"] if self.setdefault(f, figure["name"]) == figure["name"]]
+        earlier = [self[f] for f in figure["findings"] if self[f] != figure["name"]]
+        words = [sentence(in_words(f)) for f in new]
+        return ([w for f, w in zip(new, words) if not REMARK.match(f)],
+                [w for f, w in zip(new, words) if REMARK.match(f)], earlier[0] if earlier else "")
+
+
+def name_of(earlier, figures):
+    figure = next(f for f in figures if f["name"] == earlier)
+    return f"Figure {earlier}" if earlier[0].isdigit() else f"“{title_of(figure)}”"
+
+
+def figure_texts(about):
+    """name: (caption, findings, remarks) of each figure, in the order of the page."""
+    said, texts = Said(), {}
+    for _, figures in split(about["figures"]):
+        for figure in figures:
+            findings, remarks, earlier = said.of(figure)
+            if earlier:
+                remarks.append(f"More on its runs: {name_of(earlier, about['figures'])}.")
+            texts[figure["name"]] = (caption_of(figure), findings, remarks)
+    return texts
+
+
 def sentence(text):
     # Not ϖ, whose capital is Π.
     return text[:1].upper() + text[1:] if text[:1].isascii() else text
 
 
-def picture_of(figure):
-    return next((f for f in figure["files"] if f.endswith(".png")), None)
+def picture_of(figure, endings=(".png",)):
+    """The first file of these kinds, the best kind first."""
+    return next((f for ending in endings for f in figure["files"] if f.endswith(ending)), None)
 
 
 # --- Markdown ---------------------------------------------------------------------------------
@@ -283,6 +407,7 @@ def markdown(about, judged, same=""):
         command = f"`{claim.command}`" if claim.command else ""
         lines.append(f"| {k} | {cell(claim.says)} ({claim.where}) | {cell(found)} | "
                      f"{MARK[verdict]} {verdict} | {command} |")
+    texts = figure_texts(about)
     for heading, figures in split(about["figures"]):
         lines += ["", f"## {heading}"]
         for figure in figures:
@@ -291,7 +416,10 @@ def markdown(about, judged, same=""):
                 lines += [f"![{title_of(figure)}]({picture_of(figure)})", ""]
             if question_of(figure):
                 lines += [f"*{question_of(figure)}*", ""]
-            lines += [f"- {sentence(finding)}" for finding in figure["findings"]]
+            caption, findings, remarks = texts[figure["name"]]
+            lines += [caption, ""] if caption else []
+            lines += [f"- {finding}" for finding in findings]
+            lines += ["", *remarks] if remarks else []
             lines += ["", f"`swirl paper --figure {figure['name']}`"]
     lines += ["", "## Where the paper contradicts itself, and what was assumed", "",
               "| matter | the paper | here |", "|---|---|---|"]
@@ -304,8 +432,9 @@ def markdown(about, judged, same=""):
 # --- HTML -------------------------------------------------------------------------------------
 
 def inline(path):
+    kind = "svg+xml" if path.endswith(".svg") else "png"
     with open(path, "rb") as file:
-        return "data:image/png;base64," + base64.b64encode(file.read()).decode()
+        return f"data:image/{kind};base64," + base64.b64encode(file.read()).decode()
 
 
 def table(head, rows, kind=""):
@@ -319,7 +448,7 @@ def td(text, kind=""):
     return f"<td{kind}>{rich(text)}</td>"
 
 
-SUBSCRIPT = re.compile(r"\b([NRVϖμγ])_(container|cluster|ball|wall|[A-Za-z])\b")
+SUBSCRIPT = re.compile(r"\b([NPRVϖμγ])_(container|cluster|ball|wall|[A-Za-z])\b")
 
 
 def rich(text):
@@ -327,36 +456,126 @@ def rich(text):
     return SUBSCRIPT.sub(r"\1<sub>\2</sub>", html.escape(str(text)))
 
 
-# Wider than this many times its height, a picture takes the whole width of the page.
-WIDE = 1.45
+# A picture that is made for the width of the page, with its letters as they are, is wider than this, in
+# pixels: figures of one column have 1012 of them (style.COLUMN). So is one that is very flat.
+ONE_COLUMN = 1200
+FLAT = 2.0
+
+
+def size_of(path):
+    """Of a PNG, whose width and height are the first things in it."""
+    with open(path, "rb") as file:
+        return struct.unpack(">16xII", file.read(24))
 
 
 def is_wide(path):
-    """Of a PNG: the first thing in it is its width and height."""
-    with open(path, "rb") as file:
-        width, height = struct.unpack(">16xII", file.read(24))
-    return width > WIDE * height
+    width, height = size_of(path)
+    return width > ONE_COLUMN or width > FLAT * height
 
 
-# And so many letters of findings stand beside their picture, across the page.
-LONG = 900
+# The height of a line of a caption, and how many letters it has, for a column that is 1 wide.
+LINE, LETTERS = 0.045, 62
 
 
-def figure_html(folder, figure):
-    title = rich(title_of(figure))
+def heights(folder, figure, texts):
+    """Of the picture and of the text below it, where a column is 1 wide: about."""
     picture = picture_of(figure)
-    kind = ""
-    if picture and is_wide(os.path.join(folder, picture)):
-        kind = " class=wide"
-    elif sum(len(finding) for finding in figure["findings"]) > LONG:
-        kind = ' class="wide beside"'
+    width, height = size_of(os.path.join(folder, picture)) if picture else (1, 0)
+    caption, findings, remarks = texts[figure["name"]]
+    blocks = [question_of(figure), caption, *findings, *remarks]
+    return height / width, LINE * (3 + sum(-(-len(block) // LETTERS) for block in blocks))
+
+
+LONGEST = 12  # figures that are arranged at once
+BACK = 0.3  # what it costs that a figure begins above the one before it
+
+
+def in_columns(sizes):
+    """Which of two columns each figure stands in, and what that leaves empty: as even as can be, without
+    much jumping back. `sizes` are the heights of figures with their texts."""
+    best = None
+    for choice in range(1 << max(len(sizes) - 1, 0)):
+        ends, begin, cost, sides = [0.0, 0.0], 0.0, 0.0, []
+        for k, size in enumerate(sizes):
+            side = choice >> (k - 1) & 1 if k else 0
+            # Of two that end alike, the left one.
+            cost += BACK * max(begin - ends[side], 0.0) + (1e-6 if side and ends[0] == ends[1] else 0)
+            begin = ends[side]
+            ends[side] += size
+            sides.append(side)
+        cost += abs(ends[0] - ends[1])
+        if best is None or cost < best[0]:
+            best = (cost, sides)
+    return best
+
+
+def arranged(sizes):
+    """Of each figure, made for a column, the column (0 or 1) or None, which is across the page with its
+    text at its side: the first, the last, or both, where that leaves less empty. `sizes` are heights of pictures
+    and of texts."""
+    if not sizes:
+        return []
+    if len(sizes) > LONGEST:
+        return arranged(sizes[:LONGEST]) + arranged(sizes[LONGEST:])
+    whole = [picture + text for picture, text in sizes]
+    cost, sides = in_columns(whole)
+    for first, last in ((1, 0), (0, 1), (1, 1)):
+        if first + last > len(sizes):
+            continue
+        inner = range(first, len(sizes) - last)
+        less, others = in_columns([whole[k] for k in inner])
+        less += sum(abs(picture - text) for k, (picture, text) in enumerate(sizes)
+                    if k not in inner)
+        if less < cost:
+            cost, sides = less, [None] * first + others + [None] * last
+    return sides
+
+
+def figures_html(folder, figures, texts):
+    """A part of the page: pictures as wide as the page across it, others in two columns."""
+    parts, row = [], []
+
+    def end_of_row():
+        columns = [[], []]
+
+        def end_of_columns():
+            if columns[0]:
+                parts.extend("<div>\n" + "".join(column) + "</div>\n" for column in columns)
+            columns[:] = [[], []]
+        for figure, side in zip(row, arranged([heights(folder, f, texts) for f in row])):
+            if side is None:
+                end_of_columns()
+                parts.append(figure_html(folder, figure, "wide beside", texts))
+            else:
+                columns[side].append(figure_html(folder, figure, "", texts))
+        end_of_columns()
+        row.clear()
+
+    for figure in figures:
+        picture = picture_of(figure)
+        if picture is None or is_wide(os.path.join(folder, picture)):
+            end_of_row()
+            parts.append(figure_html(folder, figure, "wide", texts))
+        else:
+            row.append(figure)
+    end_of_row()
+    return grid(parts)
+
+
+def figure_html(folder, figure, kind, texts):
+    title = rich(title_of(figure))
+    picture = picture_of(figure, (".svg", ".png"))
+    kind = "" if not kind else f' class="{kind}"' if " " in kind else f" class={kind}"
     image = (f'<img alt="{html.escape(title_of(figure))}" '
              f'src="{inline(os.path.join(folder, picture))}">' if picture else "")
+    caption, findings, remarks = texts[figure["name"]]
     question = (f"<p class=question>{rich(question_of(figure))}</p>" if question_of(figure)
                 else "")
-    findings = "".join(f"<li>{rich(sentence(finding))}</li>" for finding in figure["findings"])
-    return (f"<figure{kind}>{image}<figcaption><h3>{title}</h3>{question}"
-            f"{'<ul>' + findings + '</ul>' if findings else ''}"
+    caption = f"<p>{rich(caption)}</p>" if caption else ""
+    found = "".join(f"<li>{rich(finding)}</li>" for finding in findings)
+    runs = f"<p class=small>{rich(' '.join(remarks))}</p>" if remarks else ""
+    return (f"<figure{kind}>{image}<figcaption><h3>{title}</h3>{question}{caption}"
+            f"{'<ul>' + found + '</ul>' if found else ''}{runs}"
             f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption>"
             "</figure>\n")
 
@@ -384,9 +603,9 @@ def page(folder, about, judged):
         parts += [f"<p>{heading}:</p><ul>{items}</ul>\n"]
     parts += ["<h2>Claim by claim</h2>\n",
              table(["", "the paper says", "found", "verdict", "command"], rows, "claims")]
+    texts = figure_texts(about)
     for heading, figures in split(about["figures"]):
-        parts += [f"<h2>{heading}</h2>\n"]
-        parts += [grid([figure_html(folder, figure) for figure in figures])]
+        parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]
     parts += ["<h2>Where the paper contradicts itself, and what was assumed</h2>\n",
               table(["matter", "the paper", "here"],
                     [(td(a), td(b), td(c)) for a, b, c in CONTRADICTIONS]),
