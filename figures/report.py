@@ -226,12 +226,12 @@ def counts(judged):
 
 
 def in_short(judged):
-    """What disagrees, first of all: (what, [(says, found)])."""
+    """What disagrees, first of all: (what, [(says, found)]). Of what is undecided the table says more."""
     groups = ((claims.FAILS, "Does not hold"), (claims.IN_PART, "Holds in part"),
               (claims.UNDECIDED, "Undecided"))
     result = []
     for kind, heading in groups:
-        here = [(claim.says, found) for claim, verdict, found in judged if verdict == kind]
+        here = [(claim.says, "" if kind == claims.UNDECIDED else found) for claim, verdict, found in judged if verdict == kind]
         if here:
             result.append((heading, here))
     return result
@@ -258,20 +258,151 @@ def quick_sentence(about):
             "are larger and verdicts may differ from those of the whole study.")
 
 
-def intro(about):
-    """What was asked, what was done."""
+TITLE = "Rotation and counterrotation of swirled discs"
+
+
+def intro():
+    """What was asked."""
     return ("A dish of discs is swirled. With few discs the cluster rotates in the sense of the "
             "swirl, with many against it. L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and "
             "S. M. Rubinstein, “Geometric frustration induces the transition between rotation and "
             "counterrotation in swirled granular media” (Phys. Rev. E 100, 012903, 2019), explain "
             "it by friction: at the wall and between the discs. Asked here is which of their claims "
-            "an exact event-driven simulation of their model confirms. "
+            "an exact event-driven simulation of their model confirms, and of spheres that roll on a "
+            "floor, as those of their experiment do.")
+
+
+def how_to_read(about):
+    return ("ϖ is the rotation frequency of the cluster, Ω that of the swirl, N the number of discs, μ "
+            "the friction (μ_d between discs, μ_w at the wall). "
             "± is one standard error, between seeds and within runs, whichever is larger; three of "
             "them decide. What they do not decide is undecided, after "
             f"{about.get('most_seeds_of_a_point', 32)} seeds at the points concerned. Verdicts are "
             "computed from the tables by the rules of figures/verdicts.py; every other number that "
             "a verdict depends on has a name in figures/claims.py. "
             + quick_sentence(about)).strip()
+
+
+# --- what was found, in words -----------------------------------------------------------------
+
+def statement(part, holds, fails, undecided):
+    """The one that the verdict calls for."""
+    if part.verdict == claims.IN_PART:
+        return fails.replace("is not confirmed", "is confirmed only in part")
+    return {claims.HOLDS: holds, claims.UNDECIDED: undecided}.get(part.verdict, fails)
+
+
+def rotation_at(row, column="by_event"):
+    return f"ϖ/Ω = {claims.number(claims.value(row, column))} at N = {row['discs']:.0f}"
+
+
+def known(rows, column="by_event"):
+    return [row for row in rows if row[column] == row[column]]
+
+
+def lowest_of(folder, setting):
+    return rotation_at(min(known(folder.curve("5b", setting=setting)),
+                           key=lambda row: row["by_event"]))
+
+
+def change_of(crossing):
+    """Where a curve changes its sense, for a sentence."""
+    if crossing.verdict == "crosses":
+        return f"at N_c = {claims.number(crossing.at)}"
+    low = f"ϖ/Ω is lowest at N = {crossing.lowest_discs:.0f}, {claims.number(crossing.lowest)}"
+    if crossing.verdict == "always rotates":
+        return f"not at all ({low})"
+    if crossing.verdict == "always counterrotates":
+        return f"nowhere, as all counterrotate ({low})"
+    return f"nowhere for certain ({low})"
+
+
+def found_transition(folder):
+    part, _ = claims.transition(folder)
+    rows = known(folder.curve("5b", setting="high"))
+    ends = f"{rotation_at(rows[0])}, {rotation_at(rows[-1])}"
+    change = change_of(folder.crossing("5b", "high"))
+    return statement(
+        part,
+        "With friction at the wall and between the discs (μ = 1), few discs rotate with the swirl and "
+        f"many against it ({ends}); the sense changes {change}.",
+        "That with friction at the wall and between the discs (μ = 1) few discs rotate with the swirl and "
+        f"many against it is not confirmed: {ends}; the sense changes {change}.",
+        "Whether with friction at the wall and between the discs (μ = 1) few discs rotate with the swirl "
+        f"and many against it is undecided: {ends}; the sense changes {change}.")
+
+
+def found_order(folder):
+    part, _ = claims.friction_order(folder)
+    changes = ", ".join(f"with μ = {mu} {change_of(folder.crossing('5b', name))}"
+                        for mu, name in (("0.5", "medium"), ("0.1", "low")))
+    return statement(
+        part, f"The less friction, the later: {changes}.",
+        f"Less friction does not always move the change to more discs: {changes}.",
+        f"Whether less friction always moves the change to more discs is undecided: {changes}.")
+
+
+def found_both_needed(folder):
+    """That there is no counterrotation without either friction."""
+    cases = [(claims.never_crosses(setting)(folder)[0], words, lowest_of(folder, setting))
+             for setting, words in (("no-wall", "friction at the wall"),
+                                    ("no-disc", "friction between the discs"))]
+    if all(part.verdict == claims.HOLDS for part, _, _ in cases):
+        return ("The cluster counterrotates only with both: " + ", and ".join(
+            f"without {words} it rotates with the swirl at every N (lowest: {lowest})"
+            for _, words, lowest in cases) + ".")
+    return " ".join(statement(
+        part, f"Without {words} the cluster rotates with the swirl at every N (lowest: {lowest}).",
+        f"Counterrotation does not need {words}: without it there is {lowest}.",
+        f"Whether counterrotation needs {words} is undecided: without it the lowest is {lowest}.")
+        for part, words, lowest in cases)
+
+
+def found_pinned(folder):
+    moves, _ = claims.pinned_reach_wall(folder)
+    rolls, _ = claims.slip_rises(folder)
+    speeds = claims.ends(claims.pinned_means(folder, "3b", "normalised"), "mean")
+    slips = claims.ends(folder.curve("4a", setting="high"), "pinned_at_wall")
+    told = f"angular velocity over the wall's, {speeds}; slip parameter, {slips}"
+    if moves.verdict == rolls.verdict == claims.HOLDS:
+        return ("With more discs those pinned at the wall come to move with it, and hardly slip on it any "
+                f"more ({told}).")
+    said = {claims.HOLDS: "is confirmed", claims.UNDECIDED: "is undecided",
+            claims.IN_PART: "is confirmed in part"}
+    return ("That with more discs those pinned at the wall come to move with it "
+            f"{said.get(moves.verdict, 'is not confirmed')}, that they hardly slip on it any more "
+            f"{said.get(rolls.verdict, 'is not confirmed')} ({told}).")
+
+
+def found_spheres(folder):
+    turn, _ = claims.spheres_transition(folder)
+    blame, _ = claims.spheres_frustration(folder)
+    discs = claims.DENSE_SPHERES[-1]
+    numbers = ", ".join(
+        f"{claims.number(claims.spheres_at(folder, 'spheres_ingredients', curve, discs))} {words}"
+        for curve, words in ((f"{claims.PLASTIC:g}", "with it"), ("no-vertical", "without")))
+    numbers = f"(ϖ/Ω at N = {discs}, μ = {claims.PLASTIC:g}: {numbers})"
+    cause = statement(
+        blame, "friction of the contacts along the vertical, which keeps them from rolling, makes them",
+        "friction of the contacts along the vertical, which keeps them from rolling, is not all that makes "
+        "them", "whether friction of the contacts along the vertical, which keeps them from rolling, makes "
+        "them is undecided")
+    return statement(
+        turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.",
+        f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.",
+        f"Whether many spheres that roll on a floor counterrotate is undecided {numbers}.")
+
+
+def what_was_found(path):
+    """The main results as sentences: each is chosen by the verdict on its claim, and says the numbers of
+    the tables. Without its tables a sentence is missing."""
+    sentences = []
+    for say in (found_transition, found_order, found_both_needed, found_pinned, found_spheres):
+        try:
+            sentences.append(say(claims.Folder(path)))
+        except (FileNotFoundError, IndexError, KeyError, ValueError, ZeroDivisionError):
+            continue
+    return sentences
 
 
 # The same setting, both frictions 1 and I = 10, in several figures: (figure, curve, how).
@@ -396,12 +527,16 @@ def cell(text):
     return str(text).replace("|", "\\|").replace("\n", " ")
 
 
-def markdown(about, judged, same=""):
-    lines = ["# The paper, claim by claim", "", intro(about), "", f"**{counts(judged)}**", ""]
+def markdown(about, judged, same="", found=()):
+    lines = [f"# {TITLE}", "", "**Asked.** " + intro(), ""]
+    if found:
+        lines += ["**Found.**", ""] + [f"- {text}" for text in found] + [""]
+    lines += [f"**{counts(judged)}** {how_to_read(about)}", ""]
     if same:
         lines += [same, ""]
     for heading, which in in_short(judged):
-        lines += [f"{heading}:", ""] + [f"- {says} — {found}" for says, found in which] + [""]
+        lines += [f"{heading}:", ""] + [f"- {says}" + (f" — {why}" if why else "")
+                                          for says, why in which] + [""]
     lines += ["## Claim by claim", "", "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
     for k, (claim, verdict, found) in enumerate(judged, 1):
         command = f"`{claim.command}`" if claim.command else ""
@@ -591,12 +726,16 @@ def page(folder, about, judged):
              td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
              f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
             for k, (claim, verdict, found) in enumerate(judged, 1)]
-    parts = [opening("The paper, claim by claim"),
-             "<h1>The paper, claim by claim</h1>", f"<p>{html.escape(intro(about))}</p>\n",
-             f"<p><b>{html.escape(counts(judged))}</b></p>\n"]
-    same = crossings_of_one_setting(folder)
-    if same:
-        parts += [f"<p>{rich(same)}</p>\n"]
+    parts = [opening(TITLE), f"<h1>{TITLE}</h1>\n",
+             "<p class=small>The claims of a paper, one by one, against a simulation</p>\n",
+             f"<p><b>Asked.</b> {rich(intro())}</p>\n"]
+    answer = what_was_found(folder)
+    if answer:
+        items = "".join(f"<li>{rich(text)}</li>" for text in answer)
+        parts += [f"<p><b>Found.</b></p><ul>{items}</ul>\n"]
+    parts += [f"<p><b>{html.escape(counts(judged))}</b></p>\n",
+              f"<p class=small>{rich(how_to_read(about))} {rich(crossings_of_one_setting(folder))}"
+              "</p>\n"]
     for heading, which in in_short(judged):
         items = "".join(f"<li>{rich(says)} <span class=small>{rich(found)}</span></li>"
                         for says, found in which)
@@ -647,7 +786,8 @@ def main():
     folder, about = described_folder("paper.json", "swirl paper --out",
                                      "writes report.md and report.html")
     judged = judge(folder)
-    write(os.path.join(folder, "report.md"), markdown(about, judged, crossings_of_one_setting(folder)))
+    write(os.path.join(folder, "report.md"), markdown(
+        about, judged, crossings_of_one_setting(folder), what_was_found(folder)))
     write(os.path.join(folder, "report.html"), page(folder, about, judged))
 
 

@@ -1,5 +1,7 @@
-"""The page of the report: how its figures are captioned and arranged."""
+"""The page of the report: what its first page says of tables made up so that the answer is known, and how
+its figures are captioned and arranged."""
 
+import csv
 import os
 import struct
 import sys
@@ -17,6 +19,122 @@ class Tables(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         self.folder = scratch.name
+
+    def write(self, name, rows):
+        with open(os.path.join(self.folder, f"figure_{name}.csv"), "w", newline="",
+                  encoding="utf-8") as file:
+            out = csv.DictWriter(file, list(dict.fromkeys(c for row in rows for c in row)))
+            out.writeheader()
+            out.writerows(rows)
+
+
+class FirstPage(Tables):
+    def rotation(self, error=0.01, **curves):
+        """Figure 5b: (N, ϖ/Ω) of each setting."""
+        self.write("5b", [{"setting": setting.replace("_", "-"), "discs": n, "by_event": level,
+                           "by_event_error": error, "steady_state": "steady",
+                           "point": f"{setting}_N{n}"}
+                          for setting, points in curves.items() for n, level in points])
+
+    def crossings(self, **found):
+        """(verdict, N_c, error) of each curve."""
+        self.write("5b_crossings", [
+            {"curve": curve, "verdict": verdict, "crossing": at, "crossing_error": error,
+             "lowest": 0.07, "lowest_error": 0.001, "lowest_discs": 47}
+            for curve, (verdict, at, error) in found.items()])
+
+    def found(self):
+        return " ".join(report.what_was_found(self.folder))
+
+    def test_without_tables_nothing_is_said(self):
+        self.assertEqual(report.what_was_found(self.folder), [])
+
+    def test_that_few_rotate_and_many_counterrotate(self):
+        self.rotation(high=[(5, 0.2), (48, -0.1)])
+        self.crossings(high=("crosses", 38.5, 0.2))
+        said = self.found()
+        self.assertIn("few discs rotate with the swirl and many against it (ϖ/Ω = 0.200 ± 0.010 at "
+                      "N = 5, ϖ/Ω = −0.100 ± 0.010 at N = 48)", said)
+        self.assertIn("the sense changes at N_c = 38.5 ± 0.2.", said)
+
+    def test_that_they_do_not(self):
+        self.rotation(high=[(5, 0.2), (48, 0.1)])
+        self.crossings(high=("always rotates", "", ""))
+        said = self.found()
+        self.assertIn("is confirmed only in part", said)
+        self.assertIn("the sense changes not at all (ϖ/Ω is lowest at N = 47, 0.0700 ± 0.0010)", said)
+        self.rotation(high=[(5, -0.2), (48, 0.1)])
+        self.assertIn("is not confirmed", self.found())
+
+    def test_that_nobody_knows(self):
+        self.rotation(high=[(5, 0.2), (48, -0.1)], error=0.09)
+        self.crossings(high=("undecided", 38.5, 9.0))
+        said = self.found()
+        self.assertIn("Whether with friction", said)
+        self.assertIn("is undecided", said)
+        self.assertNotIn("N_c", said)
+
+    def test_the_order_of_the_frictions(self):
+        for medium, words in (((("crosses", 44.0, 0.2)), "The less friction, the later: with μ = 0.5 at "
+                               "N_c = 44.0 ± 0.2, with μ = 0.1 not at all"),
+                              ((("crosses", 30.0, 0.2)), "Less friction does not always move"),
+                              ((("crosses", 39.0, 2.0)), "more discs is undecided")):
+            self.crossings(high=("crosses", 38.5, 0.2), medium=medium,
+                           low=("always rotates", "", ""))
+            self.rotation(high=[(5, 0.2), (48, -0.1)])
+            self.assertIn(words, self.found())
+
+    def test_both_frictions_are_needed(self):
+        self.rotation(no_wall=[(5, 1.0), (48, 0.9)], no_disc=[(5, 1.0), (48, 0.4)])
+        self.assertEqual(self.found(), "The cluster counterrotates only with both: without friction at the "
+                         "wall it rotates with the swirl at every N (lowest: ϖ/Ω = 0.900 ± 0.010 at N = "
+                         "48), and without friction between the discs it rotates with the swirl at every "
+                         "N (lowest: ϖ/Ω = 0.400 ± 0.010 at N = 48).")
+        self.rotation(no_wall=[(5, 1.0), (48, 0.02)], no_disc=[(5, 1.0), (48, -0.4)])
+        said = self.found()
+        self.assertIn("Whether counterrotation needs friction at the wall is undecided", said)
+        self.assertIn("Counterrotation does not need friction between the discs: without it there is "
+                      "ϖ/Ω = −0.400 ± 0.010 at N = 48", said)
+
+    def test_the_pinned(self):
+        def tables(last_speed, slips, error=0.001):
+            self.write("3b", [{"discs": n, "theta": 180, "visits": 500, "normalised": speed,
+                               "normalised_error": error, "stay_begins": 200, "stay_ends": 100}
+                              for n, speed in ((24, 0.8), (48, last_speed))])
+            self.write("4a", [{"setting": "high", "discs": n, "pinned_at_wall": s,
+                               "pinned_at_wall_error": error, "pinned_region": s,
+                               "pinned_region_error": error} for n, s in zip((24, 36, 48), slips)])
+        tables(0.99, (0.8, 0.9, 0.96))
+        self.assertIn("come to move with it, and hardly slip on it any more (angular velocity over the "
+                      "wall's, 0.8000 ± 0.0010 at N = 24, 0.9900 ± 0.0010 at N = 48; slip parameter, "
+                      "0.8000 ± 0.0010 at N = 24", self.found())
+        tables(0.7, (0.9, 0.85, 0.8))
+        self.assertIn("come to move with it is confirmed in part, that they hardly slip on it any more is "
+                      "not confirmed", self.found())
+        tables(0.99, (0.8, 0.9, 0.96), error=0.1)
+        self.assertIn("that they hardly slip on it any more is undecided", self.found())
+
+    def test_the_spheres(self):
+        def tables(few, many, without, error=0.001):
+            self.write("spheres", [{"curve": "0.2", "mu": 0.2, "discs": n, "by_time": level,
+                                    "by_time_error": error}
+                                   for n, level in ((16, few), (44, many), (48, many))])
+            self.write("spheres_ingredients", [
+                {"curve": curve, "discs": n, "by_time": level, "by_time_error": error}
+                for curve, level in (("0.2", many), ("no-vertical", without),
+                                     ("no-vertical-disc", without), ("no-vertical-wall", many))
+                for n in (44, 48)])
+        tables(0.1, -0.05, 0.04)
+        self.assertEqual(self.found(), "Spheres that roll on a floor counterrotate, too, when they are many; "
+                         "friction of the contacts along the vertical, which keeps them from rolling, "
+                         "makes them (ϖ/Ω at N = 48, μ = 0.2: −0.0500 ± 0.0010 with it, 0.0400 ± 0.0010 "
+                         "without).")
+        tables(0.1, -0.05, -0.05)
+        self.assertIn("is not all that makes them", self.found())
+        tables(0.1, -0.05, 0.04, error=0.02)
+        self.assertIn("Whether many spheres that roll on a floor counterrotate is undecided", self.found())
+        tables(0.1, 0.05, 0.06)
+        self.assertIn("is confirmed only in part", self.found())
 
 
 class Figures(Tables):
