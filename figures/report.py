@@ -100,12 +100,11 @@ CAPTIONS = {
     "2a": "One instant in the M-frame. Pinned discs fly along the wall until their path turns sharply "
           "(the SI's criterion); loose ones cross the dish. Shaded: one of the angular slices over "
           "which the profiles of Figure 3 are averaged. M is at the bottom, at θ = 270°.",
-    "2b": "Averages in the M-frame, on few discs: number density of their centres (colour), and their mean "
+    "2b": "Averages in the M-frame, of few discs: number density of their centres (colour), and their mean "
           "velocity relative to the dish (arrows), in units of the speed of the dish. S is the centre "
           "of the swirl, M the point of the wall farthest from it. Where an arrow is short, discs move "
           "with the wall.",
-    "2c": "The same on many discs. The layers of the density lie parallel to the wall; compare the "
-          "colour bars, as each map has its own.",
+    "2c": "The same of many discs. Each map has its own scale of colours.",
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, "
           "against the angle θ; one curve for each number of discs. Dashed: −Ω, the wall's. Discs move "
           "clockwise, to smaller θ. Triangles: where stays in the wall layer begin, on average, "
@@ -132,7 +131,7 @@ CAPTIONS = {
           "M-frame on 20 × 20 cells. One scale for both numbers of discs.",
     "ball": "The paper's minimal model, simulated: one large disc in the dish. γ is its angular "
             "velocity in the M-frame over Ω, so that it counterrotates above 1; dashed: γ of rolling "
-            "without slip. With e = 0.5 it stays at the wall, with e = 1 it keeps bouncing.",
+            "without slip. With e = 0.5 it loses energy where it hits the wall, with e = 1 none.",
     "states": "Motion in the M-frame with both frictions and without one of them. Left: the mean speed of "
               "the discs; right: the granular temperature, the mean energy of what is left after the local "
               "mean flow is taken off.",
