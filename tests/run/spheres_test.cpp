@@ -1,7 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <ctime>
+#include <map>
+#include <sstream>
 
 #include "files/scratch.hpp"
 #include "swirl/files/trajectory.hpp"
@@ -201,6 +206,94 @@ TEST(RunOfSpheres, FewRotateAndManyCounterrotate) {
     const Estimate many = run(experiment("48", "30")).rotation.by_time;
     EXPECT_GT(few.mean, 6.0 * few.error);
     EXPECT_LT(many.mean, -6.0 * many.error);
+}
+
+/// A number of the table at both ends of its range, a word each of the words. What says how long a
+/// run is, and of how many, is no matter.
+std::vector<ParameterTexts> extremes_of_every_parameter() {
+    std::vector<ParameterTexts> all;
+    for (const Parameter& p : run_parameters) {
+        const std::string name = p.name, form = p.form;
+        if (p.group == parameter_group::run || name == "discs" || !p.can_be_given()) continue;
+        if (p.lowest < p.highest && name != "mixture")
+            for (const double end : {p.lowest, p.highest})
+                all.push_back({{name, fmt::format("{}", end)}});
+        std::istringstream words(form);
+        for (std::string word; std::getline(words, word, '|');)
+            if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == word.npos)
+                all.push_back({{name, word}});
+    }
+    return all;
+}
+
+enum class Fate { ran, refused, collapsed, hung };
+
+/// Hung is what takes more than a minute of processor time for a million events; the slowest of
+/// these, coins on a swirl of 10⁶ radii, took eight seconds.
+Fate fate_of(ParameterTexts texts, std::int64_t events) {
+    texts["events"] = std::to_string(events);
+    texts["warmup"] = "0";
+    const double enough = 5.0 + 60e-6 * double(events);
+    const std::clock_t began = std::clock();
+    try {
+        swirl::Run run(resolve(texts));
+        for (int k = 1; run.next_event(); ++k) {
+            run.pass_event();
+            if (k % 1000 == 0 && double(std::clock() - began) > enough * CLOCKS_PER_SEC)
+                return Fate::hung;
+        }
+        EXPECT_TRUE(run.complete());
+        // Positions are of the order of the amplitude, 10⁶ at most, and have its rounding errors.
+        EXPECT_LT(run.result().max_overlap, 1e-9);
+        return Fate::ran;
+    } catch (const WrongCall&) {
+        return Fate::refused;
+    } catch (const Failure& failure) {
+        EXPECT_THAT(failure.what(), testing::HasSubstr("time all but stands still"));
+        return Fate::collapsed;
+    }
+}
+
+/// Each alone, then together: as little and as much friction of contacts and floor as there may be,
+/// no bounce and the whole, for spheres and for coins, few, many and of two sizes. 150 times g is
+/// just below what the contact duration allows.
+void expect_extremes_do_not_hang(std::int64_t events) {
+    std::map<Fate, int> fates;
+    const auto expect_no_hang = [&](ParameterTexts texts, const ParameterTexts& changes) {
+        for (const auto& [name, text] : changes) texts.insert_or_assign(name, text);
+        std::string told;
+        for (const auto& [name, text] : texts) told += fmt::format("{} {} ", name, text);
+        SCOPED_TRACE(told);
+        ++fates[fate_of(texts, events)];
+        EXPECT_EQ(fates[Fate::hung], 0);
+    };
+    const ParameterTexts spheres{{"preset", "experiment"}, {"discs", "36"}};
+    ParameterTexts coins = spheres;
+    coins["body"] = "disc";
+    coins["inertia"] = "solid";
+    for (const ParameterTexts& texts : extremes_of_every_parameter()) {
+        expect_no_hang(spheres, texts);
+        expect_no_hang(coins, texts);
+    }
+    for (const char* floor : {"1e-6", "150"})
+        for (const char* mu : {"0", "1e6"})
+            for (const char* restitution : {"0", "1"})
+                for (const char* contact_duration : {"0", "1e-3"})
+                    for (const ParameterTexts& body : {spheres, coins})
+                        for (const char* discs : {"2", "50"})
+                            expect_no_hang(body, {{"floor_friction", floor},
+                                                  {"mu", mu},
+                                                  {"restitution", restitution},
+                                                  {"contact_duration", contact_duration},
+                                                  {"discs", discs}});
+    for (const char* mixture : {"18:0.01", "18:0.5:1e6", "18:0.5:1e-6"})
+        expect_no_hang(spheres, {{"mixture", mixture}});
+    // The refused are ends of ranges that nothing else was fitted to.
+    EXPECT_GT(fates[Fate::ran], 100);
+}
+TEST(RunOfSpheres, ExtremesOfEveryParameterDoNotHang) { expect_extremes_do_not_hang(5000); }
+TEST(RunOfSpheres, SlowExtremesOfEveryParameterDoNotHangInAMillionEvents) {
+    expect_extremes_do_not_hang(1'000'000);
 }
 
 }  // namespace
