@@ -358,6 +358,7 @@ class GsdWriter {
                                       "particles/position",
                                       "particles/orientation",
                                       "particles/velocity",
+                                      "particles/angmom",
                                       "log/particles/angular_velocity",
                                       "log/time",
                                       "log/particles/rolling_spin"};
@@ -366,6 +367,14 @@ class GsdWriter {
     std::vector<GsdEntry> entries_;
     std::uint64_t frame_ = 0;
 };
+
+/// As HOOMD has it: 2 q L, L = q̄ (I ω) q in the body's own axes, that is 2 (I ω) q. Zero where the
+/// spin or the moment of inertia is not known.
+Quaternion angular_momentum(const Snapshot& s, std::size_t i, const Quaternion& q) {
+    const double twice = 2.0 * known(s.inertia[i]);
+    const Vec2 rolling = s.are_spheres() ? Vec2{s.spin_x[i], s.spin_y[i]} : Vec2{0.0, 0.0};
+    return Quaternion{0.0, twice * rolling.x, twice * rolling.y, twice * known(s.spin[i])} * q;
+}
 
 void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
     GsdWriter gsd(file, has_spheres(series));
@@ -392,14 +401,14 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
             for (std::size_t i = 0; i < n; ++i) {
                 diameter.push_back(float(2.0 * s.radius[i]));
                 const float about_z = float(known(s.inertia[i]));
-                const float about_xy = s.are_spheres() ? about_z : 0.0f;
+                const float about_xy = s.are_balls() ? about_z : 0.0f;
                 inertia.insert(inertia.end(), {about_xy, about_xy, about_z});
             }
             gsd.add("particles/mass", gsd_f32, mass, 1);
             gsd.add("particles/diameter", gsd_f32, diameter, 1);
             gsd.add("particles/moment_inertia", gsd_f32, inertia, 3);
         }
-        std::vector<float> position, orientation, velocity;
+        std::vector<float> position, orientation, velocity, momentum;
         for (std::size_t i = 0; i < n; ++i) {
             const Vec2 p = s.position(i);
             const double half = 0.5 * known(s.orientation(i));
@@ -409,10 +418,13 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
             position.insert(position.end(), {float(p.x), float(p.y), 0.0f});
             orientation.insert(orientation.end(), {float(q.w), float(q.x), float(q.y), float(q.z)});
             velocity.insert(velocity.end(), {float(s.vx[i]), float(s.vy[i]), 0.0f});
+            const Quaternion L = angular_momentum(s, i, q);
+            momentum.insert(momentum.end(), {float(L.w), float(L.x), float(L.y), float(L.z)});
         }
         gsd.add("particles/position", gsd_f32, position, 3);
         gsd.add("particles/orientation", gsd_f32, orientation, 4);
         gsd.add("particles/velocity", gsd_f32, velocity, 3);
+        gsd.add("particles/angmom", gsd_f32, momentum, 4);
         gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
         if (s.are_spheres()) {
             std::vector<double> rolling;

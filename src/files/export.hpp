@@ -9,10 +9,15 @@
 //           angle, spin, radius, mass, id; uncompressed base64 with 64-bit headers
 //   csv     as trackpy writes: frame,particle,x,y in pixels, y downwards, origin top left
 //   table   CSV for pandas, R or a spreadsheet, everything in our units, which the header names: a
-//   line
-//           for each disc and frame, with time, the container's centre and whatever a frame tells
-//   gsd     HOOMD's GSD 2.0 (float32): position, orientation, velocity, mass, diameter; the spin
-//           under log/particles/angular_velocity, the time under log/time, both float64
+//           line for each disc and frame, with time, the container's centre and whatever a frame
+//           tells
+//   gsd     HOOMD's GSD 2.0 (float32): position, orientation, velocity, angular momentum (HOOMD's
+//           quaternion), mass, diameter; the spin under log/particles/angular_velocity, the time
+//           under log/time, both float64
+//
+// Of spheres besides: omegax omegay and quatw quati quatj quatk (lammps), three components of omega
+// and orientation:R:4, x y z w (xyz), spin_x, spin_y, turned (vtp), their columns (table),
+// log/particles/rolling_spin (gsd).
 //
 // Where some of the frames are left out, those that are there keep their numbers and times.
 //

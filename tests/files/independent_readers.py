@@ -1,13 +1,15 @@
 """Opens a file with a program that is not ours and compares it with the frames of the test.
 
-independent_readers.py READER FILE DISCS FRAMES; exit code 77 where the reader is not installed.
-The numbers are those of known_frame() in scratch.hpp, written once more, independently.
+independent_readers.py READER FILE DISCS FRAMES discs|spheres; exit code 77 where the reader is not
+installed. The numbers are those of known_frame() and known_frame_of_spheres() in scratch.hpp, written
+once more, independently.
 """
 
 import importlib
 import sys
 
 READER, FILE, DISCS, FRAMES = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
+SPHERES = sys.argv[5] == "spheres"
 PACKAGE = {
     "h5py": "python3-h5py", "MDAnalysis": "python3-mdanalysis", "xarray": "python3-xarray",
     "netCDF4": "python3-netcdf4", "pandas": "python3-pandas", "gsd": "python3-gsd",
@@ -44,6 +46,19 @@ def expected(k):
     return [u(k) / 7.0, -u(k) / 11.0, u(k) / 13.0, u(k) / 17.0, u(k) / 19.0, -u(k) / 23.0]
 
 
+def rolling(k):
+    """Spin about x and y."""
+    return [u(k) / 29.0, -u(k) / 31.0]
+
+
+def turned(k):
+    """Unit quaternions w, x, y, z; a row for each sphere."""
+    w, y = 1.0 + u(k), 3.0 - u(k)
+    x, z = np.full(DISCS, -2.0), np.full(DISCS, 4.0)
+    length = np.sqrt(w * w + x * x + y * y + z * z)
+    return np.stack([w, x, y, z], axis=1) / length[:, None]
+
+
 SIZES = np.where(np.arange(DISCS) % 2 == 1, 1.0, 1.25)
 MASSES = SIZES**2
 REACH = RADIUS + max(0.1 * (FRAMES - 1), 0.2)
@@ -54,6 +69,11 @@ def same(found, wanted, what):
     found, wanted = np.asarray(found), np.asarray(wanted)
     assert found.shape == wanted.shape, f"{what}: shape {found.shape} instead of {wanted.shape}"
     assert (found == wanted).all(), f"{what}: {found} instead of {wanted}"
+
+
+def almost(found, wanted, what):
+    """To a few roundings: a quaternion is made of length 1 again when it is written."""
+    assert np.allclose(found, wanted, rtol=0.0, atol=1e-15), f"{what}: {found} not {wanted}"
 
 
 def close(found, wanted, what):
@@ -74,6 +94,8 @@ def read_h5py():
         assert [b.decode() for b in p["box"].attrs["boundary"]] == ["none"] * 3
         assert "edges" not in p["box"]
         assert f["parameters"].attrs["complete"] == 1
+        assert f["parameters"].attrs.get("floor") == (1 if SPHERES else None)
+        assert ("orientation" in p) == ("rolling_spin" in p) == SPHERES
         for name in ["velocity", "angle", "angular_velocity"]:
             assert p[name + "/time"].id == p["position/time"].id, "time is not a hard link"
             assert p[name + "/step"].id == p["position/step"].id, "step is not a hard link"
@@ -91,6 +113,9 @@ def read_h5py():
             same(p["velocity/value"][k], np.stack([vx, vy, zero], axis=1), f"velocity {k}")
             same(p["angle/value"][k], angle, f"angle {k}")
             same(p["angular_velocity/value"][k], spin, f"spin {k}")
+            if SPHERES:
+                same(p["rolling_spin/value"][k], np.stack(rolling(k), axis=1), f"rolling {k}")
+                same(p["orientation/value"][k], turned(k), f"orientation {k}")
             assert f["observables/swirls/value"][k] == k // 8
             assert f["observables/clock/value"][k] == PERIOD * (k % 8) / 8.0
             assert f["observables/events/value"][k] == 10 * k
@@ -146,6 +171,23 @@ def read_lammps():
         # This reader puts the corner of the box at the origin.
         close(frame.positions[:, 0] - REACH, x, "x")
         close(frame.positions[:, 1] - REACH, y, "y")
+    # The other columns by their names, which it does not read.
+    with open(FILE) as lines:
+        for k in range(FRAMES):
+            while not (line := next(lines)).startswith("ITEM: ATOMS "):
+                pass
+            names = line.split()[2:]
+            table = np.array([next(lines).split() for _ in range(DISCS)], dtype=float)
+            assert len(names) == table.shape[1] == (17 if SPHERES else 11), names
+            column = dict(zip(names, table.T))
+            _, _, vx, vy, _, spin = expected(k)
+            for name, values in {"id": 1 + np.arange(DISCS), "vx": vx, "vy": vy, "radius": SIZES,
+                                 "mass": MASSES, "omegaz": spin}.items():
+                same(column[name], values, name)
+            if SPHERES:
+                for name, values in zip(("omegax", "omegay"), rolling(k)):
+                    same(column[name], values, name)
+                almost([column["quat" + part] for part in "wijk"], turned(k).T, "quaternion")
 
 
 def read_xyz():
@@ -161,11 +203,19 @@ def read_xyz():
     with open(FILE) as lines:
         assert next(lines) == f"{DISCS}\n"
         comment = next(lines)
-        assert "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:id:I:1" in comment
-        table = np.array([next(lines).split()[1:] for _ in range(DISCS)], dtype=float)
+        assert ("Properties=species:S:1:pos:R:3:velo:R:3:omega:R:" +
+                ("3:radius:R:1:id:I:1:orientation:R:4 " if SPHERES else "1:radius:R:1:id:I:1 ")
+                ) in comment, comment
+        table = np.array([next(lines).split()[1:] for _ in range(DISCS)], dtype=float).T
     x, y, vx, vy, _, spin = expected(0)
     zero = np.zeros(DISCS)
-    same(table.T, [x, y, zero, vx, vy, zero, spin, SIZES, 1 + np.arange(DISCS)], "frame 0")
+    omega = [*rolling(0), spin] if SPHERES else [spin]
+    known = [x, y, zero, vx, vy, zero, *omega, SIZES, 1 + np.arange(DISCS)]
+    same(table[:len(known)], known, "frame 0")
+    # x y z w, as OVITO reads it.
+    rest = np.roll(turned(0), -1, axis=1).T if SPHERES else np.empty((0, DISCS))
+    assert table.shape[0] == len(known) + len(rest)
+    almost(table[len(known):], rest, "orientation")
 
 
 def read_vtp():
@@ -194,6 +244,12 @@ def read_vtp():
         same(values["spin"], spin, "spin")
         same(values["radius"], SIZES, "radius")
         same(values["mass"], MASSES, "mass")
+        for name in ("spin_x", "spin_y", "turned"):
+            assert bool(data.GetPointData().HasArray(name)) == SPHERES, name
+        if SPHERES:
+            for name, wanted in zip(("spin_x", "spin_y"), rolling(k)):
+                same(vtk_to_numpy(data.GetPointData().GetArray(name)), wanted, name)
+            almost(vtk_to_numpy(data.GetPointData().GetArray("turned")), turned(k), "turned")
 
 
 def read_csv():
@@ -224,6 +280,18 @@ def read_table():
                              "mass (m)": MASSES,
                              "moment of inertia (m r²)": 10.0 + np.arange(DISCS)}.items():
             same(frame[name], values, name)
+        assert ("turned w" in table.columns) == SPHERES
+        if SPHERES:
+            for name, values in zip(("spin x (v/r)", "spin y (v/r)"), rolling(k)):
+                same(frame[name], values, name)
+            almost(frame[["turned " + part for part in "wxyz"]], turned(k), "turned")
+
+
+def product(a, b):
+    """Of quaternions in rows."""
+    aw, av, bw, bv = a[:, :1], a[:, 1:], b[:, :1], b[:, 1:]
+    return np.hstack([aw * bw - np.sum(av * bv, axis=1, keepdims=True),
+                      aw * bv + bw * av + np.cross(av, bv)])
 
 
 def read_gsd():
@@ -240,9 +308,23 @@ def read_gsd():
             close(frame.particles.velocity[:, 0], vx, "vx")
             close(frame.particles.diameter, 2 * SIZES, "diameter")
             close(frame.particles.mass, MASSES, "mass")
-            close(frame.particles.moment_inertia[:, 2], 10.0 + np.arange(DISCS), "inertia")
-            close(2 * np.arctan2(frame.particles.orientation[:, 3],
-                                 frame.particles.orientation[:, 0]), angle, "angle")
+            inertia = 10.0 + np.arange(DISCS)
+            close(frame.particles.moment_inertia,
+                  np.stack([inertia * SPHERES, inertia * SPHERES, inertia], axis=1), "inertia")
+            q = frame.particles.orientation
+            if SPHERES:
+                close(q, turned(k), "orientation")
+                same(frame.log["particles/rolling_spin"], np.stack(rolling(k), axis=1), "rolling")
+            else:
+                close(2 * np.arctan2(q[:, 3], q[:, 0]), angle, "angle")
+            # What HOOMD makes of it: q̄ p / 2, in the body's axes; turned to the lab, I ω.
+            bar = q * [1, -1, -1, -1]
+            body = product(bar, frame.particles.angmom) / 2
+            spins = [*(rolling(k) if SPHERES else np.zeros((2, DISCS))), spin]
+            momentum = inertia * spins
+            # Products of a dozen float32, of up to 10.
+            assert np.allclose(product(product(q, body), bar)[:, 1:].T, momentum, atol=2e-5)
+            assert np.allclose(body[:, 0], 0.0, atol=2e-5)
             assert frame.particles.types == ["D1", "D2"]
             same(frame.particles.typeid, np.arange(DISCS) % 2, "type")
             same(np.ravel(frame.log["particles/angular_velocity"]), spin, "spin")

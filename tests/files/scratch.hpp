@@ -83,6 +83,20 @@ inline Snapshot known_frame(std::size_t discs, std::uint64_t k) {
     return s;
 }
 
+/// The same of spheres: their other two spins, and a turn that is another one for each.
+inline Snapshot known_frame_of_spheres(std::size_t discs, std::uint64_t k) {
+    Snapshot s = known_frame(discs, k);
+    s.resize_for_spheres(discs);
+    s.turned.resize(discs);
+    s.on_floor = true;
+    for (std::size_t i = 0; i < discs; ++i) {
+        const double u = double(i) + double(k) / 3.0;
+        s.set_floor_motion(i, {u / 29.0, -u / 31.0}, {0.0, 0.0});
+        s.turned[i] = unit({1.0 + u, -2.0, 3.0 - u, 4.0});
+    }
+    return s;
+}
+
 /// Runs a command; its output and its exit code (128 + n after signal n).
 struct Ran {
     int code;
@@ -99,15 +113,16 @@ inline Ran run_command(const std::string& command) {
 }
 
 /// Reads a file with somebody else's program (independent_readers.py) and compares with
-/// known_frame(discs, 0 … frames − 1). Skips, and says so, where that program is not installed.
-#define EXPECT_READER_AGREES(reader, file, discs, frames)                                   \
-    do {                                                                                    \
-        const auto ran = run_command("/usr/bin/python3 " SWIRL_SOURCE_DIR                   \
-                                     "/tests/files/independent_readers.py " +               \
-                                     std::string(reader) + " '" + (file).string() + "' " +  \
-                                     std::to_string(discs) + " " + std::to_string(frames)); \
-        if (ran.code == 77) GTEST_SKIP() << ran.output;                                     \
-        EXPECT_EQ(ran.code, 0) << ran.output;                                               \
+/// known_frame(discs, 0 … frames − 1), or those of "spheres". Skips, and says so, where that
+/// program is not installed.
+#define EXPECT_READER_AGREES(reader, file, discs, frames, bodies)                               \
+    do {                                                                                        \
+        const auto ran = run_command(                                                           \
+            "/usr/bin/python3 " SWIRL_SOURCE_DIR "/tests/files/independent_readers.py " +       \
+            std::string(reader) + " '" + (file).string() + "' " + std::to_string(discs) + " " + \
+            std::to_string(frames) + " " + std::string(bodies));                                \
+        if (ran.code == 77) GTEST_SKIP() << ran.output;                                         \
+        EXPECT_EQ(ran.code, 0) << ran.output;                                                   \
     } while (false)
 
 }  // namespace swirl

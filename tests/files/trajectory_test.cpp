@@ -34,11 +34,13 @@ void expect_same(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(a.inertia, b.inertia);
 }
 
-std::filesystem::path known_trajectory(const Scratch& scratch) {
+std::filesystem::path known_trajectory(const Scratch& scratch,
+                                       Snapshot (*frame)(std::size_t,
+                                                         std::uint64_t) = known_frame) {
     const auto path = scratch / "known.h5";
-    TrajectoryWriter writer(path, known_frame(discs, 0),
+    TrajectoryWriter writer(path, frame(discs, 0),
                             {{"version", "1.2.3"}, {"config", "discs = 5\n"}});
-    for (std::uint64_t k = 0; k < frames; ++k) writer.write(known_frame(discs, k), 10 * k);
+    for (std::uint64_t k = 0; k < frames; ++k) writer.write(frame(discs, k), 10 * k);
     writer.finish();
     return path;
 }
@@ -232,50 +234,56 @@ TEST(Trajectory, RefusesForeignAndDamagedFiles) {
     EXPECT_EQ(refused(whole), "");
 }
 
-TEST(Trajectory, OpensInH5py) {
+/// What other people's programs read, of discs and of spheres.
+class OfBodies : public ::testing::TestWithParam<const char*> {
+  protected:
+    std::string bodies() const { return GetParam(); }
+    std::filesystem::path trajectory() const {
+        return bodies() == "spheres" ? known_trajectory(scratch, known_frame_of_spheres)
+                                     : known_trajectory(scratch);
+    }
+    std::filesystem::path exported(const std::string& format) const {
+        const ExportFormat& chosen = *export_format(format);
+        const auto path = scratch / (std::string("out") + chosen.ending);
+        export_series(series_of(std::make_shared<TrajectoryReader>(trajectory())), chosen, path);
+        return path;
+    }
     const Scratch scratch;
-    EXPECT_READER_AGREES("h5py", known_trajectory(scratch), discs, frames);
-}
-TEST(Trajectory, LoadsInMDAnalysis) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("mdanalysis", known_trajectory(scratch), discs, frames);
-}
-TEST(Trajectory, OpensInXarrayAsNetCDF) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("xarray", known_trajectory(scratch), discs, frames);
-}
+};
+class TrajectoryOf : public OfBodies {};
+class ExportOf : public OfBodies {};
 
-std::filesystem::path exported(const Scratch& scratch, const std::string& format,
-                               const std::string& name) {
-    const auto reader = std::make_shared<TrajectoryReader>(known_trajectory(scratch));
-    export_series(series_of(reader), *export_format(format), scratch / name);
-    return scratch / name;
+TEST_P(TrajectoryOf, OpensInH5py) {
+    EXPECT_READER_AGREES("h5py", trajectory(), discs, frames, bodies());
 }
-
-TEST(Export, LammpsDumpLoadsInMDAnalysis) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("lammps", exported(scratch, "lammps", "out.dump"), discs, frames);
+TEST_P(TrajectoryOf, LoadsInMDAnalysis) {
+    EXPECT_READER_AGREES("mdanalysis", trajectory(), discs, frames, bodies());
 }
-TEST(Export, ExtendedXyzLoadsInMDAnalysis) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("xyz", exported(scratch, "xyz", "out.xyz"), discs, frames);
+TEST_P(TrajectoryOf, OpensInXarrayAsNetCDF) {
+    EXPECT_READER_AGREES("xarray", trajectory(), discs, frames, bodies());
 }
-TEST(Export, PolydataLoadsInVtk) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("vtp", exported(scratch, "vtp", "out.pvd"), discs, frames);
+TEST_P(ExportOf, LammpsDumpLoadsInMDAnalysis) {
+    EXPECT_READER_AGREES("lammps", exported("lammps"), discs, frames, bodies());
 }
-TEST(Export, TrackpyTableLoadsInPandas) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("csv", exported(scratch, "csv", "out.csv"), discs, frames);
+TEST_P(ExportOf, ExtendedXyzLoadsInMDAnalysis) {
+    EXPECT_READER_AGREES("xyz", exported("xyz"), discs, frames, bodies());
 }
-TEST(Export, GsdLoadsInGsd) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("gsd", exported(scratch, "gsd", "out.gsd"), discs, frames);
+TEST_P(ExportOf, PolydataLoadsInVtk) {
+    EXPECT_READER_AGREES("vtp", exported("vtp"), discs, frames, bodies());
 }
-TEST(Export, TableInOurUnitsLoadsInPandas) {
-    const Scratch scratch;
-    EXPECT_READER_AGREES("table", exported(scratch, "table", "out.csv"), discs, frames);
+TEST_P(ExportOf, TrackpyTableLoadsInPandas) {
+    EXPECT_READER_AGREES("csv", exported("csv"), discs, frames, bodies());
 }
+TEST_P(ExportOf, GsdLoadsInGsd) {
+    EXPECT_READER_AGREES("gsd", exported("gsd"), discs, frames, bodies());
+}
+TEST_P(ExportOf, TableInOurUnitsLoadsInPandas) {
+    EXPECT_READER_AGREES("table", exported("table"), discs, frames, bodies());
+}
+const auto body_name = [](const auto& body) { return std::string(body.param); };
+const auto each_body = ::testing::Values("discs", "spheres");
+INSTANTIATE_TEST_SUITE_P(, TrajectoryOf, each_body, body_name);
+INSTANTIATE_TEST_SUITE_P(, ExportOf, each_body, body_name);
 
 /// The numbers of the frames in a file in which each line begins with one.
 std::vector<int> frames_in(const std::string& text) {
