@@ -42,6 +42,10 @@ concept TakesViewByEvent = requires(M& m, const MFrameView& view) {
     m.sample_by_event(view);
 };
 template <class M>
+concept ClosesSamples = requires(M& m) {
+    m.close_block();
+};
+template <class M>
 concept ClosesWithDurationAndDiscs = requires(M& m, double duration, std::size_t discs) {
     m.close_block(duration, discs);
 };
@@ -61,7 +65,7 @@ concept ReportsTracks = requires(const M& m, Report& report, const PinnedLoose& 
 template <class M>
 constexpr MeasurementKind kind_of(const MeasurementRow<M>& row) {
     const bool pinned = TakesPinned<M> || ReportsTracks<M>;
-    const bool frames = pinned || TakesCells<M> || TakesView<M> || TakesPositions<M>;
+    const bool frames = pinned || TakesCells<M> || TakesView<M> || TakesLab<M> || TakesPositions<M>;
     return {.name = row.name,
             .header = row.header,
             .description = row.description,
@@ -197,12 +201,11 @@ void Observation::add_energy(double missing) {
 void Observation::close_block() {
     pinned_.close_block();
     each([&]<class M>(M& m) {
+        if constexpr (ClosesSamples<M>) m.close_block();
         if constexpr (ClosesWithDurationAndDiscs<M>) {
             if (events_ > 0) m.close_block(period_, discs_);
         } else if constexpr (ClosesWithDuration<M>) {
             if (events_ > 0) m.close_block(period_);
-        } else {
-            m.close_block();
         }
     });
     block_begins_ = true;

@@ -15,19 +15,18 @@
 //
 //     sample(view)                     every sample, in the M-frame
 //     sample(view, pinned)             the frame of seven samples ago and who was pinned then,
-//     which
-//                                      is not known sooner (pinned_loose.hpp)
+//                                      which is not known sooner (pinned_loose.hpp)
 //     sample(view, cells, pinned)      every 100th sample and its Voronoi cells; seven samples late
 //                                      too where somebody follows the pinned
-//     sample_in_lab(snapshot)          every sample, in the lab; beside sample(event)
+//     sample_in_lab(snapshot)          every sample, in the lab
 //     sample_within_period(snapshot)   every 7th sample, in the lab
 //     sample_across_periods(snapshot)  the first sample of every block, in the lab
 //     sample(event[, after])           every event
 //     begin_anew()                     beside sample_within_period: other discs from here on
 //     sample_by_event(view)            the state after every 32nd event, in the M-frame
-//     close_block(duration[, discs])   instead of close_block(): of the collisions alone. Without
-//                                      events it is not called: then nothing is known, not even
-//                                      that nothing happened
+//     close_block(duration[, discs])   instead of close_block() or beside it: of the collisions
+//                                      alone. Without events it is not called: then nothing is
+//                                      known, not even that nothing happened
 //     add_energy(missing)              ½⟨u²⟩ of a disc is so much more than its velocities say: who
 //                                      gives smoothed ones knows
 //     report(visitor, pinned_loose)    instead of report(visitor): what the tracks say of pinned

@@ -55,9 +55,12 @@ void Rolling::sample(const Event& event, const Snapshot& after) {
     (wall ? at_wall_ : between_).add(event.impulse, -J * (slip - 0.5 * J * lever));
 }
 
-void Rolling::close_block(double duration, std::size_t spheres) {
+void Rolling::close_block() {
     for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_})
         mean->close_block();
+}
+
+void Rolling::close_block(double duration, std::size_t spheres) {
     if (samples_ == 0) return;  // no spheres
     const double weight = duration * static_cast<double>(spheres);
     between_.close_block(weight);

@@ -23,6 +23,7 @@
 //
 // Touching: gap below 0.1 of the mean radius. Units as stated; errors from blocks of periods.
 // Limits: NaN for discs, which do not roll; without a floor everybody slips, and c says nothing.
+// Recorded frames tell all but what is seen collision by collision.
 #pragma once
 
 #include <cmath>
@@ -44,7 +45,10 @@ class Rolling {
 
     void sample_in_lab(const Snapshot& lab);
     void sample(const Event& event, const Snapshot& after);
-    /// `duration`: the time since the last call, in which there were so many spheres.
+    /// Of the samples.
+    void close_block();
+    /// Of the collisions; `duration`: the time since the last call, in which there were so many
+    /// spheres.
     void close_block(double duration, std::size_t spheres);
 
     Estimate rolling_share() const { return rolls_.estimate(); }

@@ -53,7 +53,7 @@ TEST(Observation, WhatAMeasurementNeedsFollowsFromItsFunctions) {
     EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
     EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
     EXPECT_EQ(cells, (Names{"order", "packing"}));
-    EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "rolling"}));
+    EXPECT_EQ(events, (Names{"collisions", "wall", "energy"}));
 }
 
 TEST(Observation, EverySampleOfAFrameCountsAndEventsAreThinned) {

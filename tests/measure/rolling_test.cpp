@@ -23,7 +23,7 @@ void add_rolling(Snapshot& s, const Vec2& position, const Vec2& velocity) {
 Rolling seen(const Snapshot& s) {
     Rolling rolling;
     rolling.sample_in_lab(s);
-    rolling.close_block(s.period, s.size());
+    rolling.close_block();
     return rolling;
 }
 

@@ -13,6 +13,7 @@
 #include "swirl/measure/energy_budget.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 
@@ -177,6 +178,38 @@ TEST(RunOfSpheres, ATrajectoryHoldsTheirSpinsAndOrientations) {
 }
 TEST(RunOfSpheres, ATrajectoryOfCoinsSaysThatTheyLieFlat) {
     expect_recorded_bit_for_bit(coins("9", "3"));
+}
+
+// A frame has the spins and the floor's velocity to the last bit, so who rolls is known of it.
+TEST(RunOfSpheres, FramesTellOfRollingWhatTheRunDidButForItsCollisions) {
+    const Scratch scratch;
+    RunConfig config = experiment("36", "5");
+    config.warmup = 0;
+    RunFiles files;
+    files.trajectory = scratch / "spheres.h5";
+    files.frames.per_swirl = samples_per_period;
+    run_recorded(config, files, {}, {});
+    const SnapshotSeries series = series_of(std::make_shared<TrajectoryReader>(files.trajectory));
+    ASSERT_THAT(measurable({"rolling"}, true), testing::ElementsAre("rolling"));
+    const auto rows = [](const nlohmann::ordered_json& measured) {
+        std::map<std::string, Estimate> found;
+        for (const MeasuredNumber& number : measured_numbers(measured))
+            found[number.name] = number.estimate;
+        return found;
+    };
+    auto in_run = rows(measured_run(config, {"rolling"}).measured),
+         in_frames = rows(measured_json(measure_series(series, {"rolling"}).reports));
+    for (const char* name : {"rolling_share", "wall_rolling_share", "floor_slip",
+                             "axis_correlation", "contact_correlation"}) {
+        const std::string row = std::string("rolling.") + name;
+        EXPECT_EQ(in_run.at(row).mean, in_frames.at(row).mean) << row;
+        EXPECT_EQ(in_run.at(row).error, in_frames.at(row).error) << row;
+        EXPECT_NE(in_run.at(row).mean, 0.0) << row;
+    }
+    for (const char* name : {"rolling.vertical_share", "rolling.vertical_power_at_wall"}) {
+        EXPECT_TRUE(std::isnan(in_frames.at(name).mean)) << name;
+        EXPECT_GT(in_run.at(name).mean, 0.0) << name;
+    }
 }
 
 TEST(RunOfSpheres, ResumedTheyAreTurnedTheSameWay) {
