@@ -10,13 +10,59 @@
 namespace swirl {
 namespace {
 
-// 113 bits, 34 digits: the same question, answered by a method that has nothing in common with
-// quartic.hpp but the polynomial.
-__extension__ typedef __float128 Wide;
+__extension__ typedef __float128 Half;
+
+/// The sum of two numbers of 113 bits, of which the second is a rounding error of the first: 67
+/// digits. Sum and product of two such halves are exact (Dekker 1971, doi:10.1007/BF01397083).
+class Wide {
+  public:
+    Wide(double value = 0.0) : high_(value) {}
+    explicit operator double() const { return double(high_); }
+
+    friend Wide operator+(const Wide& a, const Wide& b) {
+        const Wide s = sum(a.high_, b.high_), t = sum(a.low_, b.low_);
+        const Wide u = ordered_sum(s.high_, s.low_ + t.high_);
+        return ordered_sum(u.high_, u.low_ + t.low_);
+    }
+    friend Wide operator-(const Wide& a) { return {-a.high_, -a.low_}; }
+    friend Wide operator-(const Wide& a, const Wide& b) { return a + -b; }
+    friend Wide operator*(const Wide& a, const Wide& b) {
+        const Half product = a.high_ * b.high_;
+        const Wide x = split(a.high_), y = split(b.high_);
+        const Half rest =
+            ((x.high_ * y.high_ - product) + x.high_ * y.low_ + x.low_ * y.high_) + x.low_ * y.low_;
+        return ordered_sum(product, rest + (a.high_ * b.low_ + a.low_ * b.high_));
+    }
+    friend bool operator>(const Wide& a, const Wide& b) {
+        return a.high_ > b.high_ || (a.high_ == b.high_ && a.low_ > b.low_);
+    }
+    friend bool operator==(const Wide&, const Wide&) = default;
+
+  private:
+    Wide(Half high, Half low) : high_(high), low_(low) {}
+    static Wide ordered_sum(Half a, Half b) {  // |a| ≥ |b|
+        const Half s = a + b;
+        return {s, b - (s - a)};
+    }
+    static Wide sum(Half a, Half b) {
+        const Half s = a + b, of_b = s - a;
+        return {s, (a - (s - of_b)) + (b - of_b)};
+    }
+    static Wide split(Half a) {  // in halves of 56 bits, whose products are exact
+        const Half c = Half(0x1p57 + 1.0) * a;
+        const Half high = c - (c - a);
+        return {high, a - high};
+    }
+
+    Half high_, low_ = 0;
+};
+
+// The same question, answered by a method that has nothing in common with quartic.hpp but the
+// polynomial, in 67 digits.
 
 struct WideQuartic {
     Wide c[5];
-    explicit WideQuartic(const Quartic& f, Wide added = 0)
+    explicit WideQuartic(const Quartic& f, Wide added = 0.0)
         : c{f.c0 + added, f.c1, f.c2, f.c3, f.c4} {}
 
     Wide value(Wide t) const { return (((c[4] * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0]; }
@@ -24,21 +70,20 @@ struct WideQuartic {
     /// coefficients at the far end.
     Wide lower_bound(Wide a, Wide b) const {
         const Wide w = b - a;
-        const Wide d1 = ((4 * c[4] * a + 3 * c[3]) * a + 2 * c[2]) * a + c[1];
-        const Wide d2 = (6 * c[4] * a + 3 * c[3]) * a + c[2];
-        const Wide d3 = 4 * c[4] * a + c[3];
-        const auto down = [](Wide x) { return x < 0 ? x : Wide(0); };
+        const Wide d1 = ((4.0 * c[4] * a + 3.0 * c[3]) * a + 2.0 * c[2]) * a + c[1];
+        const Wide d2 = (6.0 * c[4] * a + 3.0 * c[3]) * a + c[2];
+        const Wide d3 = 4.0 * c[4] * a + c[3];
+        const auto down = [](const Wide& x) { return x > 0.0 ? Wide() : x; };
         return value(a) + w * (down(d1) + w * (down(d2) + w * (down(d3) + w * down(c[4]))));
     }
     /// The first time, to 10⁻²⁴ of the stretch, at which it is 0 or less; −1 if it is above
     /// everywhere.
     Wide first_zero(Wide a, Wide b, int depth = 0) const {
-        if (lower_bound(a, b) > 0) return -1;
-        if (value(a) <= 0) return a;
-        if (depth == 80) return a;
-        const Wide middle = (a + b) / 2;
+        if (lower_bound(a, b) > 0.0) return -1.0;
+        if (!(value(a) > 0.0) || depth == 80) return a;
+        const Wide middle = 0.5 * (a + b);
         const Wide left = first_zero(a, middle, depth + 1);
-        return left >= 0 ? left : first_zero(middle, b, depth + 1);
+        return left == -1.0 ? first_zero(middle, b, depth + 1) : left;
     }
 };
 
@@ -64,8 +109,9 @@ std::string wrong(const Quartic& f, double horizon, double grain) {
     if (found == 0.0 && f.c0 <= 0.0 && f.c1 < 0.0) return "";
     if (found != never && std::abs(double(WideQuartic(f).value(found))) > error)
         return "no zero" + place;
-    const Wide earlier = WideQuartic(f, 2.0 * error).first_zero(0, end);
-    return earlier < 0 ? "" : "one at " + std::to_string(double(earlier)) + " is before" + place;
+    const Wide earlier = WideQuartic(f, 2.0 * error).first_zero(0.0, end);
+    return earlier == -1.0 ? ""
+                           : "one at " + std::to_string(double(earlier)) + " is before" + place;
 }
 
 struct Encounters {
@@ -121,6 +167,10 @@ void expect_first_falls(int cases, std::uint64_t seed) {
     }
 }
 
+TEST(Quartic, TheReferenceHasFiftyDigits) {
+    const Wide third = 1.0 + Wide(0x1p-100) + Wide(0x1p-200);
+    EXPECT_EQ(double(third * third - 1.0 - Wide(0x1p-99) - Wide(3.0 * 0x1p-200)), 0x1p-299);
+}
 TEST(Quartic, FirstFallIsThatOfHighPrecision) { expect_first_falls(3000, 1); }
 TEST(Quartic, SlowFirstFallIsThatOfHighPrecisionInMillionsOfCases) {
     expect_first_falls(500000, 2);
