@@ -40,6 +40,7 @@ NEARLY_ONE = 0.9           # "nearly 1", of the slip parameter
 # of a liquid of hard discs about to freeze, packing fraction 0.69, from a Monte Carlo simulation of
 # 196 discs; and of points thrown at random.
 SIX_FOLD, NO_ORDER = 0.63, 0.43
+ABOUT_A_HALF = 0.1         # either way: "approximately 0.5", of the slip parameter
 AT_THE_WALL = 0.05         # "approaches 1", of the normalised angular velocity
 CHANCE_OF_DRIFT = 0.05     # share of the runs that may drift in a steady state
 PERIOD, RADIUS = 11.866071, 8.6  # of the swirl, of the dish (SI)
@@ -429,17 +430,22 @@ def slip_rises(folder):
         "The 0.5 at N = 25 is of the experiment, whose friction is not known.")
 
 
-def slip_rough(folder):
-    rough = {row["discs"]: row for row in folder.curve("4a", setting="high")}
-    smooth = {row["discs"]: row for row in folder.curve("4a", setting="low")}
-    numbers = [n for n in sorted(rough) if n in smooth]
-    closer = [below(abs(value(rough[n], "pinned_at_wall") - 1),
-                    abs(value(smooth[n], "pinned_at_wall") - 1)) for n in numbers]
-    low = [smooth[n] for n in numbers]
+def closer_to_one(rough, smooth):
+    """Of rows of two frictions, at every N that both have: is s closer to 1 for the rougher?"""
+    smooth = {row["discs"]: row for row in smooth}
+    pairs = [(row, smooth[row["discs"]]) for row in rough if row["discs"] in smooth]
+    closer = [below(abs(value(a, "pinned_at_wall") - 1), abs(value(b, "pinned_at_wall") - 1))
+              for a, b in pairs]
     return every(closer), (
-        f"s of the pinned in the wall layer is closer to 1 for μ = 1 than for μ = 0.1, certainly at "
-        f"{count(closer)} of {len(closer)} N, certainly not at {count(closer, FAILS)}; for μ = 0.1: "
-        f"{ends(low, 'pinned_at_wall')}, of all pinned by the SI's criterion "
+        f"certainly at {count(closer)} of {len(closer)} N, certainly not at {count(closer, FAILS)}")
+
+
+def slip_rough(folder):
+    low = folder.curve("4a", setting="low")
+    part, found = closer_to_one(folder.curve("4a", setting="high"), low)
+    return part, (
+        f"s of the pinned in the wall layer is closer to 1 for μ = 1 than for μ = 0.1, {found}; "
+        f"for μ = 0.1: {ends(low, 'pinned_at_wall')}, of all pinned by the SI's criterion "
         f"{ends(low, 'pinned_region')}.")
 
 
@@ -561,6 +567,28 @@ def free_fixed(folder):
         f"with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'becoming_free')}, with "
         f"resultants {resultants(rows, 'becoming_free_resultant')}: it counts discs that fly along "
         "the wall far from it, its places have two maxima, and their mean says little.")
+
+
+def grows(rows):
+    part, but = rising(rows, "stay_share")
+    return part, f"share that is on a stay at the wall: {ends(rows, 'stay_share')}{but}"
+
+
+def earlier(rows):
+    path = unwrapped(rows, "stay_begins")
+    # Who runs clockwise is earlier at a larger θ.
+    shift = path[-1] - path[0]
+    return above(shift, EARLIER), (
+        f"stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees): the place moves "
+        f"upstream by {number(shift)}° (earlier: more than {EARLIER:.0f}°)")
+
+
+def same_place(rows):
+    path = unwrapped(rows, "stay_ends")
+    low, high = min(path, key=lambda a: a.mean), max(path, key=lambda a: a.mean)
+    return below(high - low, SAME_PLACE), (
+        f"stays at the wall end at θ = {ends(rows, 'stay_ends')} (degrees): over all N the place "
+        f"moves by {number(high - low)}° (the same place: within {SAME_PLACE:.0f}°)")
 
 
 def left_of_M(folder):
@@ -862,16 +890,42 @@ def spheres_elastic(folder):
             f"{number(v)} at N = {n}" for v, n in zip(found, DENSE_SPHERES)) + ".")
 
 
-def spheres_against_n(name, words, falling=False):
-    def judge_rows(rows):
-        rows = [row for row in rows if row[name] == row[name]]
-        part, but = rising(rows, name, falling)
-        return part, ends(rows, name) + but
-
+def of_spheres(judge_rows):
+    """What one friction's rows say of the pinned."""
     def judge(folder):
         part, told = for_some_friction(folder, "spheres_pinned", judge_rows)
-        return part, f"{words} {told}."
+        return part, f"Spheres, {told}."
     return judge
+
+
+def spin_falls(rows):
+    rows = [row for row in rows if row["pinned_wall_spin"] == row["pinned_wall_spin"]]
+    part, but = rising(rows, "pinned_wall_spin", falling=True)
+    return part, f"|ω_z|/Ω {ends(rows, 'pinned_wall_spin')}{but}"
+
+
+def slip_from_a_half(rows):
+    part, but = rising(rows, "pinned_at_wall")
+    half = [within(value(row, "pinned_at_wall"), 0.5 - ABOUT_A_HALF, 0.5 + ABOUT_A_HALF)
+            for row in rows if abs(row["discs"] - 25) <= ROUGHLY]
+    return parts(part, either(half), above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
+        f"{ends(rows, 'pinned_at_wall')}{but}, of all pinned by the SI's criterion "
+        f"{ends(rows, 'pinned_region')}")
+
+
+def spheres_slip(folder):
+    part, told = for_some_friction(folder, "spheres_pinned", slip_from_a_half)
+    return part, (f"s of the pinned in the wall layer, {told} (approximately 0.5: within "
+                  f"{ABOUT_A_HALF}; nearly 1: above {NEARLY_ONE}).")
+
+
+def spheres_slip_rough(folder):
+    frictions = sorted({row["mu"] for row in folder.table("spheres_pinned")})
+    smooth, rough = (folder.curve("spheres_pinned", most=math.inf, mu=mu)
+                     for mu in (frictions[0], frictions[-1]))
+    part, found = closer_to_one(rough, smooth)
+    return part, (f"s of the pinned in the wall layer is closer to 1 for μ = {frictions[-1]:g} than "
+                  f"for μ = {frictions[0]:g}, {found}.")
 
 
 def spheres_kept_from_rolling(folder):
@@ -970,10 +1024,18 @@ CLAIMS = [
           spheres_frustration),
     Claim("main text", "Damping is not needed for spheres to counterrotate.", "spheres_ingredients",
           spheres_elastic),
-    Claim("experiment, Fig. 4a", "The slip parameter of pinned spheres rises with N.",
-          "spheres_pinned", spheres_against_n("pinned_region", "s of the pinned:")),
+    Claim("experiment, Fig. 4a", "The slip parameter of pinned spheres rises with N, from "
+          "approximately 0.5 at N = 25 to nearly 1.", "spheres_pinned", spheres_slip),
+    Claim("experiment, Fig. 4a", "It is closer to 1 for roughened spheres than for smooth ones.",
+          "spheres_pinned", spheres_slip_rough),
     Claim("experiment, Fig. 4b", "The spin of pinned spheres at the wall falls with N.",
-          "spheres_pinned", spheres_against_n("pinned_wall_spin", "|ω_z|/Ω:", falling=True)),
+          "spheres_pinned", of_spheres(spin_falls)),
+    Claim("experiment, Fig. 3", "With N spheres enter the pinned region earlier in their cycle.",
+          "spheres_pinned", of_spheres(earlier)),
+    Claim("experiment, Fig. 3", "Spheres leave the pinned region at the same place for all N.",
+          "spheres_pinned", of_spheres(same_place)),
+    Claim("experiment, Fig. 2c", "The pinned region of spheres grows with N.", "spheres_pinned",
+          of_spheres(grows)),
 ]
 
 

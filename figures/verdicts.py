@@ -165,7 +165,7 @@ def either(statements):
     open_ones = [s for s in statements if s.verdict == UNDECIDED]
     if open_ones or not statements:
         return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
-    return Part(FAILS)
+    return Part(IN_PART if any(s.verdict == IN_PART for s in statements) else FAILS)
 
 
 def agreed(statements):

@@ -4,6 +4,7 @@
 // what is seen of the pinned spheres and of the rolling.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,11 +19,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Up to 57 fit; of 56 some collapse.
+/// Up to 57 fit; of 56 some collapse, which leaves a seed out.
 std::vector<std::int64_t> numbers_of_spheres(const PaperSettings& settings) {
     if (settings.quick) return {16, 24, 28, 30, 32, 36, 40, 44, 48, 52};
-    return {8,  12, 16, 20, 22, 24, 26, 28, 30, 32, 34, 35, 36,
-            37, 38, 40, 42, 44, 46, 48, 50, 52, 53, 54, 55};
+    return {8,  12, 16, 20, 22, 24, 26, 28, 30, 32, 34, 35, 36, 37,
+            38, 40, 42, 44, 46, 48, 50, 52, 53, 54, 55, 56, 57};
 }
 
 /// In steps that decide where ingredients differ.
@@ -68,6 +69,11 @@ struct Variant {
 Variant friction(double mu) {
     return {fmt::format("{}", mu), fmt::format("μ = {}", mu), mu,
             [mu](RunConfig& c) { c.mu_disc = c.mu_wall = mu; }};
+}
+
+std::vector<double> frictions_of_spheres(const PaperSettings& settings) {
+    if (settings.quick) return {0.15, 0.2, 0.5};
+    return {0.1, 0.15, 0.2, 0.25, 0.3, 0.5};
 }
 
 struct VariantPoint {
@@ -139,16 +145,48 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
     return plan;
 }
 
-/// What is measured of them; the columns of the table.
-constexpr std::array<std::pair<const char*, const char*>, 14> seen{{
+/// Between which frictions as many spheres as those of the experiment that changed their sense
+/// change theirs: the other way round, as the N of the last change jumps with the friction. The
+/// frictions are too far apart for a straight line to say where. In the order of plan_variants().
+FigureOutcome frictions_of_the_experiment(const PaperSettings& settings,
+                                          const std::vector<Json>& results, const fs::path& file) {
+    const std::vector<std::int64_t> numbers = numbers_of_spheres(settings);
+    const std::vector<double> frictions = frictions_of_spheres(settings);
+    Table table({"discs", "before", "after", "sense"});
+    FigureOutcome outcome{{}, {file}};
+    for (const std::int64_t n : {36, 28}) {
+        const auto k = static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), n) -
+                                                numbers.begin());
+        std::vector<RotationPoint> curve;
+        for (std::size_t v = 0; v < frictions.size(); ++v)
+            curve.push_back(
+                rotation_point(frictions[v], results[v * numbers.size() + k], "by_time"));
+        for (const SignChange& c : find_sign_changes(curve)) {
+            const char* const sense = c.to_counterrotation ? "counterrotation" : "rotation";
+            table.add({n, c.before, c.after, std::string(sense)});
+            outcome.findings.push_back(fmt::format("{} spheres change to {} between μ = {} and {}.",
+                                                   n, sense, c.before, c.after));
+        }
+    }
+    table.write(file);
+    return outcome;
+}
+
+/// What is measured of them, and the columns of the table.
+struct Seen {
+    const char *measurement, *quantity, *column = quantity;
+};
+constexpr std::array<Seen, 16> seen{{
     {"slip", "pinned_region"},
+    {"slip", "pinned_at_wall"},
     {"slip", "cluster"},
     {"frustration", "wall_spin"},
     {"frustration", "pinned_wall_spin"},
     {"frustration", "spin_correlation"},
     {"frustration", "triangles"},
-    {"stays", "becoming_pinned"},
-    {"stays", "becoming_free"},
+    {"stays", "becoming_pinned", "stay_begins"},
+    {"stays", "becoming_free", "stay_ends"},
+    {"stays", "share", "stay_share"},
     {"rolling", "rolling_share"},
     {"rolling", "wall_rolling_share"},
     {"rolling", "floor_slip"},
@@ -180,9 +218,7 @@ std::string at_both_ends(const std::vector<VariantPoint>& points, const std::vec
 
 static FigurePlan plan_figure_spheres(const PaperSettings& settings) {
     std::vector<Variant> variants;
-    for (const double mu : settings.quick ? std::vector<double>{0.15, 0.2, 0.5}
-                                          : std::vector<double>{0.1, 0.15, 0.2, 0.25, 0.3, 0.5})
-        variants.push_back(friction(mu));
+    for (const double mu : frictions_of_spheres(settings)) variants.push_back(friction(mu));
     return plan_variants(settings, "spheres", variants, numbers_of_spheres(settings));
 }
 
@@ -191,7 +227,7 @@ static FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_spheres(settings);
     const auto curves = plan.finish;
     plan.script = "figure_spheres_sense.py";
-    plan.finish = [curves](const std::vector<Json>& results, const fs::path& out) {
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         FigureOutcome outcome = curves(results, out);
         const fs::path table = out / "figure_spheres_sense.csv";
         std::error_code error;
@@ -199,7 +235,10 @@ static FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
         if (error)
             throw Failure(
                 fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
-        return FigureOutcome{{}, {table}};
+        FigureOutcome at_numbers = frictions_of_the_experiment(
+            settings, results, out / "figure_spheres_sense_frictions.csv");
+        at_numbers.files.insert(at_numbers.files.begin(), table);
+        return at_numbers;
     };
     return plan;
 }
@@ -242,17 +281,17 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         std::vector<std::string> columns{"curve", "mu", "discs"};
-        for (const auto& [measurement, quantity] : seen)
-            columns.insert(columns.end(), {quantity, fmt::format("{}_error", quantity)});
+        for (const Seen& what : seen)
+            columns.insert(columns.end(), {what.column, fmt::format("{}_error", what.column)});
         Table table(joined(columns, rotation_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < points.size(); ++k) {
             const Variant& variant = variants[points[k].variant];
             std::vector<Table::Cell> row{variant.name, variant.mu, points[k].spheres};
-            for (const auto& [measurement, quantity] : seen)
-                for (const char* what : {"mean", "error"})
-                    row.emplace_back(
-                        number(at(results[k], {"measured", measurement, quantity, what})));
+            for (const Seen& what : seen)
+                for (const char* part : {"mean", "error"})
+                    row.emplace_back(number(
+                        at(results[k], {"measured", what.measurement, what.quantity, part})));
             add_rotation(row, results[k]);
             table.add(std::move(row));
         }

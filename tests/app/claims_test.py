@@ -268,20 +268,16 @@ class OnMadeUpTables(unittest.TestCase):
                                 {0.1: [(8, 0.2), (48, 0.1), (54, 0.15)]})[0], FAILS)
 
     def test_a_step_back_of_the_spheres_is_told(self):
-        spin = claims.spheres_against_n("pinned_wall_spin", "spin:", falling=True)
+        spin = claims.of_spheres(claims.spin_falls)
         judged = self.spheres_by_friction("spheres_pinned", ["pinned_wall_spin"])
         falling, with_step = ([(30, 0.5), (36, 0.4), (48, 0.2)], [(30, 0.5), (36, 0.6), (48, 0.2)])
         verdict, found = judged(spin, {0.15: with_step, 0.5: falling})
         self.assertEqual(verdict, HOLDS)
-        self.assertIn("μ = 0.15: 0.5000 ± 0.0010 at N = 30, 0.2000 ± 0.0010 at N = 48, but it rises "
+        self.assertIn("μ = 0.15: |ω_z|/Ω 0.5000 ± 0.0010 at N = 30, 0.2000 ± 0.0010 at N = 48, but it rises "
                       "from 0.5000 ± 0.0010 at N = 30 to 0.6000 ± 0.0010 at N = 36; μ = 0.5", found)
         self.assertIn("It holds for 1 of 2 frictions", found)
         self.assertEqual(judged(spin, {0.15: with_step})[0], FAILS)
         self.assertEqual(judged(spin, {0.15: with_step, 0.5: falling[:2]})[0], UNDECIDED)
-        slip = claims.spheres_against_n("pinned_region", "s:")
-        judged = self.spheres_by_friction("spheres_pinned", ["pinned_region"])
-        self.assertEqual(judged(slip, {0.15: [(30, 0.7), (36, 0.8), (48, 0.9)]})[0], HOLDS)
-        self.assertEqual(judged(slip, {0.15: [(30, 0.9), (36, 0.8), (48, 0.7)]})[0], FAILS)
 
     def test_spheres_are_kept_from_rolling_where_fewer_roll_at_the_wall(self):
         judged = self.spheres_by_friction("spheres_pinned",
@@ -300,6 +296,57 @@ class OnMadeUpTables(unittest.TestCase):
         self.assertEqual(judged(0.03, -0.05), FAILS)
         self.assertEqual(judged(-0.002, -0.05), UNDECIDED)
         self.assertEqual(judged(-0.002, -0.05).points, {"no_damping_N44"})
+
+    def pinned_spheres(self, **columns):
+        """Of both frictions at N = 24, 36 and 48; a column is (values of 0.15, values of 0.5, error)."""
+        self.table("spheres_pinned", [
+            {"mu": mu, "discs": n, "point": f"{mu}_N{n}",
+             **{name: of_both[which][k] for name, of_both in columns.items()},
+             **{name + "_error": of_both[2] for name, of_both in columns.items()}}
+            for which, mu in enumerate((0.15, 0.5)) for k, n in enumerate((24, 36, 48))])
+
+    def judged(self, says):
+        return next(c for c in claims.CLAIMS if c.says.startswith(says)).judge(self.folder)
+
+    def test_the_slip_of_pinned_spheres_begins_at_a_half_for_one_of_the_frictions(self):
+        says = "The slip parameter of pinned spheres rises with N, from"
+
+        def of(smooth, rough, error=0.01):
+            self.pinned_spheres(pinned_at_wall=(smooth, rough, error),
+                                pinned_region=(smooth, rough, error))
+            return self.judged(says)[0]
+        self.assertEqual(of((0.5, 0.8, 1.0), (0.8, 0.9, 1.0)), HOLDS)
+        self.assertEqual(of((0.7, 0.8, 1.0), (0.8, 0.9, 1.0)), IN_PART)
+        self.assertEqual(of((0.5, 0.8, 0.8), (0.8, 0.9, 0.7)), IN_PART)
+        self.assertEqual(of((0.5, 0.8, 1.0), (0.8, 0.9, 1.0), 0.1), UNDECIDED)
+
+    def test_rougher_spheres_slip_less(self):
+        says = "It is closer to 1 for roughened spheres"
+        self.pinned_spheres(pinned_at_wall=((0.5, 0.8, 0.95), (0.8, 0.9, 1.01), 0.005))
+        self.assertEqual(self.judged(says)[0], HOLDS)
+        self.pinned_spheres(pinned_at_wall=((0.5, 0.8, 0.95), (0.8, 0.9, 0.96), 0.005))
+        self.assertEqual(self.judged(says)[0], UNDECIDED)
+        self.pinned_spheres(pinned_at_wall=((0.5, 0.8, 0.95), (0.8, 0.7, 0.99), 0.005))
+        self.assertEqual(self.judged(says)[0], FAILS)
+
+    def test_where_spheres_become_pinned_and_free(self):
+        """Angles go on from 350 to 10 degrees."""
+        self.pinned_spheres(stay_begins=((170, 250, 350), (160, 240, 10), 2),
+                            stay_ends=((5, 358, 350), (70, 60, 80), 2),
+                            stay_share=((0.1, 0.2, 0.3), (0.1, 0.2, 0.15), 0.01))
+        verdict, found = self.judged("With N spheres enter")
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("moves upstream by 210", found)
+        self.assertEqual(self.judged("Spheres leave the pinned region")[0], UNDECIDED)
+        verdict, found = self.judged("The pinned region of spheres grows")
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("It holds for 1 of 2 frictions", found)
+        self.pinned_spheres(stay_begins=((170, 250, 150), (160, 240, 150), 2),
+                            stay_ends=((5, 358, 0), (70, 68, 72), 2),
+                            stay_share=((0.1, 0.2, 0.15), (0.3, 0.2, 0.1), 0.01))
+        self.assertEqual(self.judged("The pinned region of spheres grows")[0], FAILS)
+        self.assertEqual(self.judged("With N spheres enter")[0], FAILS)
+        self.assertEqual(self.judged("Spheres leave the pinned region")[0], HOLDS)
 
     def test_a_curve_that_does_not_cross_comes_after_one_that_does(self):
         self.crossings("5b", high=(36, .3), medium=(40, .3), low=(None, "always rotates"))
