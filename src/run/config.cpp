@@ -216,6 +216,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     Random random(Random(c.seed ^ 0x76656c6f63697479u).bits());
     scene.discs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
+        if (stop && stop->load()) throw_interrupted("Stopped before the first event.");
         const double mass = i < n - second ? c.mass : c.mixture->mass;
         const double inertia =
             i < n - second ? c.inertia : inertia_factor * mass * radii[i] * radii[i];
@@ -223,7 +224,6 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
                                leg.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0, radii[i],
                                mass, inertia});
     }
-    if (stop && stop->load()) throw_interrupted("Stopped before the first event.");
     return scene;
 }
 

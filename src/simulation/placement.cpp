@@ -13,7 +13,9 @@
 namespace swirl {
 namespace {
 
-/// The caller's question whether to go on, asked every few thousandths of a second.
+/// The caller's question whether to go on, asked every few thousandths of a second: in every loop
+/// over discs or sites, of which there may be hundreds of millions. Where it has ended, what is
+/// found is of no use.
 class Patience {
   public:
     explicit Patience(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
@@ -21,8 +23,6 @@ class Patience {
         if (!ended_ && is_stopped_) ended_ = is_stopped_();
         return ended_;
     }
-    /// For loops of short steps.
-    bool ended_at(std::size_t step) { return step % 65536 == 0 ? ended() : ended_; }
 
   private:
     const std::function<bool()>& is_stopped_;
@@ -36,9 +36,9 @@ constexpr double sparsest = 1.0 / 16.0;
 
 /// Sites of the triangular lattice of the given spacing within `reach` of one of them.
 template <class Visit>
-void for_each_site(double spacing, double reach, Visit visit) {
+void for_each_site(double spacing, double reach, Patience& patience, Visit visit) {
     const auto rows = static_cast<long>(reach / (spacing * row_height)) + 1;
-    for (long row = -rows; row <= rows; ++row) {
+    for (long row = -rows; row <= rows && !patience.ended(); ++row) {
         const double y = spacing * row_height * static_cast<double>(row);
         const double left = reach * reach - y * y;
         if (left < 0.0) continue;
@@ -51,9 +51,9 @@ void for_each_site(double spacing, double reach, Visit visit) {
     }
 }
 
-std::size_t count_sites(double spacing, double reach) {
+std::size_t count_sites(double spacing, double reach, Patience& patience) {
     std::size_t count = 0;
-    for_each_site(spacing, reach, [&](const Vec2&) { ++count; });
+    for_each_site(spacing, reach, patience, [&](const Vec2&) { ++count; });
     return count;
 }
 
@@ -84,16 +84,18 @@ Vec2 turned(const Vec2& site, const Vec2& turn) {
 }
 
 /// n of the sites at random, which then are the first n and all there are.
-void choose(std::size_t n, std::vector<Vec2>& sites, Random& random) {
-    for (std::size_t k = 0; k < n; ++k)
+void choose(std::size_t n, std::vector<Vec2>& sites, Random& random, Patience& patience) {
+    for (std::size_t k = 0; k < n && !patience.ended(); ++k)
         std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
     sites.resize(n);
 }
 
-std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Random& random) {
+std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Random& random,
+                               Patience& patience) {
     std::vector<Vec2> sites;
-    for_each_site(spacing, reach, [&](const Vec2& site) { sites.push_back(site); });
-    choose(n, sites, random);
+    for_each_site(spacing, reach, patience, [&](const Vec2& site) { sites.push_back(site); });
+    if (patience.ended()) return {};
+    choose(n, sites, random, patience);
     const Vec2 turn = unit_circle(random.uniform());
     for (Vec2& site : sites) site = turned(site, turn);
     return sites;
@@ -101,8 +103,10 @@ std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Rand
 
 /// Moves each disc within its free space, if it may be there.
 template <class IsAllowed>
-void shake(std::vector<Vec2>& centres, double freedom, Random& random, IsAllowed is_allowed) {
+void shake(std::vector<Vec2>& centres, double freedom, Random& random, Patience& patience,
+           IsAllowed is_allowed) {
     for (Vec2& centre : centres) {
+        if (patience.ended()) return;
         const Vec2 moved = centre + random.in_disc(freedom);
         if (is_allowed(moved)) centre = moved;
     }
@@ -111,13 +115,14 @@ void shake(std::vector<Vec2>& centres, double freedom, Random& random, IsAllowed
 /// Square cells no smaller than the largest disc, so that whoever overlaps is in a cell next door.
 class Cells {
   public:
-    Cells(const std::vector<Vec2>& centres, double container_radius, double width)
+    Cells(const std::vector<Vec2>& centres, double container_radius, double width,
+          Patience& patience)
         : side_(static_cast<std::size_t>(2.0 * container_radius / width) + 1),
           width_(width),
           radius_(container_radius),
           head_(side_ * side_, none),
           next_(centres.size(), none) {
-        for (std::size_t i = centres.size(); i-- > 0;) {
+        for (std::size_t i = centres.size(); i-- > 0 && !patience.ended();) {
             const std::size_t cell = row(centres[i].y) * side_ + row(centres[i].x);
             next_[i] = head_[cell];
             head_[cell] = i;
@@ -154,7 +159,7 @@ bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
         bool overlap = false;
         // The cells are made for the centres as they are now; a push within the sweep is smaller
         // than the cells, and whoever is missed is found in the next one.
-        const Cells cells(centres, container_radius, 2.0 * (largest + margin));
+        const Cells cells(centres, container_radius, 2.0 * (largest + margin), patience);
         for (std::size_t i = 0; i < centres.size(); ++i) {
             if (i % 64 == 0 && (pairs < 0 || patience.ended())) return false;
             cells.near(centres[i], [&](std::size_t j) {
@@ -248,7 +253,7 @@ class Relaxation {
         bool overlap = false;
         looks_ = 0;
         std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
-        const Cells cells(centres_, container_radius_, width_);
+        const Cells cells(centres_, container_radius_, width_, patience);
         for (std::size_t i = 0; i < centres_.size(); ++i) {
             if (i % 64 == 63 && (looks_ > 16 * budget || patience.ended())) return true;
             cells.near(centres_[i], [&](std::size_t j) {
@@ -311,7 +316,7 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
                const std::vector<double>& radii, Random& random, Patience& patience) {
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double reach = container_radius - radius;
-    const Cells cells(centres, container_radius, 2.0 * largest);
+    const Cells cells(centres, container_radius, 2.0 * largest, patience);
     const Vec2 turn = unit_circle(random.uniform());
     const auto is_free = [&](const Vec2& p) {
         bool free = dot(p, p) <= reach * reach;
@@ -323,9 +328,8 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
         return free;
     };
     const auto for_each_free_site = [&](double spacing, auto visit) {
-        std::size_t sites = 0;
-        for_each_site(spacing, reach, [&](const Vec2& site) {
-            if (patience.ended_at(sites++)) return;
+        for_each_site(spacing, reach, patience, [&](const Vec2& site) {
+            if (patience.ended()) return;
             const Vec2 p = turned(site, turn);
             if (is_free(p)) visit(p);
         });
@@ -342,9 +346,9 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
     const double spacing = 0.5 * (touching + *widest);
     std::vector<Vec2> sites;
     for_each_free_site(spacing, [&](const Vec2& site) { sites.push_back(site); });
-    if (sites.size() < n) return false;
-    choose(n, sites, random);
-    shake(sites, 0.49 * (spacing - touching), random, is_free);
+    if (patience.ended() || sites.size() < n) return false;
+    choose(n, sites, random, patience);
+    shake(sites, 0.49 * (spacing - touching), random, patience, is_free);
     centres.insert(centres.end(), sites.begin(), sites.end());
     return true;
 }
@@ -391,15 +395,15 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
     const double reach = container_radius - largest;
     const auto widest = widest_spacing(
         radii.size(), 4.0 * reach + 1.0, 0.0,
-        [&](double spacing) { return count_sites(spacing, reach); }, patience);
+        [&](double spacing) { return count_sites(spacing, reach, patience); }, patience);
     if (!widest) return std::nullopt;
     if (*widest > 2.0 * largest) {
         // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
         // dish that is all but empty a wider one, with some hundred sites for each disc.
         const double spacing =
             larger(largest + 0.5 * smaller(*widest, 3.0 * largest), sparsest * *widest);
-        auto centres = choose_sites(radii.size(), spacing, reach, random);
-        shake(centres, 0.49 * (spacing - 2.0 * largest), random,
+        auto centres = choose_sites(radii.size(), spacing, reach, random, patience);
+        shake(centres, 0.49 * (spacing - 2.0 * largest), random, patience,
               [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
         return centres;
     }
@@ -408,7 +412,7 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
         if (centres || patience.ended()) return centres;
     }
     if (smallest < largest) {
-        auto centres = choose_sites(radii.size(), *widest, reach, random);
+        auto centres = choose_sites(radii.size(), *widest, reach, random, patience);
         if (push_apart(centres, radii, container_radius, patience)) return centres;
     }
     return relax(radii, container_radius, random, patience);

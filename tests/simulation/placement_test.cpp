@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
+#include <utility>
 #include <vector>
 
 #include "swirl/math/real.hpp"
@@ -133,6 +134,26 @@ TEST(Placement, EndsWhenItIsStopped) {
         EXPECT_EQ(questions, 3);
     }
 }
+
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+TEST(Placement, ItAsksWhetherToGoOnManyTimesASecondHoweverManyDiscs) {
+    std::clock_t longest = 0, last = std::clock();
+    long questions = 0;
+    const auto is_stopped = [&] {
+        // The clock costs more than a disc.
+        if (++questions % 64 != 0) return false;
+        const std::clock_t now = std::clock();
+        longest = std::max(longest, now - std::exchange(last, now));
+        return false;
+    };
+    ASSERT_TRUE(
+        place_discs(std::vector<double>(5000000, 1.0), std::sqrt(5e6 / 0.7), 1, is_stopped));
+    longest = std::max(longest, std::clock() - last);
+    // Of processor time. A fiftieth is usual (a column grows), and half a second was before every
+    // loop asked.
+    EXPECT_LT(static_cast<double>(longest) / CLOCKS_PER_SEC, 0.2);
+}
+#endif
 
 TEST(Placement, AMillionDiscsAtPacking070InSeconds) {
     const std::vector<double> radii(1000000, 1.0);
