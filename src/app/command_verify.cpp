@@ -226,6 +226,9 @@ void verify_trajectory(const std::string& file, bool quiet) {
         if (times.events && events % std::uint64_t(*times.events) == 0) compare(run.snapshot());
         return comparison.expects_more();
     });
+    if (const std::string column = reader.contradicted(); !column.empty())
+        throw Failure(fmt::format("'{}' differs from its run: its column {} is another.{}", file,
+                                  column, of_version(reader.provenance("version"))));
     comparison.report(quiet);
 }
 

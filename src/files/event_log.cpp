@@ -210,10 +210,19 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                 "or how they rub.",
                 path.string()));
     }
-    events_ = std::min({swirls_.rows(), clock_.rows(), kind_.rows(), i_.rows(), j_.rows(),
-                        normal_x_.rows(), normal_y_.rows(), normal_impulse_.rows(),
-                        tangential_impulse_.rows(), sticks_.rows()});
-    if (spheres) events_ = std::min(events_, vertical_impulse_.rows());
+    complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
+    std::vector<std::uint64_t> lengths{swirls_.rows(),
+                                       clock_.rows(),
+                                       kind_.rows(),
+                                       i_.rows(),
+                                       j_.rows(),
+                                       normal_x_.rows(),
+                                       normal_y_.rows(),
+                                       normal_impulse_.rows(),
+                                       tangential_impulse_.rows(),
+                                       sticks_.rows()};
+    if (spheres) lengths.push_back(vertical_impulse_.rows());
+    events_ = common_length(path, complete_, lengths);
     const auto numbers = [&](const char* name) {
         return file_->column(std::string("/initial/") + name).read<double>();
     };
@@ -240,7 +249,6 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     period_ = file_->number_attribute(parameters, "period");
     swirl_end_ = file_->number_attribute(parameters, "swirl_end");
     container_radius_ = file_->number_attribute(parameters, "container_radius");
-    complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
 }
 
 std::string EventLogReader::provenance(const std::string& name) const {

@@ -1,6 +1,7 @@
 #include "swirl/files/h5md.hpp"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace swirl::h5md {
@@ -29,6 +30,16 @@ void create_parameters(Hdf5File& file,
     }
     if (!file.has_attribute("/h5md/creator", "version"))
         file.set_attribute("/h5md/creator", "version", std::string("unknown"));
+}
+
+std::vector<std::int64_t> species_of(const std::vector<double>& radius,
+                                     const std::vector<double>& mass) {
+    std::map<std::pair<double, double>, std::int64_t> kinds;
+    std::vector<std::int64_t> species;
+    for (std::size_t i = 0; i < radius.size(); ++i)
+        species.push_back(
+            kinds.try_emplace({radius[i], mass[i]}, std::int64_t(kinds.size())).first->second);
+    return species;
 }
 
 void link_times(Hdf5File& file, const std::string& from, const std::string& group) {

@@ -2,6 +2,7 @@
 // track_recording.hpp), and beside them what belongs to no frame.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ void create_head(Hdf5File& file, const std::string& group);
 /// The texts of the provenance, each a dataset; "version" is the creator's, too.
 void create_parameters(Hdf5File& file,
                        const std::vector<std::pair<std::string, std::string>>& provenance);
+/// Discs of one radius and mass are of one species; species are counted as they first appear.
+std::vector<std::int64_t> species_of(const std::vector<double>& radius,
+                                     const std::vector<double>& mass);
 /// Every time series of H5MD has a step and a time of its own: links to those of `from`.
 void link_times(Hdf5File& file, const std::string& from, const std::string& group);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/whole_file.hpp"
 
@@ -47,6 +49,17 @@ Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& 
             there.string()));
     if (finished) give_final_name(path, partial);
     return {partial, StagedFile::Mode::change};
+}
+
+std::uint64_t common_length(const std::filesystem::path& path, bool complete,
+                            const std::vector<std::uint64_t>& lengths) {
+    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+    if (complete && *shortest != *longest)
+        throw FileError(fmt::format(
+            "'{}' contradicts itself: it says that it is complete, but its columns differ in "
+            "length, from {} to {}.",
+            path.string(), *shortest, *longest));
+    return *shortest;
 }
 
 }  // namespace swirl

@@ -3,8 +3,10 @@
 // recordings with the same entry hold the same frames and events, whoever wrote them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "swirl/files/hdf5.hpp"
 
@@ -22,5 +24,10 @@ void refuse_foreign_recording(const std::filesystem::path& path, const std::stri
 /// come after a recording got its name and before the result that belongs to it was written: it
 /// then gets its partial name back.
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run);
+
+/// How far all columns of a recording go, of which these are the lengths. One that was cut off
+/// between two columns counts as far as that; throws FileError if it is complete and they differ.
+std::uint64_t common_length(const std::filesystem::path& path, bool complete,
+                            const std::vector<std::uint64_t>& lengths);
 
 }  // namespace swirl

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/h5md.hpp"
+#include "swirl/files/recording.hpp"
 #include "swirl/files/series.hpp"
 
 namespace swirl {
@@ -47,11 +49,19 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     container_y_ = numbers("container_y");
     container_vx_ = numbers("container_vx");
     container_vy_ = numbers("container_vy");
-    // A file cut off between two columns counts as far as all of them go.
-    frames_ = std::min({position_.rows(), velocity_.rows(), angle_.rows(), angular_velocity_.rows(),
-                        swirls_.size(), events_.size(), clock_.size(), container_x_.size(),
-                        container_y_.size(), container_vx_.size(), container_vy_.size()});
-    if (are_spheres_) frames_ = std::min({frames_, rolling_spin_.rows(), orientation_.rows()});
+    step_ = file_->column(particles + "/position/step");
+    time_ = file_->column(particles + "/position/time");
+    complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
+    std::vector<std::uint64_t> lengths{
+        position_.rows(),    velocity_.rows(),    angle_.rows(),       angular_velocity_.rows(),
+        step_.rows(),        time_.rows(),        swirls_.size(),      events_.size(),
+        clock_.size(),       container_x_.size(), container_y_.size(), container_vx_.size(),
+        container_vy_.size()};
+    if (are_spheres_) {
+        lengths.push_back(rolling_spin_.rows());
+        lengths.push_back(orientation_.rows());
+    }
+    frames_ = common_length(path, complete_, lengths);
     const auto of_discs = [&](const char* name) {
         return file_->column(particles + "/" + name).read<double>();
     };
@@ -80,7 +90,6 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     fixed_.inertia = inertia;
     fixed_.period = file_->number_attribute(parameters, "period");
     fixed_.container_radius = file_->number_attribute(parameters, "container_radius");
-    complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
     block_ = angle_.chunk_shape().empty() ? 1 : std::max<std::uint64_t>(1, angle_.chunk_shape()[0]);
 }
 
@@ -143,6 +152,24 @@ SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
 
 std::uint64_t TrajectoryReader::events_before(std::uint64_t k) const {
     return std::uint64_t(events_.at(k));
+}
+
+std::string TrajectoryReader::contradicted() {
+    const auto whole = [&](const std::string& name) {
+        return file_->column(particles + "/" + name).read<std::int64_t>();
+    };
+    std::vector<std::int64_t> numbers(discs());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    for (const char* name : {"id", "particle"})
+        if (whole(name) != numbers) return name;
+    if (whole("species") != h5md::species_of(fixed_.radius, fixed_.mass)) return "species";
+    const auto step = step_.read<std::int64_t>(0, frames_);
+    const auto time = time_.read<double>(0, frames_);
+    for (std::uint64_t k = 0; k < frames_; ++k) {
+        if (step[k] != std::int64_t(k)) return "step";
+        if (time[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return "time";
+    }
+    return "";
 }
 
 std::string TrajectoryReader::provenance(const std::string& name) const {

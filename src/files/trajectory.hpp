@@ -96,6 +96,9 @@ class TrajectoryReader {
     bool complete() const { return complete_; }
     Snapshot frame(std::uint64_t k);
     std::uint64_t events_before(std::uint64_t k) const;
+    /// The name of a column that is there for other programs alone (id, particle, species, step,
+    /// time) and is not what follows from the others; "" if there is none.
+    std::string contradicted();
     /// Half the width of a square about the swirl centre that holds the container at all times.
     double reach() const;
     /// "" where there is none.
@@ -107,6 +110,7 @@ class TrajectoryReader {
 
     std::unique_ptr<Hdf5File> file_;
     Column position_, velocity_, angle_, angular_velocity_, rolling_spin_, orientation_;
+    Column step_, time_;
     bool are_spheres_ = false;
     std::vector<std::int64_t> swirls_, events_;
     std::vector<double> clock_, container_x_, container_y_, container_vx_, container_vy_;

@@ -8,6 +8,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "swirl/files/file_error.hpp"
@@ -177,15 +178,8 @@ void create_moments(Hdf5File& file, std::uint64_t discs, const Compression& c) {
 
 void create_fixed(Hdf5File& file, const Snapshot& first) {
     const std::uint64_t n = first.size();
-    std::vector<std::int64_t> id(n), species(n, 0);
-    std::vector<std::pair<double, double>> kinds;  // radius and mass make a species
-    for (std::size_t i = 0; i < n; ++i) {
-        id[i] = std::int64_t(i);
-        const std::pair kind(first.radius[i], first.mass[i]);
-        const auto found = std::find(kinds.begin(), kinds.end(), kind);
-        species[i] = found - kinds.begin();
-        if (found == kinds.end()) kinds.push_back(kind);
-    }
+    std::vector<std::int64_t> id(n);
+    std::iota(id.begin(), id.end(), 0);
     file.write(particles + "/particle", id, {n});
     file.make_scale(particles + "/particle", "particle");
     file.write(particles + "/xyz", std::vector<std::int64_t>{0, 1, 2}, {3});
@@ -197,7 +191,7 @@ void create_fixed(Hdf5File& file, const Snapshot& first) {
         file.make_scale(particles + "/wxyz", "wxyz");
     }
     file.write(particles + "/id", id, {n});
-    file.write(particles + "/species", species, {n});
+    file.write(particles + "/species", h5md::species_of(first.radius, first.mass), {n});
     file.write(particles + "/mass", first.mass, {n});
     file.write(particles + "/radius", first.radius, {n});
     file.write(particles + "/moment_of_inertia", first.inertia, {n});

@@ -104,15 +104,20 @@ if what == 'period': f['parameters'].attrs['period'] = 0.0
 if what == 'events': f['observables/events/value'][7] += 1
 if what == 'centre': f['observables/container_x/value'][7] += 1e-9
 if what == 'no frames':
-    for name in ('position', 'velocity', 'angle', 'angular_velocity'):
-        f[t + name + '/value'].resize(0, axis=0)
+    cut('particles', 0)
+    cut('observables', 0)
+if what in ('id', 'particle', 'species'): f[t + what][2] += 1
+if what in ('step', 'time'): f[t + 'position/' + what][7] += 1
+if what == 'velocities': f[t + 'velocity/value'].resize(5, axis=0)
+if what == 'impulses': f['events/normal_impulse'].resize(5, axis=0)
 if what == 'first': f['initial/radius'][0] = numpy.nan
 if what == 'no events': cut('events', 0)
 if what == 'quarter': cut('events', 0.25)
 """
         for name, changes in (("t.h5", ("radius", "mass", "container", "period", "events", "centre",
-                                        "no frames")),
-                              ("e.h5", ("first", "container", "period", "no events", "quarter"))):
+                                        "no frames", "id", "particle", "species", "step", "time",
+                                        "velocities")),
+                              ("e.h5", ("first", "container", "period", "no events", "quarter", "impulses"))):
             for what in changes:
                 shutil.copy(self.path(name), self.path("changed.h5"))
                 changed = subprocess.run(["/usr/bin/python3", "-c", change, self.path("changed.h5"),
@@ -120,7 +125,8 @@ if what == 'quarter': cut('events', 0.25)
                 if "No module named 'h5py'" in changed.stderr:
                     self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
                 self.assertEqual(changed.returncode, 0, changed.stderr)
-                self.refused("verify", self.path("changed.h5"), says="differs from")
+                says = "differ in length" if what in ("velocities", "impulses") else "differs from"
+                self.refused("verify", self.path("changed.h5"), says=says)
         for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
             with open(self.path("r.json")) as opened:
                 result = json.load(opened)

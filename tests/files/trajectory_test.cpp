@@ -114,6 +114,26 @@ TEST(Trajectory, KilledBetweenItsNameAndTheResultItGoesOn) {
     for (std::uint64_t k = 0; k < frames; ++k) expect_same(reader.frame(k), known_frame(discs, k));
 }
 
+TEST(Trajectory, AFinishedOneWhoseColumnsDifferInLengthIsRefused) {
+    for (const char* name : {"/particles/trajectory/velocity/value", "/observables/clock/value",
+                             "/particles/trajectory/position/step"}) {
+        for (const bool complete : {true, false}) {
+            const Scratch scratch;
+            const auto path = known_trajectory(scratch);
+            {
+                Hdf5File file(path, StagedFile::Mode::change);
+                file.column(name).resize(frames - 1);
+                file.set_attribute("/parameters", "complete", std::vector<std::int64_t>{complete});
+                file.flush();
+            }
+            if (complete)
+                EXPECT_THROW(TrajectoryReader{path}, FileError) << name;
+            else  // as far as all of them go
+                EXPECT_EQ(TrajectoryReader(path).frames(), frames - 1) << name;
+        }
+    }
+}
+
 TEST(Trajectory, RefusesToResumeWhatHoldsTooLittle) {
     const Scratch scratch;
     { TrajectoryWriter writer(scratch / "t.h5", known_frame(discs, 0), {}); }
