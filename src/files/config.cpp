@@ -43,12 +43,32 @@ int line_of(std::string_view text, std::size_t at) {
     return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
 }
 
+/// The line with a number, as far as a sentence can quote it; "" if it is longer.
+std::string_view quotable_line(std::string_view text, std::size_t number) {
+    for (; number > 1; --number) {
+        const std::size_t end = text.find('\n');
+        if (end == text.npos) return "";
+        text.remove_prefix(end + 1);
+    }
+    text = text.substr(0, text.find_first_of("\r\n"));
+    return text.size() > 60 ? "" : text;
+}
+
 class Reader {
   public:
     explicit Reader(std::string_view name) : name_(name) {}
 
     [[noreturn]] void wrong(int line, std::string_view what) const {
         throw FileError(fmt::format("'{}', line {}: {}.", name_, line, what));
+    }
+
+    /// What the parser says of it is written for programmers.
+    [[noreturn]] void not_toml(std::string_view text, const toml::source_position& at) const {
+        const std::string_view line = quotable_line(text, at.line);
+        throw FileError(fmt::format(
+            "'{}', line {}, column {}: {} is not TOML, where a line is NAME = VALUE, each name "
+            "once, texts in quotation marks and lists in square brackets.",
+            name_, at.line, at.column, line.empty() ? "this" : fmt::format("'{}'", line)));
     }
 
     std::string value(const toml::node& node, std::string_view key) const {
@@ -103,8 +123,7 @@ Config parse_config(std::string text, std::string_view name) {
                              fmt::format("{} is given twice", option));
         }
     } catch (const toml::parse_error& error) {
-        reader.wrong(int(error.source().begin.line),
-                     fmt::format("this is not TOML: {}", error.description()));
+        reader.not_toml(text, error.source().begin);
     }
     config.text = std::move(text);
     return config;

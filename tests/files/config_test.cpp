@@ -47,7 +47,7 @@ TEST(Config, ReadsWhatAnEditorOnWindowsWrites) {
 }
 
 TEST(Config, RefusesWhatIsNoConfigurationWithTheLine) {
-    EXPECT_EQ(refusal("discs = 1\nmu = = 2\n").substr(0, 17), "'a.toml', line 2:");
+    EXPECT_EQ(refusal("discs = 1\nmu = = 2\n").substr(0, 17), "'a.toml', line 2,");
     EXPECT_NE(refusal("[run]\ndiscs = 1\n").find("is a table"), std::string::npos);
     EXPECT_NE(refusal("mu = [[1]]\n").find("must be a number"), std::string::npos);
     EXPECT_NE(refusal("mu = 1979-05-27\n").find("must be a number"), std::string::npos);
@@ -64,6 +64,19 @@ TEST(Config, LooksAtTheBytesBeforeTheParserDoes) {
             << refusal("discs = 1\n" + bytes);
     EXPECT_EQ(refusal("# \xcf\x96 \xe2\x89\xa4 \xf0\x9f\x8c\x80\n"), "");
     EXPECT_NE(refusal(std::string(2 << 20, '#')).find("at most"), std::string::npos);
+}
+
+TEST(Config, WhatIsNotTomlIsToldInOneSentenceOfOurs) {
+    const std::string rule =
+        " is not TOML, where a line is NAME = VALUE, each name once, texts in quotation marks and "
+        "lists in square brackets.";
+    EXPECT_EQ(refusal("discs = 1\nmu = = 2\n"), "'a.toml', line 2, column 6: 'mu = = 2'" + rule);
+    EXPECT_EQ(refusal("discs = 5 6\r\n"), "'a.toml', line 1, column 11: 'discs = 5 6'" + rule);
+    EXPECT_EQ(refusal("mu = 1\nmu = 2"), "'a.toml', line 2, column 6: 'mu = 2'" + rule);
+    const std::string longer = "out = \"" + std::string(100, 'x');
+    EXPECT_EQ(refusal(longer), "'a.toml', line 1, column 108: this" + rule);
+    for (const char* text : {"discs = \n", "[x\n", "a = 01\n", "x = [1, 2\n", "x = \"\\q\"\n"})
+        EXPECT_EQ(refusal(text).find("rror"), std::string::npos) << refusal(text);
 }
 
 // Whatever the bytes, an answer and no crash.
