@@ -34,10 +34,11 @@ int main_or_throw(int argc, char** argv) {
 }
 
 /// A program may be called with its standard input, output or errors closed. The next file it
-/// opened would get that number, and be written into by whoever complains.
+/// opened would get that number, and be written into by whoever complains. What stands in for it
+/// cannot be written to: a result that was to go there is not lost without a word.
 void open_closed_standard_files() {
     for (int number = 0; number <= 2; ++number)
-        if (fcntl(number, F_GETFD) < 0) (void)open("/dev/null", O_RDWR);
+        if (fcntl(number, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
 }
 
 }  // namespace

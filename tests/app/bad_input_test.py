@@ -179,6 +179,14 @@ class UnwritableOutput(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("No space left", done.stderr)
 
+    def test_a_closed_stdout(self):
+        for call in (["run", "--events", "100", "--quiet", "--json", "-"], ["run", "--events", "100"],
+                     ["--version"], ["run", "--help"]):
+            done = subprocess.run(["sh", "-c", 'exec "$0" "$@" >&-', SWIRL, *call],
+                                  capture_output=True, text=True, timeout=20)
+            self.assertEqual(done.returncode, 1, call)
+            self.assertRegex(done.stderr, r"swirl: Writing to standard output failed: [^\n]+\.\n\Z")
+
     def test_a_file_that_may_not_grow(self):
         def tiny_files():
             resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
