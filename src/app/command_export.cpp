@@ -1,6 +1,8 @@
 // swirl export: a trajectory for other programs.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "swirl/app/commands.hpp"
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
@@ -26,26 +28,28 @@ std::string formats_text() {
     return text;
 }
 
-std::uint64_t frame_number(const std::string& option, const std::string& text, std::int64_t from) {
-    const auto value = read_whole_number(text);
-    if (!value || *value < from)
-        throw WrongCall(fmt::format("--{} has '{}', but it must be a whole number of at least {}.",
-                                    option, text, from));
-    return static_cast<std::uint64_t>(*value);
-}
-
 void choose_frames(const ExportCall& call, ExportOptions& options) {
-    if (!call.stride.empty()) options.stride = frame_number("stride", call.stride, 1);
+    if (!call.stride.empty()) {
+        const auto stride = read_whole_number(call.stride);
+        if (!stride || *stride < 1)
+            throw WrongCall(fmt::format(
+                "--stride is '{}', but it must be a whole number of at least 1.", call.stride));
+        options.stride = static_cast<std::uint64_t>(*stride);
+    }
     if (call.range.empty()) return;
     const std::size_t colon = call.range.find(':');
-    if (colon == std::string::npos)
-        throw WrongCall(fmt::format(
-            "--range is '{}', but it must be FIRST:LAST, for example 100:199, or 100: for all "
-            "from frame 100 on; the first frame is 0.",
-            call.range));
-    const std::string first = call.range.substr(0, colon), last = call.range.substr(colon + 1);
-    if (!first.empty()) options.first = frame_number("range", first, 0);
-    if (!last.empty()) options.last = frame_number("range", last, 0);
+    const auto take = [&](const std::string& text, std::uint64_t& frame) {
+        if (text.empty()) return;
+        const auto number = read_whole_number(text);
+        if (colon == std::string::npos || !number || *number < 0)
+            throw WrongCall(fmt::format(
+                "--range is '{}', but it must be FIRST:LAST, for example 100:199, or 100: for all "
+                "from frame 100 on; the first frame is 0.",
+                call.range));
+        frame = static_cast<std::uint64_t>(*number);
+    };
+    take(call.range.substr(0, colon), options.first);
+    if (colon != std::string::npos) take(call.range.substr(colon + 1), options.last);
     if (options.last < options.first)
         throw WrongCall(
             fmt::format("--range is '{}', but the last frame is before the first.", call.range));
@@ -74,10 +78,12 @@ void export_file(const ExportCall& call) {
             fmt::format("'{}' would be written over itself; name another --out.", call.file));
     refuse_unwritable(out);
     const SnapshotSeries series = series_of(reader);
+    if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
+    const bool is_last_given = options.last != ExportOptions{}.last;
+    if (std::max(options.first, is_last_given ? options.last : 0) >= series.frames)
+        throw WrongCall(fmt::format("--range is '{}', but the last frame of '{}' is {}.",
+                                    call.range, call.file, series.frames - 1));
     const std::uint64_t frames = exported_frames(series, options);
-    if (frames == 0)
-        throw Failure(fmt::format("There is no frame {} in '{}'; it has {}, the first is 0.",
-                                  options.first, call.file, series.frames));
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     options.done = [&](std::uint64_t done) {
         if (stop_signal().load()) throw Interrupted("Stopped; nothing was written.");

@@ -144,10 +144,12 @@ void sweep(SweepCall& call) {
         if (plan.frames > 0) text += fmt::format("  frames per swirl: {}\n", plan.frames);
         return print_all(text + fmt::format("  replicas: {}\n", plan.replicas));
     }
+    // What is wrong in the call is told before anything is made of it.
+    const std::string script = call.slurm ? slurm_script(call.job, call.out) : "";
     make_folder(call.out);
     write_plan(call.out, plan, call.grow);
     if (call.slurm) {
-        const std::string number = submit(call.job, call.out);
+        const std::string number = submit(script, call.out);
         return print_all(fmt::format(
             "Submitted as job {}; `swirl sweep --out {} --status` tells how far it is.\n", number,
             call.out));

@@ -68,9 +68,15 @@ std::string sbatch_path(const fs::path& path) {
     return quoted;  // what follows closes the quotation
 }
 
+/// The tasks run elsewhere.
+fs::path home_of(const fs::path& folder) { return fs::absolute(folder).lexically_normal(); }
+
 }  // namespace
 
-std::string slurm_script(const SlurmJob& job, const fs::path& folder, const fs::path& program) {
+std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
+    const fs::path home = home_of(folder);
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     refuse_unfit("--time", job.time, ":-", "as sbatch takes it, for example 2:00:00 or 1-12");
     refuse_unfit("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";
@@ -83,19 +89,18 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const fs::
     // that is preempted. A task whose node dies is started again.
     text += "#SBATCH --requeue\n#SBATCH --signal=TERM@60\n";
     text += fmt::format("#SBATCH --output={}/%A_%a.log\"\n#SBATCH --open-mode=append\n",
-                        sbatch_path(folder / "log"));
+                        sbatch_path(home / "log"));
     text += fmt::format("exec {} sweep --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --rest",
-                        in_quotes(program.string()), in_quotes(folder.string()), job.nodes);
+                        in_quotes(program.string()), in_quotes(home.string()), job.nodes);
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
     return text;
 }
 
-std::string submit(const SlurmJob& job, const fs::path& folder) {
-    const fs::path home = fs::absolute(folder).lexically_normal();
-    std::error_code error;
-    fs::create_directories(home / "log", error);
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    write_whole_file(home / "job.sh", slurm_script(job, home, program));
+std::string submit(const std::string& script, const fs::path& folder) {
+    const fs::path home = home_of(folder);
+    std::error_code ignored;
+    fs::create_directories(home / "log", ignored);
+    write_whole_file(home / "job.sh", script);
     const Answer answer = ask("sbatch --parsable " + in_quotes((home / "job.sh").string()));
     if (answer.code == 127)
         throw Failure(fmt::format(
@@ -103,8 +108,8 @@ std::string submit(const SlurmJob& job, const fs::path& folder) {
             "the cluster, or use --part with another scheduler.",
             (home / "job.sh").string()));
     if (answer.code != 0)
-        throw Failure(
-            fmt::format("sbatch refused '{}': {}.", (home / "job.sh").string(), answer.text));
+        throw Failure(fmt::format("sbatch refused '{}': {}.", (home / "job.sh").string(),
+                                  printable(answer.text)));
     const std::string number = answer.text.substr(0, answer.text.find(';'));
     write_whole_file(home / "slurm_job", number + "\n");
     return number;

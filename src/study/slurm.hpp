@@ -15,14 +15,13 @@ struct SlurmJob {
     std::string time, partition;  // as sbatch takes them; empty: the cluster's default
 };
 
-/// The script that sbatch gets; `program` is this executable. Throws WrongCall if a text of the
-/// job, or the folder's name, cannot stand in a line of it.
-std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder,
-                         const std::filesystem::path& program);
+/// The script that sbatch gets. Throws WrongCall if a text of the job, or the folder's name, cannot
+/// stand in a line of it.
+std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder);
 
-/// Writes DIR/job.sh and submits it; the number of the job, also kept in DIR/slurm_job. Throws
-/// Failure if Slurm refuses, or is not there.
-std::string submit(const SlurmJob& job, const std::filesystem::path& folder);
+/// Writes the script to DIR/job.sh and submits it; the number of the job, also kept in
+/// DIR/slurm_job. Throws Failure if Slurm refuses, or is not there.
+std::string submit(const std::string& script, const std::filesystem::path& folder);
 
 /// "3 running, 1 pending" of the job of this folder, from squeue; nothing if none was submitted.
 std::optional<std::string> slurm_status(const std::filesystem::path& folder);

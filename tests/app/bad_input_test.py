@@ -161,6 +161,37 @@ class BadCalls(unittest.TestCase):
         self.assertEqual(swirl("run", "--mu", "0." + "3" * 100000, "--events", 10).returncode, 0)
 
 
+class WrongCalls(InFolder):
+    """Of other commands than run."""
+
+    def refused(self, *call, says):
+        done = swirl(*call)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"\Aswirl: [^\n]+\.\n\Z")
+        self.assertIn(says, done.stderr)
+
+    def test_a_sweep_that_slurm_cannot_take_leaves_no_folder(self):
+        call = ["sweep", "--discs", 5, "--slurm", "--out"]
+        self.refused(*call, self.path("s"), "--time", "2 hours", says="--time is '2 hours'")
+        self.refused(*call, self.path('a"b'), says="no quotation mark")
+        self.assertEqual(self.left_behind(), [])
+
+    def test_frames_that_a_recording_does_not_have(self):
+        recording = self.path("t.h5")
+        done = swirl("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        call = ["export", recording, "--to", "xyz"]
+        for text in ("10:", "12:15", "3:10", ":99"):
+            self.refused(*call, "--range", text,
+                         says=f"--range is '{text}', but the last frame of '{recording}' is 9")
+        for text in ("3", "x:5", "1:-2", "1.5:"):
+            self.refused(*call, "--range", text, says=f"--range is '{text}', but it must be FIRST:LAST")
+        self.refused(*call, "--stride", "0", says="--stride is '0', but it must be a whole number")
+        self.assertEqual(self.left_behind(), ["t.h5"])
+        for text, frames in (("3:9", 7), ("9:", 1), (":", 10)):
+            self.assertIn(f"{frames} frames of", swirl(*call, "--range", text).stdout)
+
+
 class UnwritableOutput(InFolder):
     def test_a_folder_without_permission(self):
         if os.geteuid() == 0:
