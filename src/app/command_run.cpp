@@ -121,8 +121,8 @@ void run_and_report(RunCall& call) {
                    files.checkpoint.string());
 
     if (files.overwrite && std::filesystem::exists(files.checkpoint) && !call.quiet)
-        fmt::print(stderr, "swirl: The checkpoint of an interrupted run is kept as '{}.backup'.\n",
-                   files.checkpoint.string());
+        fmt::print(stderr, "swirl: The checkpoint of an interrupted run is kept as '{}'.\n",
+                   backup_name(files.checkpoint).string());
 
     const Provenance provenance = provenance_of(config, command_line(), config_text);
     const RunResult result = run_with_progress(config, files, provenance, observation, call.quiet);

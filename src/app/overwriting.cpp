@@ -41,9 +41,9 @@ void refuse_to_overwrite(const RunFiles& files, const std::string& json) {
     if (files.overwrite || (files.resume && is_there(files.checkpoint))) return;
     if (is_there(files.checkpoint))
         throw Failure(fmt::format(
-            "'{0}' is the checkpoint of an interrupted run: --resume goes on with it, --overwrite "
-            "begins anew and keeps it as '{0}.backup'.",
-            files.checkpoint.string()));
+            "'{}' is the checkpoint of an interrupted run: --resume goes on with it, --overwrite "
+            "begins anew and keeps it as '{}'.",
+            files.checkpoint.string(), backup_name(files.checkpoint).string()));
     for (const fs::path& file : {fs::path(json), files.trajectory, files.event_log})
         if (holds_something(file))
             throw Failure(fmt::format(

@@ -84,7 +84,7 @@ std::string run_name(const Json& identity) {
 void set_aside(const std::filesystem::path& checkpoint) {
     std::error_code ignored;
     if (!checkpoint.empty() && std::filesystem::exists(checkpoint, ignored))
-        give_final_name(checkpoint, checkpoint.string() + ".backup");
+        give_final_name(checkpoint, backup_name(checkpoint));
 }
 
 class Recorder {
@@ -247,6 +247,15 @@ RunResult run_recorded(const RunConfig& config, const RunFiles& files, const Run
 void forget_checkpoint(const RunFiles& files) {
     std::error_code ignored;
     if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
+}
+
+std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
+    const std::string first = checkpoint.string() + ".backup";
+    std::filesystem::path name = first;
+    std::error_code ignored;
+    for (int k = 2; std::filesystem::exists(name, ignored); ++k)
+        name = fmt::format("{}-{}", first, k);
+    return name;
 }
 
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {

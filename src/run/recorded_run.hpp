@@ -37,7 +37,7 @@ struct RunFiles {
     /// The state at the end is kept too, for who wants more of the run.
     bool keep_checkpoint = false;
     /// Begin anew over the unfinished recording of another run; a checkpoint that is there is kept
-    /// as NAME.backup.
+    /// under backup_name().
     bool overwrite = false;
     /// Options and what was given, kept in the checkpoint for who resumes with nothing else.
     ParameterTexts call;
@@ -57,6 +57,10 @@ RunResult run_recorded(const RunConfig& config, const RunFiles& files, const Run
                        const Provenance& provenance);
 
 void forget_checkpoint(const RunFiles& files);
+
+/// Where a checkpoint is kept when a run begins anew over it: NAME.backup, or NAME.backup-2, -3, …,
+/// the first that is not there.
+std::filesystem::path backup_name(const std::filesystem::path& checkpoint);
 
 /// Version, build, resolved parameters, seed and generator; the command and the configuration file
 /// where there are any.

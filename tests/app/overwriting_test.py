@@ -56,6 +56,19 @@ class Overwriting(InFolder):
         with open(self.path("r.json.checkpoint.backup"), "rb") as opened:
             self.assertEqual(opened.read(), checkpoint)
 
+    def test_a_second_backup_of_a_checkpoint_replaces_no_other(self):
+        kept = {}
+        for seed, name in ((1, "backup"), (2, "backup-2")):
+            self.killed("--overwrite", seed=seed)
+            with open(self.path("r.json.checkpoint"), "rb") as opened:
+                kept[name] = opened.read()
+            self.refused(*self.run_call(), says=f"r.json.checkpoint.{name}'")
+            done = swirl(*self.run_call("--overwrite"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for name, checkpoint in kept.items():
+            with open(self.path(f"r.json.checkpoint.{name}"), "rb") as opened:
+                self.assertEqual(opened.read(), checkpoint)
+
     def test_another_run_under_the_same_name_is_neither_begun_nor_taken_for_ones_own(self):
         self.killed()
         kept = self.path("kept.checkpoint")
