@@ -145,12 +145,16 @@ void run_and_report(RunCall& call) {
         if (!call.quiet || call.json.empty()) print_all(text);
     }
     if (result.complete && files.keep_checkpoint) {
+        const bool recorded = !files.trajectory.empty() || !files.event_log.empty();
         if (!call.quiet)
-            fmt::print(
-                stderr,
-                "swirl: The state is kept in '{}'; --checkpoint {} --resume with more --events "
-                "goes on.\n",
-                files.checkpoint.string(), files.checkpoint.string());
+            fmt::print(stderr,
+                       "swirl: The state is kept in '{0}'; {1}--checkpoint {0} --resume with more "
+                       "--events or --periods goes on.\n",
+                       files.checkpoint.string(),
+                       recorded
+                           ? "a recording knows how long its run is, but the same call without "
+                             "--trajectory and --log-events and with "
+                           : "");
         return;
     }
     if (result.complete) return forget_checkpoint(files);

@@ -67,11 +67,21 @@ std::string difference(const Json& there, const Json& here) {
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
 
-/// The same run, but that it is to go on for longer.
-bool differs_in_length_alone(Json there, Json here) {
-    if (there == here) return false;
-    for (Json* identity : {&there, &here})
-        for (const char* length : {"events", "periods"}) (*identity)["parameters"].erase(length);
+Json take_length(Json& identity) {
+    Json length;
+    for (const char* name : {"events", "periods"}) {
+        length[name] = identity["parameters"].value(name, Json());
+        identity["parameters"].erase(name);
+    }
+    return length;
+}
+
+/// The same run, but that it is to go on for longer; what was recorded of it may be left behind.
+bool is_of_another_length(Json there, Json here) {
+    if (take_length(there) == take_length(here)) return false;
+    for (const char* recording : {"frames", "event_log"})
+        if (here[recording] == Json() || here[recording] == Json(false))
+            there[recording] = here[recording];
     return there == here;
 }
 
@@ -150,11 +160,12 @@ class Recorder {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
         const Json about = about_in(files_.checkpoint, kept),
                    here = identity(config_, files_, observation_);
-        if (differs_in_length_alone(about.at("identity"), here)) {
+        if (is_of_another_length(about.at("identity"), here)) {
             if (!files_.trajectory.empty() || !files_.event_log.empty())
                 throw WrongCall(fmt::format(
                     "The checkpoint '{}' is of a run of another length, and a recording knows how "
-                    "long its run is; begin anew with --overwrite, or resume without a recording.",
+                    "long its run is; begin anew with --overwrite, or give the whole call again "
+                    "without --trajectory and --log-events.",
                     files_.checkpoint.string()));
             shorter_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
         } else if (about.at("identity") != here)

@@ -220,6 +220,25 @@ class More(InFolder):
         self.assertEqual(more.returncode, 2)
         self.assertIn("knows how long its run is", more.stderr)
 
+    def test_of_a_recorded_run_the_state_goes_on_without_the_recording_as_it_says(self):
+        run = ["run", "--discs", 12]
+        recording = ["--trajectory", self.path("t.h5"), "--log-events", self.path("e.h5")]
+        first = swirl(*run, *recording, "--events", "1.2e5", "--keep-checkpoint", "--warmup", 10)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        checkpoint = self.path("t.h5.checkpoint")
+        self.assertIn("the same call without --trajectory and --log-events and with --checkpoint "
+                      f"{checkpoint} --resume with more --events", first.stderr)
+        more = [*run, "--warmup", 10, "--quiet", "--events"]
+        for too_little in ([*more, "1.2e5"], [*more, "1.6e5", "--mu", 0.5]):
+            done = swirl(*too_little, "--checkpoint", checkpoint, "--resume")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("belongs to another run", done.stderr)
+        done = swirl(*more, "1.6e5", "--checkpoint", checkpoint, "--resume", "--json", self.path("r.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(swirl(*more, "1.6e5", "--json", self.path("whole.json")).returncode, 0)
+        self.assertEqual(without_time(self.path("r.json")), without_time(self.path("whole.json")))
+        self.assertEqual(self.left_behind(), ["e.h5", "r.json", "t.h5", "whole.json"])
+
 
 class Clock(InFolder):
     """The time of day may jump, as it does when a clock is set: nothing here may go by it."""
