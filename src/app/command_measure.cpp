@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "swirl/app/commands.hpp"
 #include "swirl/app/opened_tracks.hpp"
@@ -30,6 +31,12 @@ struct MeasureCall {
 };
 
 OpenedSeries open_series(const MeasureCall& call) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(call.file, ignored))
+        throw WrongCall(fmt::format(
+            "'{}' is a folder, but FILE must be a recording: a trajectory or tracks of swirl, a "
+            "table of trackpy (CSV), or a LAMMPS text dump.",
+            call.file));
     if (is_trajectory(call.file))
         return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
     return open_tracks(call.file, call.camera,

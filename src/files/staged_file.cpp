@@ -51,9 +51,7 @@ void StagedFile::open(Mode mode) {
     if (file_ < 0) fail("could not be opened");
     struct stat about;
     if (::fstat(file_, &about) != 0) fail("could not be opened");
-    if (!S_ISREG(about.st_mode))
-        throw FileError(
-            fmt::format("'{}' is not a regular file, but it must be one.", path_.string()));
+    if (!S_ISREG(about.st_mode)) refuse_irregular(path_);
     if (mode != Mode::read && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw FileError(fmt::format(
             "'{}' is being written by another process; wait for it or choose another name.",

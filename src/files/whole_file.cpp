@@ -53,6 +53,14 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
     return true;
 }
 
+void refuse_irregular(const std::filesystem::path& path) {
+    std::error_code ignored;
+    throw FileError(fmt::format("'{}' is {}.", path.string(),
+                                std::filesystem::is_directory(path, ignored)
+                                    ? "a folder, but it must be the name of a file to read"
+                                    : "not a regular file, but it must be one"));
+}
+
 std::string system_reason() { return std::generic_category().message(errno); }
 
 void sync_folder_of(const std::filesystem::path& path) {
@@ -159,9 +167,9 @@ std::string read_file(const std::filesystem::path& path, bool regular_only) {
     const auto close = [](const int* open) { ::close(*open); };
     const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&file, close);
     struct stat about;
-    if (regular_only && (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)))
-        throw FileError(
-            fmt::format("'{}' is not a regular file, but it must be one.", path.string()));
+    const bool known = ::fstat(file, &about) == 0;
+    if (known && (S_ISDIR(about.st_mode) || (regular_only && !S_ISREG(about.st_mode))))
+        refuse_irregular(path);
     return read_to_the_end(file, path);
 }
 
@@ -173,8 +181,7 @@ std::string read_regular_file(const std::filesystem::path& path) { return read_f
 std::string first_bytes(const std::filesystem::path& path) {
     std::error_code unknown;
     if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-        throw FileError(
-            fmt::format("'{}' is not a regular file, but it must be one.", path.string()));
+        refuse_irregular(path);
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw FileError(fmt::format("'{}' cannot be opened.", path.string()));
     std::string bytes(8, '\0');

@@ -64,6 +64,9 @@ void give_final_name(const std::filesystem::path& partial, const std::filesystem
 /// Brings the names in the folder of `path` onto the disk. Throws FileError.
 void sync_folder_of(const std::filesystem::path& path);
 
+/// Throws FileError that says what stands there in place of a regular file.
+[[noreturn]] void refuse_irregular(const std::filesystem::path& path);
+
 /// Why the last system call failed, in words.
 std::string system_reason();
 

@@ -176,6 +176,14 @@ class WrongCalls(InFolder):
         self.refused(*call, self.path('a"b'), says="no quotation mark")
         self.assertEqual(self.left_behind(), [])
 
+    def test_a_folder_in_place_of_a_file(self):
+        self.refused("measure", self.folder, says="is a folder, but FILE must be a recording: a trajectory")
+        for call in (["verify"], ["export", "--to", "xyz"], ["movie"], ["run"]):
+            done = swirl(call[0], self.folder, *call[1:])
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stderr, f"swirl: '{self.folder}' is a folder, but it must be the name of a "
+                             "file to read.\n")
+
     def test_frames_that_a_recording_does_not_have(self):
         recording = self.path("t.h5")
         done = swirl("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")
