@@ -51,6 +51,10 @@ CONTRADICTIONS = [
      "be the diameter of the path."),
     ("Coriolis force", "0–200 cm/s². A disc that moves with the wall has about 720 in the M-frame.",
      "Computed from the velocities in the M-frame (measurement “centre”)."),
+    ("Which rotation", "ϖ is the mean over the discs of (r × v)/r² about the centre of mass: those near "
+     "it, whose r² is small, weigh most, and the variance diverges.", "The paper's mean is the one that is "
+     "judged. The rotation of the rigid body that fits the velocities best stands beside it in every "
+     "table (rigid_by_event, rigid_by_time); beyond N = 48 the two part."),
     ("Which average", "Figure 5b averages over events, the experiment over time.",
      "Both are given everywhere; figure “averages” compares them."),
 ]

@@ -84,8 +84,9 @@ struct VariantPoint {
 std::string sign_changes_sentence(std::span<const RotationPoint> curve) {
     const std::vector<SignChange> changes = find_sign_changes(curve);
     if (changes.empty()) return crossing_sentence(curve);
-    std::string text =
-        fmt::format("its sign changes {} time{}", changes.size(), changes.size() == 1 ? "" : "s");
+    std::string text = changes.size() == 1
+                           ? "its sign changes once"
+                           : fmt::format("its sign changes {} times", changes.size());
     for (const SignChange& change : changes)
         text += fmt::format("{} to {} at N = {}", &change == changes.data() ? ":" : ",",
                             change.to_counterrotation ? "counterrotation" : "rotation",
@@ -385,20 +386,20 @@ static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
 }
 
 std::vector<PaperFigure> figures_of_spheres() {
-    return {
-        {"spheres", "spheres that roll: rotation against N, six frictions", plan_figure_spheres},
-        {"spheres_sense", "spheres that roll: where the sense of rotation changes",
-         plan_figure_spheres_sense},
-        {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
-         plan_figure_spheres_ingredients},
-        {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
-         plan_figure_spheres_pinned},
-        {"spheres_restitution", "spheres that roll: rotation against N, restitutions",
-         plan_figure_spheres_restitution},
-        {"spheres_coins", "spheres that roll, beside them: solid discs that slide on the floor",
-         plan_figure_spheres_coins},
-        {"spheres_map", "spheres that roll: 36 of them, frictions of contacts and floor",
-         plan_figure_spheres_map}};
+    return {{"spheres", "spheres that roll: rotation against N, for several frictions",
+             plan_figure_spheres},
+            {"spheres_sense", "spheres that roll: where the sense of rotation changes",
+             plan_figure_spheres_sense},
+            {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
+             plan_figure_spheres_ingredients},
+            {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
+             plan_figure_spheres_pinned},
+            {"spheres_restitution", "spheres that roll: rotation against N, restitutions",
+             plan_figure_spheres_restitution},
+            {"spheres_coins", "spheres that roll, beside them: solid discs that slide on the floor",
+             plan_figure_spheres_coins},
+            {"spheres_map", "spheres that roll: 36 of them, frictions of contacts and floor",
+             plan_figure_spheres_map}};
 }
 
 }  // namespace swirl
