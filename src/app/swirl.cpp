@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -17,6 +18,25 @@ namespace {
 int complain(const char* sentence, int code) {
     std::fprintf(stderr, "swirl: %s\n", sentence);
     return code;
+}
+
+constexpr const char* not_enough_memory =
+    "There is not enough memory for this; fewer discs need less.";
+
+/// The libraries that hold JSON and read the command line ask for memory where nothing may be
+/// thrown, in destructors and the like; nobody can catch that, and g++ does not always tell here
+/// what was thrown. What was recorded can be resumed, as after a kill.
+[[noreturn]] void end_where_nothing_may_be_thrown() {
+    bool out_of_memory = std::uncaught_exceptions() > 0;
+    try {
+        if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        out_of_memory = true;
+    } catch (...) {
+        out_of_memory = false;
+    }
+    if (out_of_memory) std::_Exit(complain(not_enough_memory, 1));
+    std::abort();
 }
 
 int main_or_throw(int argc, char** argv) {
@@ -44,6 +64,7 @@ void open_closed_standard_files() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_where_nothing_may_be_thrown);
     open_closed_standard_files();
     // A file that grows beyond what is allowed is an error of write(), like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
@@ -57,7 +78,7 @@ int main(int argc, char** argv) {
     } catch (const swirl::Failure& failure) {
         return complain(failure.what(), 1);
     } catch (const std::bad_alloc&) {
-        return complain("There is not enough memory for this; fewer discs need less.", 1);
+        return complain(not_enough_memory, 1);
     } catch (const std::exception& unexpected) {
         return complain(unexpected.what(), 1);
     }

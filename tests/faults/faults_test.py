@@ -152,25 +152,23 @@ class Faults(unittest.TestCase):
                  f"{said} said so, {right} right all the same")
 
     def fail_memory(self, most):
-        calls, said, right, aborted = self.count("new", self.run_call), 0, 0, 0
-        # Before main() nobody is there who could say anything, and while the call is read the library
-        # that reads it aborts; nothing has been begun.
-        before = self.count("new", [*self.run_call, "--dry-run"])
-        for k in self.some(range(before, calls + 1), most):
+        calls, said, right = self.count("new", self.run_call), 0, 0
+        # Before main() nobody is there who could say anything.
+        before = self.count("new", ["--version"])
+        while_the_call_is_read = self.count("new", [*self.run_call, "--dry-run"])
+        for k in [*self.some(range(before // 2, while_the_call_is_read), most // 3),
+                  *self.some(range(while_the_call_is_read, calls + 1), most)]:
             where = f"new {k} of {calls}"
             self.anew()
             done = self.swirl(*self.run_call, **setting("new", k, errno.ENOMEM))
             if done.returncode == 0:
                 self.assert_right(where)
                 right += 1
-            elif done.returncode == -signal.SIGABRT and "terminate called" in done.stderr:
-                aborted += 1  # the JSON library needs memory in its destructors
             else:
                 self.assert_said(done, where)
                 said += 1
-        tell(f"run, new fails: {calls} places, {said + right + aborted} tried, {said} said "
-             f"so, {right} right all the same, {aborted} aborted")
-        self.assertLess(aborted, max(4, (said + right) / 4))
+        tell(f"run, new fails: {calls} places, {said + right} tried, {said} said "
+             f"so, {right} right all the same")
 
     # --- the tests ---------------------------------------------------------------------------------
 
