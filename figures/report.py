@@ -385,11 +385,9 @@ def found_spheres(folder):
         f"{claims.number(claims.spheres_at(folder, 'spheres_ingredients', curve, discs))} {words}"
         for curve, words in ((f"{claims.PLASTIC:g}", "with it"), ("no-vertical", "without")))
     numbers = f"(ϖ/Ω at N = {discs}, μ = {claims.PLASTIC:g}: {numbers})"
-    cause = statement(
-        blame, "friction of the contacts along the vertical, which keeps them from rolling, makes them",
-        "friction of the contacts along the vertical, which keeps them from rolling, is not all that makes "
-        "them", "whether friction of the contacts along the vertical, which keeps them from rolling, makes "
-        "them is undecided")
+    what = "friction of the contacts along the vertical, which keeps them from rolling,"
+    cause = statement(blame, f"{what} drives them that way", f"{what} does not drive them that way",
+                      f"whether {what} drives them that way is undecided")
     return statement(
         turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.",
         f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.",

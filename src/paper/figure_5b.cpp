@@ -27,19 +27,22 @@ struct PointOfFigure5b {
 /// small, weigh most in the paper's ϖ (cluster_rotation.hpp) and least in that of the rigid body.
 std::string where_estimators_part(const std::vector<RotationPoint>& individual,
                                   const std::vector<RotationPoint>& rigid) {
-    std::size_t lowest = 0, last = 0;
+    std::size_t lowest = individual.size(), last = lowest;
     for (std::size_t k = 0; k < individual.size(); ++k) {
         if (!std::isfinite(individual[k].mean)) continue;
-        if (individual[k].mean < individual[lowest].mean) lowest = k;
+        if (last == individual.size() || individual[k].mean < individual[lowest].mean) lowest = k;
         last = k;
     }
+    if (last == individual.size()) return "No run of the paper's friction has an average.";
     const auto of = [](const RotationPoint& p) { return with_error(p.mean, p.error); };
+    const auto both = [&](std::size_t k) {
+        return fmt::format("{} at N = {:.0f} ({} of the rigid body)", of(individual[k]),
+                           individual[k].discs, of(rigid[k]));
+    };
     return fmt::format(
-        "The paper's ϖ/Ω, the mean over the discs, is lowest at N = {:.0f}, {}, and {} at N = "
-        "{:.0f}; of the "
-        "rigid body that fits the velocities best it is {} and {} there.",
-        individual[lowest].discs, of(individual[lowest]), of(individual[last]),
-        individual[last].discs, of(rigid[lowest]), of(rigid[last]));
+        "The paper's ϖ/Ω, the mean over the discs, beside that of the rigid body that fits the "
+        "velocities best: lowest {}{}.",
+        both(lowest), lowest == last ? ", the last" : ", at the end " + both(last));
 }
 
 FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>& points,
