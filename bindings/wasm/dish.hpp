@@ -2,6 +2,7 @@
 // another path, other contacts, or a disc somewhere else.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -12,7 +13,9 @@
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
+#include "swirl/run/budget.hpp"
 #include "swirl/run/config.hpp"
+#include "swirl/run/run.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
@@ -30,7 +33,8 @@ class Dish {
           rotation_times_(rotation_samples, config.period),
           observation_times_(samples_per_period, config.period),
           measured_(std::move(measured)),
-          observation_(config.container_radius, config.period, measured_) {}
+          observation_(config.container_radius, config.period, measured_),
+          at_start_(budget_of(observed())) {}
 
     /// The last one that was passed.
     const Event& event() const { return passed_; }
@@ -62,12 +66,30 @@ class Dish {
     const ClusterRotation& rotation() const { return rotation_; }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
-    /// What no average has seen: nothing is said of it before it has ended.
-    struct LeftOut {
-        std::int64_t periods = 0;
-        std::uint64_t events = 0;
-    };
-    const LeftOut& left_out() const { return left_out_; }
+
+    /// As a run of the command line that ended with the last event would have it, but for the time
+    /// that it took. None is found beyond that one (settle).
+    RunResult result() {
+        RunResult r;
+        r.config = config_;
+        r.events = simulation_.events();
+        r.config.events = static_cast<std::int64_t>(r.events.total());
+        r.complete = true;
+        r.periods = periods();
+        r.warmup = left_out_;
+        r.warmup_events = left_out_events_;
+        r.rotation = rotation_.estimates();
+        r.steady = find_steady_state(rotation_.by_event().block_means());
+        r.steady_spin = find_steady_state(spin_.series().block_means());
+        r.max_overlap = max_overlap_;
+        const Budget end = budget_of(observed());
+        r.energy_at_start = at_start_.energy;
+        r.invariant_at_start = at_start_.invariant;
+        r.energy = end.energy;
+        r.invariant = end.invariant;
+        r.state_hash = simulation_.state_hash();
+        return r;
+    }
 
     void step() {
         if (!found_) find();
@@ -137,8 +159,10 @@ class Dish {
     void find() {
         event_ = simulation_.step();
         found_ = true;
-        while (rotation_times_.next(snapshot_, path_, event_.clock))
+        while (rotation_times_.next(snapshot_, path_, event_.clock)) {
             rotation_now().sample_by_time(snapshot_);
+            if (counts()) spin_.add(mean_spin(snapshot_));
+        }
         // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
         if (measured_.empty()) return;
         const bool watched = observes();
@@ -157,11 +181,15 @@ class Dish {
         passed_clock_ = snapshot_.clock;
         rotation.follow(snapshot_, event_);
         rotation.sample(snapshot_);
+        max_overlap_ = std::max(max_overlap_, event_.overlap);
         if (watched) observation_.sample(event_, observed());
         if (snapshot_.swirls == event_.swirls) return;
+        if (&rotation == &rotation_) spin_.close_block();
         rotation.close_block();
         if (watched) observation_.close_block();
-        if (snapshot_.swirls == warmup()) left_out_ = {warmup(), simulation_.events().total()};
+        if (snapshot_.swirls != warmup()) return;
+        left_out_ = warmup();
+        left_out_events_ = simulation_.events();
     }
     bool observes() const { return counts() && !observation_.empty(); }
 
@@ -173,11 +201,16 @@ class Dish {
     PinnedFrames pinned_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed
-    LeftOut left_out_;
+    /// What no average has seen: nothing is said of it before it has ended.
+    std::int64_t left_out_ = 0;  // swirls
+    EventCounts left_out_events_;
     SampleTimes rotation_times_, observation_times_;
     ClusterRotation in_warmup_, rotation_;
     std::vector<std::string> measured_;
     Observation observation_;
+    BlockMean spin_;  // of the discs, after the warm-up
+    double max_overlap_ = 0.0;
+    Budget at_start_;
 };
 
 }  // namespace swirl

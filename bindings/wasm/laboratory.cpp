@@ -24,6 +24,8 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 
@@ -351,40 +353,51 @@ EXPORTED(crossing) std::uint32_t crossing() {
                               number(c.error), number(c.lower), number(c.upper)));
 }
 
-/// The result as `swirl run --json` writes it, as far as a page knows it.
+/// The result as `swirl run --json` writes it, as far as a page knows it: not which build of the
+/// program it was, how it was called, and how long it took (docs/lab.md).
 EXPORTED(result) std::uint32_t result() {
     dish->settle();
-    RunConfig config = dish->config();
-    const EventCounts& counts = dish->simulation().events();
-    config.events = counts.total();
-    JsonObject given, events, warmup, rotation, measured;
+    const RunResult r = dish->result();
+    JsonObject given, events, warmup, rotation, steady, measured;
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
-        const ParameterValue value = value_of(p, config);
+        const ParameterValue value = value_of(p, r.config);
         if (p.said_only_if_set && std::holds_alternative<std::monostate>(value)) continue;
         given.add(p.name, std::visit(ValueJson(), value));
     }
-    events.add("total", double(counts.total()))
-        .add("disc_disc", double(counts.disc_disc))
-        .add("disc_wall", double(counts.disc_wall))
-        .add("path_vertex", double(counts.path_vertex))
-        .add("elastic_by_tc_model", double(counts.elastic_by_tc));
-    if (counts.begins_to_roll > 0) events.add("begins_to_roll", double(counts.begins_to_roll));
-    warmup.add("periods", double(dish->left_out().periods))
-        .add("events", double(dish->left_out().events));
-    dish->rotation().estimates().report(
+    events.add("total", double(r.events.total()))
+        .add("disc_disc", double(r.events.disc_disc))
+        .add("disc_wall", double(r.events.disc_wall))
+        .add("path_vertex", double(r.events.path_vertex))
+        .add("elastic_by_tc_model", double(r.events.elastic_by_tc));
+    if (r.events.begins_to_roll > 0) events.add("begins_to_roll", double(r.events.begins_to_roll));
+    warmup.add("periods", double(r.warmup)).add("events", double(r.warmup_events.total()));
+    r.rotation.report(
         [&](const ReportRow& row) { rotation.add(row.name, estimate_json(row.estimate)); });
+    steady.add("verdict", quoted(verdict(r.steady_state())))
+        .add("drift", r.steady.drift)
+        .add("drift_of_the_spin", r.steady_spin.drift);
     for (const auto& [name, report] : dish->observation().report())
         measured.add(name, report_json(report));
-    return answer(
-        JsonObject()
-            .add("config", given.text())
-            .add("complete", "true")
-            .add("events", events.text())
-            .add("periods", dish->periods())
-            .add("warmup", warmup.text())
-            .add("rotation", rotation.text())
-            .add("state_hash", quoted(fmt::format("{:016x}", dish->simulation().state_hash())))
-            .add("measured", measured.text())
-            .text());
+    std::string said;
+    for (const std::string& warning : warnings(r))
+        said += (said.empty() ? "" : ",") + quoted(warning);
+    return answer(JsonObject()
+                      .add("config", given.text())
+                      .add("complete", "true")
+                      .add("events", events.text())
+                      .add("periods", r.periods)
+                      .add("warmup", warmup.text())
+                      .add("rotation", rotation.text())
+                      .add("steady_state", steady.text())
+                      .add("max_overlap", r.max_overlap)
+                      .add("energy", r.energy)
+                      .add("energy_at_start", r.energy_at_start)
+                      .add("invariant", r.invariant)
+                      .add("invariant_at_start", r.invariant_at_start)
+                      .add("state_hash", quoted(fmt::format("{:016x}", r.state_hash)))
+                      .add("warnings", '[' + said + ']')
+                      .add("generator", quoted(random_generator))
+                      .add("measured", measured.text())
+                      .text());
 }

@@ -30,18 +30,6 @@ Json rotation_json(const RotationEstimates& rotation) {
     return json;
 }
 
-const char* word(SteadyState::Verdict verdict) {
-    switch (verdict) {
-        case SteadyState::Verdict::steady:
-            return "steady";
-        case SteadyState::Verdict::drifting:
-            return "drifting";
-        case SteadyState::Verdict::too_short:
-            break;
-    }
-    return "too short to tell";
-}
-
 /// COUNT:RADIUS:MASS, whatever stands in their places.
 std::string mixture_text(const Json& mixture) {
     const auto part = [&](const char* name) { return mixture.value(name, Json()).dump(); };
@@ -105,7 +93,7 @@ Json result_json(const RunResult& r) {
             {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
             {"rotation", rotation_json(r.rotation)},
             {"steady_state",
-             {{"verdict", word(r.steady_state())},
+             {{"verdict", verdict(r.steady_state())},
               {"drift", r.steady.drift},
               {"drift_of_the_spin", r.steady_spin.drift}}},
             {"max_overlap", r.max_overlap},

@@ -105,6 +105,18 @@ std::string headline(const RunResult& r) {
                        with_error(r.rotation.by_time));
 }
 
+const char* verdict(SteadyState::Verdict verdict) {
+    switch (verdict) {
+        case SteadyState::Verdict::steady:
+            return "steady";
+        case SteadyState::Verdict::drifting:
+            return "drifting";
+        case SteadyState::Verdict::too_short:
+            break;
+    }
+    return "too short to tell";
+}
+
 std::string report(const RunResult& r) {
     std::string text = headline(r) + "\n";
     const auto line = [&](std::string_view name, const std::string& value) {

@@ -20,6 +20,9 @@ std::string sense_of_rotation(const Estimate& rotation);
 /// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line.
 std::string headline(const RunResult& result);
 
+/// "steady", "drifting" or "too short to tell".
+const char* verdict(SteadyState::Verdict verdict);
+
 /// The headline and what else there is to say, a few lines.
 std::string report(const RunResult& result);
 

@@ -10,6 +10,7 @@
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/state_archive.hpp"
 #include "swirl/measure/observation.hpp"
+#include "swirl/run/budget.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -24,28 +25,6 @@ int events_between_looks(std::size_t discs) {
 constexpr std::chrono::milliseconds progress_interval(100);
 
 constexpr std::uint64_t least_collapse_window = 500;
-
-struct Budget {
-    double energy = 0.0, invariant = 0.0;
-};
-
-/// Kinetic energy K, and K − ΩL with the angular momentum about the swirl centre.
-Budget budget_of(const Snapshot& s) {
-    double K = 0.0, L = 0.0;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const Disc d = s.disc(i);
-        K += kinetic_energy(d);
-        L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
-    }
-    return {K, K - 2.0 * pi / s.period * L};
-}
-
-/// Mean spin of the discs, in units of Ω.
-double mean_spin(const Snapshot& s) {
-    double sum = 0.0;
-    for (const double spin : s.spin) sum += spin;
-    return sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
-}
 
 /// A trajectory between two events.
 struct Moment {

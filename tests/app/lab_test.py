@@ -27,6 +27,8 @@ SCENES = [
     {"discs": 20, "preset": "experiment"}, {"discs": 28, "body": "sphere", "mu": 0.3},
 ]
 EVENTS = 20000
+# Of a result on the command line: which build it was and how it was called, and how long it took.
+NOT_OF_A_PAGE = {"seconds", "events_per_second", "version", "build", "command", "config_text"}
 
 NODE = """
 const engineOf = async (path) => {
@@ -103,11 +105,32 @@ class Laboratory(unittest.TestCase):
                                         str(EVENTS), "--measure", "slip", "--json", "-",
                                         "--quiet").stdout)
                 self.assertEqual(there["hash"], here["state_hash"])
-                result = there["result"]
-                self.assertEqual(set(result), {"config", "complete", "events", "periods", "warmup",
-                                               "rotation", "state_hash", "measured"})
-                for key, value in result.items():
-                    self.assertEqual(value, here[key], key)
+                self.assert_same_result(there["result"], here)
+
+    def assert_same_result(self, there, here):
+        """Every key, and in the same order, of those that a page knows."""
+        self.assertEqual(list(there), [key for key in here if key not in NOT_OF_A_PAGE])
+        for key, value in there.items():
+            self.assertEqual(value, here[key], key)
+            if isinstance(value, dict):
+                self.assertEqual(list(value), list(here[key]), key)
+
+    def test_warnings_and_verdicts_are_those_of_the_command_line(self):
+        warnings, verdicts = set(), set()
+        for scene, events in (({"discs": 8, "mu": 0}, 5000), ({"discs": 5, "seed": 2}, 60000),
+                              ({"discs": 8, "mu": 0, "path": "circle"}, 5000),
+                              ({"discs": 48}, 3000), ({"discs": 3, "mu": 0.01}, 20000),
+                              ({"discs": 12, "amplitude": 0}, 1)):
+            with self.subTest(scene):
+                given = {**{k: str(v) for k, v in scene.items()}, "warmup": "0", "measure": "slip"}
+                there = self.engine([{"given": given, "events": events}])["said"][0]["result"]
+                here = json.loads(swirl("run", *options({**scene, "warmup": 0}), "--measure", "slip",
+                                        "--events", str(events), "--json", "-", "--quiet").stdout)
+                self.assert_same_result(there, here)
+                warnings |= {warning.split()[0] for warning in there["warnings"]}
+                verdicts.add(there["steady_state"]["verdict"])
+        self.assertGreaterEqual(warnings, {"Without", "The", "Perhaps"})
+        self.assertEqual(verdicts, {"steady", "drifting", "too short to tell"})
 
     def test_averages_without_a_warmup_given_are_those_of_the_command_that_it_shows(self):
         for scene in ({"discs": 12, "seed": 2}, {"discs": 5, "path": "circle", "warmup": "auto"}):

@@ -1,0 +1,36 @@
+// What a dish has of energy and of spin, as every result says it.
+#pragma once
+
+#include <cstddef>
+
+#include "swirl/math/real.hpp"
+#include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
+#include "swirl/physics/snapshot.hpp"
+
+namespace swirl {
+
+/// Kinetic energy K in the lab frame, spins included, and K − ΩL with the angular momentum about
+/// the swirl centre: conserved on the exact circle when there is no friction (docs/physics.md).
+struct Budget {
+    double energy = 0.0, invariant = 0.0;
+};
+
+inline Budget budget_of(const Snapshot& s) {
+    double K = 0.0, L = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Disc d = s.disc(i);
+        K += kinetic_energy(d);
+        L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
+    }
+    return {K, K - 2.0 * pi / s.period * L};
+}
+
+/// Mean spin of the discs, in units of Ω.
+inline double mean_spin(const Snapshot& s) {
+    double sum = 0.0;
+    for (const double spin : s.spin) sum += spin;
+    return sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
+}
+
+}  // namespace swirl
