@@ -189,6 +189,11 @@ EXPORTED(begin) void begin() {
     dish = std::make_unique<Dish>(config, make_initial_state(config), measured);
 }
 
+/// 1: change() would keep the discs; 0: it would be another dish.
+EXPORTED(keeps) std::uint32_t keeps() {
+    return only_contacts_and_path_differ(dish->config(), asked_for(buffer).config);
+}
+
 /// The same discs, at this moment and from the container's first leg on, with other frictions,
 /// restitutions or another path; the averages begin anew. 0: it would be another dish.
 EXPORTED(change) std::uint32_t change(double time) {

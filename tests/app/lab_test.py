@@ -58,7 +58,7 @@ engineOf(process.argv[1]).then((make) => {
             engine.begin(given);
             engine.out.run_events(events);
             for (const [name, ...values] of steps ?? []) {
-                if (name === "change") engine.write(values.pop());
+                if (["change", "keeps"].includes(name)) engine.write(values.pop());
                 answers.push(engine.out[name](...values));
             }
             const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
@@ -202,6 +202,8 @@ class Laboratory(unittest.TestCase):
         change = lambda **more: ["change", period, {**given, **more}]  # noqa: E731
         steps = [["advance_to", period, 10 ** 6], change(), ["advance_to", 0.1 * period, 10 ** 6]]
         kept, answers = self.discs({}, steps)
+        self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", "mu": "0"}],
+                                         ["advance_to", 0, 10]])[1][0], 1)
         self.assertEqual(answers, [1, 1, 1])
         # In the laboratory: the container is where it was.
         self.assert_same_discs(kept, same)
@@ -211,6 +213,8 @@ class Laboratory(unittest.TestCase):
         self.assertNotEqual(other, kept)
         for more in ({"discs": "6"}, {"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}):
             steps[1] = change(**more)
+            self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", **more}],
+                                             ["advance_to", 0, 10]])[1][0], 0)
             self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
 
     def test_time_backwards_brings_everybody_back(self):

@@ -50,6 +50,7 @@ interface Exports {
     events(): number;
     state_hash(): bigint;
     rotation(): number;
+    keeps(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
     reverse(time: number): number;
@@ -119,6 +120,11 @@ export class Engine {
     begin(given: Record<string, string>): void {
         this.handLines(given);
         this.out.begin();
+    }
+    /** Whether change() would keep the discs. Throws Refusal. */
+    keeps(given: Record<string, string>): boolean {
+        this.handLines(given);
+        return this.out.keeps() === 1;
     }
     /** The same discs go on from a moment at which a swirl begins; false if that is another dish. */
     change(time: number, given: Record<string, string>): boolean {

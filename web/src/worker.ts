@@ -109,6 +109,13 @@ function tick(swirls: number): void {
     show();
 }
 
+/** The same discs wait for the end of the swirl; another dish waits for nothing. */
+function ask(given: Record<string, string>): void {
+    if (!engine) return;
+    if (engine.keeps(given)) change = given;
+    else say({kind: "changed", kept: false, configuration: engine.configuration()});
+}
+
 function goOn(given: Record<string, string>): void {
     if (!engine) return;
     change = undefined;
@@ -183,7 +190,7 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 tick(data.swirls);
                 break;
             case "change":
-                change = data.given;
+                ask(data.given);
                 break;
             case "steer":
                 steer(data.x, data.y, data.duration);

@@ -186,6 +186,15 @@ await page.waitForFunction(() => document.getElementById("command").textContent.
 await page.fill("#parameter-discs", "9"); // that is another dish
 await page.waitForFunction(
     () => document.getElementById("command").textContent.includes("--discs 9 --mu 0.2"));
+await page.click("#play"); // and does not wait for the end of a swirl, which may never come
+await page.fill("#parameter-discs", "7");
+await page.waitForSelector('canvas[aria-label^="7 discs"]');
+await page.fill("#parameter-discs", "900"); // nor does a sentence
+await page.waitForFunction(() => /do not fit/.test(document.getElementById("refusal").textContent));
+await page.fill("#parameter-discs", "9");
+await page.waitForSelector('canvas[aria-label^="9 discs"]');
+assert.equal(await page.isHidden("#refusal"), true);
+await page.click("#play");
 await page.uncheck("#keep");
 
 // Maps fill up.
