@@ -1,6 +1,7 @@
 """The laboratory in the browser: the engine for WebAssembly gives the bits of the command line, and the
 page does what it says, in a real browser."""
 
+import csv
 import gzip
 import json
 import math
@@ -201,9 +202,9 @@ class Laboratory(unittest.TestCase):
         given = {"discs": "5", "seed": "3"}
         change = lambda **more: ["change", period, {**given, **more}]  # noqa: E731
         steps = [["advance_to", period, 10 ** 6], change(), ["advance_to", 0.1 * period, 10 ** 6]]
-        kept, answers = self.discs({}, steps)
         self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", "mu": "0"}],
                                          ["advance_to", 0, 10]])[1][0], 1)
+        kept, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
         # In the laboratory: the container is where it was.
         self.assert_same_discs(kept, same)
@@ -212,9 +213,9 @@ class Laboratory(unittest.TestCase):
         self.assertEqual(answers, [1, 1, 1])
         self.assertNotEqual(other, kept)
         for more in ({"discs": "6"}, {"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}):
-            steps[1] = change(**more)
             self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", **more}],
                                              ["advance_to", 0, 10]])[1][0], 0)
+            steps[1] = change(**more)
             self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
 
     def test_time_backwards_brings_everybody_back(self):
@@ -292,6 +293,14 @@ class Laboratory(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
             self.assertEqual(json.load(opened)["config"]["discs"], 28)
+        # A point of the page's Figure 5b is a run: 20 swirls after a warm-up of 20.
+        with open(os.path.join(folder, "study.csv"), encoding="utf-8") as opened:
+            points = {(row["mu_disc"], row["mu_wall"], row["discs"]): row for row in csv.DictReader(opened)}
+        point = points["1", "0", "8"]
+        here = json.loads(swirl("run", "--discs", "8", "--mu-disc", "1", "--mu-wall", "0", "--periods",
+                                "40", "--warmup", "20", "--json", "-", "--quiet").stdout)
+        for column, key in (("varpi", "mean"), ("varpi_error", "error")):
+            self.assertEqual(float(point[column]), here["rotation"]["by_time"][key], column)
         if shutil.which("ffprobe"):
             asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                     "stream=nb_read_frames", "-of", "csv=p=0",

@@ -19,7 +19,7 @@ export type ToWorker =
     | {kind: "maps"}
     /** A run from beginning to end, of so many swirls after the warm-up. */
     | {kind: "point"; given: Record<string, string>; swirls: number}
-    | {kind: "crossing"; curve: string; points: number[]};
+    | {kind: "crossing"; curve: number; points: number[]};
 
 /** What fills up while the dish is swirled, in cells of the M-frame, and against θ. */
 export interface Maps {
@@ -57,5 +57,5 @@ export type FromWorker =
     | Maps
     /** Nothing is known of a dish that has collapsed. */
     | {kind: "point"; rotation: Estimate; collapsed: boolean}
-    | {kind: "crossing"; curve: string; crossing: Crossing | null}
+    | {kind: "crossing"; curve: number; crossing: Crossing | null}
     | Frame;

@@ -6,8 +6,14 @@ import type {FromWorker, ToWorker} from "./messages";
 import {button, element, ink, line, save, withError} from "./page";
 import {texts} from "./texts";
 
+/** Between discs, and with the wall. */
+export interface Friction {
+    disc: number;
+    wall: number;
+}
+
 interface Point {
-    mu: number;
+    friction: Friction;
     discs: number;
     done?: boolean;
     collapsed?: boolean;
@@ -17,19 +23,39 @@ interface Point {
 
 const colors = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"];
 const most = 400; // points
+const nameOf = ({disc, wall}: Friction): string => texts.friction(disc, wall);
+
+/** Not a number where there is nothing. */
+const numberIn = (text: string): number => (text.trim() === "" ? NaN : Number(text));
 
 /** "5, 10, 20:5:40": numbers, and ranges FROM:STEP:TO. Nothing if it is neither. */
 export function numbersIn(text: string): number[] | undefined {
     const all: number[] = [];
     for (const part of text.split(",").map((each) => each.trim()).filter(Boolean)) {
-        const [from, by, to] = part.split(":").map(Number) as [number, number?, number?];
-        if (!Number.isFinite(from)) return undefined;
+        const [from, by, to, more] = part.split(":").map(numberIn) as [number, number?, number?, number?];
+        if (!Number.isFinite(from) || more !== undefined) return undefined;
         if (by === undefined) all.push(from);
         else if (to === undefined || !(by > 0) || !(to >= from)) return undefined;
         else for (let k = 0; from + k * by <= to * (1 + 1e-12) && all.length <= most; ++k)
             all.push(from + k * by);
     }
     return all.length > 0 && all.length <= most ? all : undefined;
+}
+
+/** As numbersIn, for discs and wall alike, and DISC:WALL for a pair: "0.1, 0:0.5:1, 1:0"; each once.
+ *  Nothing if it is none of these. */
+export function frictionsIn(text: string): Friction[] | undefined {
+    const all = new Map<string, Friction>();
+    for (const part of text.split(",").filter((each) => each.trim())) {
+        const pair = part.split(":").map(numberIn);
+        const these = pair.length === 2 ? [{disc: pair[0]!, wall: pair[1]!}]
+            : (numbersIn(part) ?? [NaN]).map((mu) => ({disc: mu, wall: mu}));
+        for (const friction of these) {
+            if (!Number.isFinite(friction.disc) || !Number.isFinite(friction.wall)) return undefined;
+            all.set(nameOf(friction), friction);
+        }
+    }
+    return all.size > 0 ? [...all.values()] : undefined;
 }
 
 /** What a run has found; nothing of one that collapsed, whose averages end where it did. */
@@ -41,7 +67,7 @@ function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Par
 export class Study {
     readonly panel: HTMLDetailsElement;
     private readonly discs = element("input", {type: "text", id: "study-discs", value: "5:6:53"});
-    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1"});
+    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1, 1:0"});
     private readonly swirls = element("input", {type: "text", id: "study-swirls", value: "200"});
     private readonly said = element("p", {id: "study-said"});
     private readonly findings = element("ul", {id: "study-findings"});
@@ -49,7 +75,7 @@ export class Study {
     private readonly start = button(texts.start, () => this.toggle(), "study-start");
     private plot: uPlot | undefined;
     private points: Point[] = [];
-    private curves: number[] = [];
+    private curves: Friction[] = [];
     private waiting: Point[] = [];
     private workers: Worker[] = [];
 
@@ -73,7 +99,7 @@ export class Study {
             this.said.textContent = texts.stopped;
             return;
         }
-        const discs = numbersIn(this.discs.value), frictions = numbersIn(this.frictions.value);
+        const discs = numbersIn(this.discs.value), frictions = frictionsIn(this.frictions.value);
         const swirls = Number(this.swirls.value);
         if (!discs || !frictions || discs.length * frictions.length > most) {
             this.said.textContent = texts.studyWrong(most);
@@ -83,10 +109,10 @@ export class Study {
             this.said.textContent = texts.swirlsWrong(this.swirls.value);
             return;
         }
-        this.curves = [...new Set(frictions)];
+        this.curves = frictions;
         // Dense dishes take longest, so they come first.
         const numbers = [...new Set(discs)].sort((a, b) => b - a);
-        this.points = numbers.flatMap((n) => this.curves.map((mu) => ({mu, discs: n})));
+        this.points = numbers.flatMap((n) => this.curves.map((friction) => ({friction, discs: n})));
         this.waiting = [...this.points];
         this.findings.replaceChildren();
         this.draw();
@@ -107,8 +133,9 @@ export class Study {
         const tell = (message: ToWorker): void => worker.postMessage(message);
         const next = (): void => {
             at = this.waiting.shift();
-            if (at) tell({kind: "point", swirls, given: {...this.given(), discs: String(at.discs),
-                                                         mu: String(at.mu)}});
+            if (at) tell({kind: "point", swirls, given: {
+                ...this.given(), discs: String(at.discs), mu_disc: String(at.friction.disc),
+                mu_wall: String(at.friction.wall)}});
             else if (this.points.every((each) => each.done)) this.askCrossings(tell);
         };
         worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
@@ -118,7 +145,7 @@ export class Study {
                 this.report();
                 next();
             }
-            if (data.kind === "crossing") this.showCrossing(Number(data.curve), data.crossing);
+            if (data.kind === "crossing") this.showCrossing(this.curves[data.curve]!, data.crossing);
             if (data.kind === "refused") {
                 this.stop();
                 this.said.textContent = data.sentence;
@@ -129,45 +156,45 @@ export class Study {
     private report(): void {
         const done = this.points.filter((each) => each.done).length;
         const lost = this.points.filter((each) => each.collapsed);
-        const runs = lost.map((each) => texts.runOf(each.discs, each.mu)).join(", ");
+        const runs = lost.map((each) => texts.runOf(each.discs, nameOf(each.friction))).join(", ");
         this.said.textContent = texts.studyProgress(done, this.points.length) +
             (lost.length > 0 ? ` ${texts.collapsed(runs)}` : "");
         this.draw();
     }
 
     private askCrossings(tell: (message: ToWorker) => void): void {
-        for (const mu of this.curves)
-            tell({kind: "crossing", curve: String(mu), points: this.points
-                .filter((each) => each.mu === mu)
+        for (const [curve, friction] of this.curves.entries())
+            tell({kind: "crossing", curve, points: this.points
+                .filter((each) => each.friction === friction)
                 .flatMap((each) => [each.discs, each.mean ?? NaN, each.error ?? NaN])});
     }
 
-    private showCrossing(mu: number, crossing: Crossing | null): void {
-        this.findings.append(element("li", {textContent: crossing === null ? texts.noCrossing(mu) :
-            texts.crossing(mu, withError(crossing.discs, crossing.error, ""),
+    private showCrossing(friction: Friction, crossing: Crossing | null): void {
+        this.findings.append(element("li", {textContent: crossing === null ? texts.noCrossing(nameOf(friction)) :
+            texts.crossing(nameOf(friction), withError(crossing.discs, crossing.error, ""),
                            crossing.lower, crossing.upper)}));
         if (this.findings.childElementCount === this.curves.length) this.stop();
     }
 
     private saveTable(): void {
         const rows = this.points.filter((each) => each.done).map((each) => [
-            each.mu, each.discs, each.mean ?? "", each.error ?? "", each.collapsed ? 1 : 0].join(",") + "\n");
+            each.friction.disc, each.friction.wall, each.discs, each.mean ?? "", each.error ?? "", each.collapsed ? 1 : 0].join(",") + "\n");
         save("rotation_against_N.csv",
-             {text: `mu,discs,varpi,varpi_error,collapsed\n${rows.join("")}`, type: "text/csv"});
+             {text: `mu_disc,mu_wall,discs,varpi,varpi_error,collapsed\n${rows.join("")}`, type: "text/csv"});
     }
 
     private draw(): void {
         const numbers = [...new Set(this.points.map((each) => each.discs))].sort((a, b) => a - b);
-        const values = (mu: number): (number | null)[] => numbers.map(
-            (n) => this.points.find((each) => each.mu === mu && each.discs === n)?.mean ?? null);
+        const values = (friction: Friction): (number | null)[] => numbers.map((n) => this.points.find(
+            (each) => each.friction === friction && each.discs === n)?.mean ?? null);
         this.plot?.destroy();
         this.plot = new uPlot({
             width: this.place.clientWidth || 400, height: 260,
             scales: {x: {time: false}},
             axes: [{label: texts.numberOfDiscs, stroke: ink, grid: {stroke: line}},
                    {label: "ϖ/Ω", stroke: ink, grid: {stroke: line}}],
-            series: [{label: "N"}, ...this.curves.map((mu, k) => (
-                {label: `μ = ${mu}`, stroke: colors[k % colors.length]!, width: 1.5,
+            series: [{label: "N"}, ...this.curves.map((friction, k) => (
+                {label: nameOf(friction), stroke: colors[k % colors.length]!, width: 1.5,
                  spanGaps: true, points: {show: true, size: 5}}))],
             hooks: {draw: [(plot) => this.drawErrors(plot)]},
         }, [numbers, ...this.curves.map(values)], this.place);
@@ -186,9 +213,9 @@ export class Study {
             context.lineTo(plot.bbox.left + plot.bbox.width, zero);
             context.stroke();
         }
-        for (const {mu, discs, mean, error} of this.points) {
+        for (const {friction, discs, mean, error} of this.points) {
             if (mean === undefined || error === undefined || !Number.isFinite(mean + error)) continue;
-            context.strokeStyle = colors[this.curves.indexOf(mu) % colors.length]!;
+            context.strokeStyle = colors[this.curves.indexOf(friction) % colors.length]!;
             const x = plot.valToPos(discs, "x", true);
             context.beginPath();
             context.moveTo(x, plot.valToPos(mean - error, "y", true));

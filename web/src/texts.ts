@@ -43,24 +43,28 @@ export const texts = {
     wall: "wall",
     study: "Rotation against the number of discs (the paper's Figure 5b)",
     studyHow: "A run for every N and friction, on all cores, with the other parameters as they are " +
-        "set here. Numbers and ranges FROM:STEP:TO, with commas between.",
+        "set here. Numbers and ranges FROM:STEP:TO, with commas between; a friction DISC:WALL is one " +
+        "between discs and another at the wall.",
     start: "Start",
     stop: "Stop",
     stopped: "Stopped.",
     numberOfDiscs: "number of discs N",
     studyTable: "Save the table (CSV)",
-    studyWrong: (most: number): string => "N and μ must be numbers or ranges FROM:STEP:TO, with " +
-        `commas between, for example 5:6:53; together at most ${most} runs.`,
+    studyWrong: (most: number): string => "N and μ must be numbers or ranges FROM:STEP:TO, " +
+        "or for μ pairs DISC:WALL, with commas between, for example N 5:6:53 and μ 0.1, 1, 1:0; " +
+        `together at most ${most} runs.`,
+    friction: (disc: number, wall: number): string =>
+        disc === wall ? `μ = ${disc}` : `μ_d = ${disc}, μ_w = ${wall}`,
     swirlsWrong: (text: string): string =>
         `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
     studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
-    crossing: (mu: number, discs: string, lower: number | null, upper: number | null): string =>
-        `μ = ${mu}: the sense of rotation changes at N_c = ${discs}` + (lower !== null && upper !== null
+    crossing: (friction: string, discs: string, lower: number | null, upper: number | null): string =>
+        `${friction}: the sense of rotation changes at N_c = ${discs}` + (lower !== null && upper !== null
             ? ` (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}).` : "."),
     collapsed: (runs: string): string => "Collapsed, and left out, since the model has no state after " +
         `it: ${runs}.`,
-    runOf: (discs: number, mu: number): string => `N = ${discs} at μ = ${mu}`,
-    noCrossing: (mu: number): string => `μ = ${mu}: no change of sense is certain at these N.`,
+    runOf: (discs: number, friction: string): string => `N = ${discs} at ${friction}`,
+    noCrossing: (friction: string): string => `${friction}: no change of sense is certain at these N.`,
     presets: "Presets",
     copied: "Copied",
     noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +

@@ -318,17 +318,25 @@ assert.equal(await page.locator("#beside").count(), 0);
 // The paper's figure by oneself, in small; the warm-up that is looked for is the page's own here.
 await open("?discs=12&warmup=auto");
 await page.click("#study summary");
-for (const [wrong, said] of [["5:x", /must be numbers or ranges/], ["", /must be numbers/]]) {
-    await page.fill("#study-discs", wrong);
+for (const [discs, mu, said] of [["5:x", "1", /must be numbers or ranges/], ["", "1", /must be numbers/],
+                                 ["5", "1:x", /pairs DISC:WALL/], ["5", "1:", /pairs DISC:WALL/],
+                                 ["5:6", "1", /must be numbers/]]) {
+    await page.fill("#study-discs", discs);
+    await page.fill("#study-mu", mu);
     await page.click("#study-start");
     assert.match(await text("study-said"), said);
 }
-await study("5, 8:2:10", "0, 1", 2);
-assert.match(await text("study-said"), /^6 of 6 runs/);
+await study("5, 8:2:10", "0, 1, 1:0", 3);
+assert.match(await text("study-said"), /^9 of 9 runs/);
+assert.deepEqual((await page.$$eval("#study-findings li", (all) => all.map((each) => each.textContent)))
+    .map((each) => each.split(": ")[0]).sort(), ["μ = 0", "μ = 1", "μ_d = 1, μ_w = 0"]);
 await barriers("the study");
 const table = (await downloaded("#study-table"))[1].toString().trim().split("\n");
-assert.equal(table.length, 7);
-assert.equal(table[0], "mu,discs,varpi,varpi_error,collapsed");
+assert.equal(table.length, 10);
+assert.equal(table[0], "mu_disc,mu_wall,discs,varpi,varpi_error,collapsed");
+assert.deepEqual(table.filter((row) => row.startsWith("1,0,")).map((row) => row.split(",")[2]).sort(),
+                 ["10", "5", "8"]);
+if (folder) writeFileSync(`${folder}/study.csv`, table.join("\n"));
 assert.ok(table.slice(1).every((row) => row.split(",").every((x) => Number.isFinite(Number(x)))));
 await page.fill("#study-discs", "1000");
 await page.click("#study-start");
@@ -341,7 +349,7 @@ await page.goto(`${address}?discs=5&restitution=0.5&contact_duration=0`);
 await page.click("#study summary");
 await study("48", "1", 1);
 assert.match(await text("study-said"), /^1 of 1 runs done\. Collapsed, and left out.*: N = 48 at μ = 1\.$/);
-assert.match((await downloaded("#study-table"))[1].toString(), /\n1,48,,,1\n$/);
+assert.match((await downloaded("#study-table"))[1].toString(), /\n1,1,48,,,1\n$/);
 await page.click("#study summary");
 
 // The lesson goes through its six steps by keyboard alone.

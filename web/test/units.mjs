@@ -81,11 +81,17 @@ try {
     assert.equal(withError(null, null, "?"), "?");
     assert.equal(withError(0.25, null, "?"), "0.250");
 
-    const {numbersIn} = await load("study");
+    const {numbersIn, frictionsIn} = await load("study");
     assert.deepEqual(numbersIn("5, 8:2:12"), [5, 8, 10, 12]);
     assert.deepEqual(numbersIn("0:0.1:0.3").map((x) => x.toFixed(6)),
                      ["0.000000", "0.100000", "0.200000", "0.300000"]);
-    for (const wrong of ["", "5:x", "1:0:5", "1:2"]) assert.equal(numbersIn(wrong), undefined, wrong);
+    for (const wrong of ["", "5:x", "1:0:5", "1:2", ":1:3", "1::3", "1:1:3:5"])
+        assert.equal(numbersIn(wrong), undefined, wrong);
+    const pairs = (text) => frictionsIn(text)?.map(({disc, wall}) => [disc, wall]);
+    assert.deepEqual(pairs("0.1, 0:0.5:1, 1:0 , 0:1"), [[0.1, 0.1], [0, 0], [0.5, 0.5], [1, 1], [1, 0], [0, 1]]);
+    assert.deepEqual(pairs("1, 1:1, 1:0, 1:0"), [[1, 1], [1, 0]]);
+    for (const wrong of ["", " , ", "1:x", "1:", ":1", "x", "1:2:3:4", "0.1, 1:y", "1:0:5"])
+        assert.equal(pairs(wrong), undefined, wrong);
 } finally {
     rmSync(folder, {recursive: true});
 }
