@@ -59,6 +59,6 @@ export class Beside {
         const found = data.rotation?.by_time;
         if (found)
             this.caption.textContent =
-                `${this.name}: ϖ/Ω = ${withError(found.mean, found.error, texts.notYet)}`;
+                texts.besideHas(this.name, withError(found.mean, found.error, texts.notYet));
     }
 }

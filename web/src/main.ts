@@ -13,7 +13,7 @@ import {Recording} from "./recording";
 import {meansOf, swirlsOf, tableOf} from "./series";
 import {discAt, discOf, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
-import {lesson, presets, texts} from "./texts";
+import {lesson, presets, symbols, texts} from "./texts";
 
 /** With a slider: from, to, step. The others have a field for their text alone. */
 const sliders: Record<string, [number, number, number]> = {
@@ -192,9 +192,9 @@ const plot = new uPlot({
     width: 400, height: 190,
     scales: {x: {time: false}},
     axes: [{label: texts.swirls, stroke: ink, grid: {stroke: line}},
-           {label: "ϖ/Ω", stroke: ink, grid: {stroke: line}}],
-    series: [{label: texts.swirls}, {label: "ϖ/Ω", stroke: quiet, width: 1},
-             {label: "mean", stroke: accent, width: 2}],
+           {label: symbols.rotation, stroke: ink, grid: {stroke: line}}],
+    series: [{label: texts.swirls}, {label: symbols.rotation, stroke: quiet, width: 1},
+             {label: texts.mean, stroke: accent, width: 2}],
     legend: {show: false},
 }, [[], [], []], byId("plot"));
 
@@ -328,12 +328,14 @@ function showField(name: string, field: {text: HTMLInputElement; slider?: HTMLIn
     if (field.slider) field.slider.value = value || row?.default || field.slider.value;
 }
 
+const describe = ({name, description}: Parameter): string => texts.descriptions[name] ?? description;
+
 function parameterRow(row: Parameter): HTMLElement {
     const id = `parameter-${row.name}`;
     const text = element("input", {type: "text", id, placeholder: row.default, spellcheck: false});
-    const label = element("label", {htmlFor: id, title: row.description},
+    const label = element("label", {htmlFor: id, title: describe(row)},
                           row.symbol ? `${row.name} ${row.symbol}` : row.name);
-    text.title = row.description + (row.unit ? ` (${row.unit})` : "");
+    text.title = describe(row) + (row.unit ? ` (${row.unit})` : "");
     text.addEventListener("input", () => {
         given[row.name] = text.value.trim();
         if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || row.default;
@@ -347,7 +349,7 @@ function parameterRow(row: Parameter): HTMLElement {
     }
     const [min, max, by] = range.map(String);
     const slider = element("input", {type: "range", min: min!, max: max!, step: by!});
-    slider.setAttribute("aria-label", row.description);
+    slider.setAttribute("aria-label", describe(row));
     slider.value = row.default || "1";
     slider.addEventListener("input", () => {
         given[row.name] = text.value = slider.value;

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import type {Maps} from "./messages";
 import {accent, dark, element, ink, line, quiet} from "./page";
-import {texts} from "./texts";
+import {symbols, texts} from "./texts";
 
 const densityFrom = 0, densityTo = 0.32; // discs per r²; a dense packing has 0.289
 const side = 100; // cells of the density map
@@ -32,7 +32,7 @@ function rim(context: CanvasRenderingContext2D, size: number): void {
     context.fillStyle = ink();
     context.font = `600 ${size / 18}px system-ui, sans-serif`;
     context.textAlign = "center";
-    context.fillText("M", size / 2, size * 0.985);
+    context.fillText(symbols.farthest, size / 2, size * 0.985);
 }
 
 function drawDensity(canvas: HTMLCanvasElement, density: Float64Array): void {
@@ -119,8 +119,8 @@ export class MapsPanel {
             width: this.plotPlace.clientWidth || 400, height: 190,
             scales: {x: {time: false, range: [0, 360]}},
             axes: [{label: texts.theta, stroke: ink, grid: {stroke: line}},
-                   {label: "ϖ_M/Ω", stroke: ink, grid: {stroke: line}}],
-            series: [{label: "θ"}, {label: texts.discs, stroke: accent, width: 2},
+                   {label: symbols.rotationM, stroke: ink, grid: {stroke: line}}],
+            series: [{label: symbols.theta}, {label: texts.discs, stroke: accent, width: 2},
                      {label: texts.wall, stroke: quiet, width: 1, dash: [5, 4]}],
         }, [[], [], []], this.plotPlace);
         this.plot.setSize({width: this.plotPlace.clientWidth || 400, height: 190});

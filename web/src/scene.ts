@@ -1,6 +1,7 @@
 // A frame on a canvas: in the laboratory, or in the M-frame, whose origin is the dish's centre and
 // whose −y axis points from the swirl's centre S to it.
 import {frameDisc, frameHead} from "./engine";
+import {symbols} from "./texts";
 
 export type View = "lab" | "m";
 export type Coloring = "spin" | "speed" | "pinned" | "id";
@@ -294,7 +295,8 @@ function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: Look, 
                    hair: number): void {
     const m: [number, number] = [frame.centre[0] + frame.radius * frame.down[0],
                                  frame.centre[1] + frame.radius * frame.down[1]];
-    const marks: [string, [number, number]][] = [["S", [0, 0]], ["C", frame.centre], ["M", m]];
+    const marks: [string, [number, number]][] = [
+        [symbols.swirl, [0, 0]], [symbols.dish, frame.centre], [symbols.farthest, m]];
     for (const [name, at] of marks) {
         const [x, y] = shown(frame, look.view, ...at);
         context.fillStyle = ink;
@@ -307,7 +309,7 @@ function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: Look, 
         context.font = `600 ${13 * hair}px system-ui, sans-serif`;
         context.lineWidth = 3 * hair;
         context.strokeStyle = look.dark ? "#1d2124" : "#fbfaf8";
-        const [dx, dy] = name === "M" ? [-5 * hair, -7 * hair] : [5 * hair, -5 * hair];
+        const [dx, dy] = at === m ? [-5 * hair, -7 * hair] : [5 * hair, -5 * hair];
         context.strokeText(name, dx, dy);
         context.fillText(name, dx, dy);
         context.restore();

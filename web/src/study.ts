@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import type {Crossing} from "./engine";
 import type {FromWorker, ToWorker} from "./messages";
 import {button, element, ink, line, save, withError} from "./page";
-import {texts} from "./texts";
+import {symbols, texts} from "./texts";
 
 /** Between discs, and with the wall. */
 export interface Friction {
@@ -87,7 +87,7 @@ export class Study {
         this.panel = element("details", {id: "study"},
             element("summary", {textContent: texts.study}),
             element("p", {textContent: texts.studyHow}),
-            element("div", {className: "bar"}, field("N", this.discs), field("μ", this.frictions),
+            element("div", {className: "bar"}, field(symbols.discs, this.discs), field(symbols.friction, this.frictions),
                     field(texts.swirls, this.swirls), this.start,
                     button(texts.studyTable, () => this.saveTable(), "study-table")),
             this.said, this.place, this.findings);
@@ -192,8 +192,8 @@ export class Study {
             width: this.place.clientWidth || 400, height: 260,
             scales: {x: {time: false}},
             axes: [{label: texts.numberOfDiscs, stroke: ink, grid: {stroke: line}},
-                   {label: "ϖ/Ω", stroke: ink, grid: {stroke: line}}],
-            series: [{label: "N"}, ...this.curves.map((friction, k) => (
+                   {label: symbols.rotation, stroke: ink, grid: {stroke: line}}],
+            series: [{label: symbols.discs}, ...this.curves.map((friction, k) => (
                 {label: nameOf(friction), stroke: colors[k % colors.length]!, width: 1.5,
                  spanGaps: true, points: {show: true, size: 5}}))],
             hooks: {draw: [(plot) => this.drawErrors(plot)]},

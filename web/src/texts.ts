@@ -1,4 +1,26 @@
-// Every text of the page, for who wants to translate it.
+// Every text of the page, for who wants to translate it. In English remain what the engine says for the
+// command line, too: what it refuses, names of parameters, the keys of files.
+
+/** What index.html has in {{braces}}, put there when the page is built. */
+export const pageTexts = {
+    language: "en",
+    title: "swirl: marbles in a swirled dish",
+    name: "swirl",
+    noScript: "The laboratory runs in this page, by JavaScript, which is turned off here.",
+    dish: "The dish",
+    sameBits: "The engine, the parameters and the averages are those of the command line; the same dish " +
+        "has the same bits there:",
+    copy: "Copy",
+    after: "After",
+    theStateIs: "events the state is",
+};
+
+/** As the paper has them. */
+export const symbols = {
+    rotation: "ϖ/Ω", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ",
+    swirl: "S", dish: "C", farthest: "M", // points: the swirl's centre, the dish's, the wall's farthest
+};
+
 export const texts = {
     play: "Play",
     pause: "Pause",
@@ -12,6 +34,7 @@ export const texts = {
     film: "Save film (WebM)",
     positions: "Save positions (XYZ)",
     beside: "Keep this dish beside",
+    besideHas: (name: string, rotation: string): string => `${name}: ${symbols.rotation} = ${rotation}`,
     besideEnds: "End the dish beside",
     backwards: "Time backwards",
     forwards: "Time forwards",
@@ -54,7 +77,8 @@ export const texts = {
         "or for μ pairs DISC:WALL, with commas between, for example N 5:6:53 and μ 0.1, 1, 1:0; " +
         `together at most ${most} runs.`,
     friction: (disc: number, wall: number): string =>
-        disc === wall ? `μ = ${disc}` : `μ_d = ${disc}, μ_w = ${wall}`,
+        disc === wall ? `${symbols.friction} = ${disc}`
+            : `${symbols.friction}_d = ${disc}, ${symbols.friction}_w = ${wall}`,
     swirlsWrong: (text: string): string =>
         `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
     studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
@@ -78,8 +102,9 @@ export const texts = {
         "steady state.",
     placing: (discs: number): string => `Placing ${discs} discs…`,
     running: (done: number, all: number): string => `${done} of ${all} events done.`,
-    byTime: "ϖ/Ω by time",
-    byEvent: "ϖ/Ω by event",
+    byTime: `${symbols.rotation} by time`,
+    byEvent: `${symbols.rotation} by event`,
+    mean: "mean",
     swirls: "swirls",
     rotates: (discs: number): string => `${discs} discs rotate with the swirl.`,
     counterrotates: (discs: number): string => `${discs} discs turn against the swirl.`,
@@ -88,7 +113,9 @@ export const texts = {
     lesson: "A lesson in six steps",
     next: "Next",
     back: "Back",
+    /** Of parameters, where they are not to be called as the command line calls them. */
     groups: {} as Record<string, string>,
+    descriptions: {} as Record<string, string>,
 };
 
 /** What the engine's worker says: apart, so that it need not carry the page's texts. */

@@ -1,10 +1,11 @@
 // What the page works out by itself: node units.mjs. Ends with 1 and a sentence for whatever is wrong.
 import assert from "node:assert/strict";
-import {mkdtempSync, rmSync} from "node:fs";
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import {build} from "esbuild";
+import ts from "typescript";
 
 const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-units-"));
@@ -18,7 +19,73 @@ const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Flo
     [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
      ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
 
+/** What a reader sees, or hears, of a source that stands in it instead of in texts.ts: letters where an
+ *  element gets its text, name or label, or a canvas its; and elsewhere whatever reads as a sentence, or
+ *  has letters that no name in the code has. */
+const shownBy = (source) => {
+    const found = [], file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
+    const shown = ["textContent", "innerText", "innerHTML", "title", "label", "alt", "placeholder", "ariaLabel"];
+    const nameOf = (node) => node.name?.text ?? node.text ?? "";
+    /** Of a call, the arguments that are shown. */
+    const shownOf = ({expression, arguments: given = []}) => ({
+        __proto__: null, element: given.slice(2), append: given, prepend: given, button: given.slice(0, 1),
+        field: given.slice(0, 1), choice: given.slice(0, 1), figure: given.slice(1), alert: given,
+        refuse: given, Refusal: given, fillText: given.slice(0, 1), strokeText: given.slice(0, 1),
+        setAttribute: /^(aria-label|aria-description|title|alt|placeholder)$/.test(given[0]?.text)
+            ? given.slice(1) : [],
+    })[nameOf(expression)] ?? [];
+    const hidden = (node) => ts.isImportDeclaration(node) || ts.isTypeNode(node) ||
+        (ts.isNewExpression(node) && nameOf(node.expression) === "Error") || // a mistake of ours
+        (ts.isBinaryExpression(node) && nameOf(node.left) === "font") ||
+        (ts.isCallExpression(node) && nameOf(node.expression) === "setAttribute" &&
+            shownOf(node).length === 0);
+    const visit = (node, isShown) => {
+        if (hidden(node)) return;
+        if (ts.isStringLiteralLike(node) || [ts.SyntaxKind.TemplateHead, ts.SyntaxKind.TemplateMiddle,
+                                             ts.SyntaxKind.TemplateTail].includes(node.kind)) {
+            if (/[^\p{L}]*\p{L}/u.test(node.text) && isShown || /\p{L}{2,},? \p{L}{2,}/u.test(node.text) ||
+                /[^\P{L}a-zA-Z]/u.test(node.text)) found.push(node.text);
+            return;
+        }
+        const calls = ts.isCallExpression(node) || ts.isNewExpression(node), args = calls ? shownOf(node) : [];
+        const gives = ts.isPropertyAssignment(node) && shown.includes(nameOf(node)) ||
+            ts.isBinaryExpression(node) && node.operatorToken.kind === ts.SyntaxKind.EqualsToken &&
+            shown.includes(nameOf(node.left));
+        // What decides is not shown, nor are names of elements and keys.
+        const decides = (child) => ts.isConditionalExpression(node) && child === node.condition ||
+            ts.isElementAccessExpression(node) && child === node.argumentExpression;
+        ts.forEachChild(node, (child) => visit(child, calls ? args.includes(child)
+            : !decides(child) && (isShown || gives) && !(gives && child === (node.name ?? node.left))));
+    };
+    visit(file, false);
+    return found;
+};
+/** And of a page, where names in double braces stand for texts. */
+const shownByPage = (html) => html.replace(/<!.*?>|\{\{\w+\}\}|<script.*?<\/script>/gs, "")
+    .replace(/<[^>]*>/g, (tag) => (/\b(?:aria-label|title|alt|placeholder)="[^"]*"/.exec(tag) ?? [""])[0]
+        .replace(/^.*?=/, "")).match(/\p{L}+/gu) ?? [];
+
 try {
+    for (const [source, wanted] of [
+        ['element("p", {id: "said", textContent: "Wait"})', ["Wait"]],
+        ['element("label", {}, box, ` Trails ${n}`)', [" Trails "]],
+        ['button("Go", () => tell({kind: "step"}), "step")', ["Go"]],
+        ['byId("a").textContent = x === "lab" ? "Dish" : "…"', ["Dish"]],
+        ['a.setAttribute("aria-label", "The dish")', ["The dish"]],
+        ['a.setAttribute("aria-keyshortcuts", "ArrowLeft ArrowRight")', []],
+        ['context.fillText("M", 0, 0)', ["M"]],
+        ['const said = `${n} runs done`', [" runs done"]],
+        ['axes = [{label: "μ", stroke: "red"}]', ["μ"]],
+        ['element("p", {textContent: texts.wait, id: "wait"}, texts.groups["a"], given["discs"])', []],
+    ]) assert.deepEqual(shownBy(source), wanted, source);
+    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && each !== "texts.ts")) {
+        const stray = shownBy(readFileSync(join(sources, name), "utf-8"))
+            .filter((text) => text !== "./swirl run"); // the command line is the same in every language
+        assert.deepEqual(stray, [], `${name} has texts that belong into texts.ts`);
+    }
+    assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
+    assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
+
     const {turnBetween, discAt} = await load("scene");
     const turned = (discs, by) => discs.map(([x, y]) => [
         3 + x * Math.cos(by) - y * Math.sin(by), 4 + x * Math.sin(by) + y * Math.cos(by)]);
