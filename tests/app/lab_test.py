@@ -1,6 +1,7 @@
 """The laboratory in the browser: the engine for WebAssembly gives the bits of the command line, and the
 page does what it says, in a real browser."""
 
+import collections
 import csv
 import gzip
 import json
@@ -9,8 +10,10 @@ import os
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import unittest
+import zlib
 
 from program import SOURCE, made_of_the_web, swirl
 
@@ -83,6 +86,37 @@ engineOf(process.argv[1]).then((make) => {
 def options(scene):
     return [word for name, value in scene.items()
             for word in (f"--{name.replace('_', '-')}", str(value))]
+
+
+def pixels_of(path):
+    """The rows of a PNG of eight bits a channel that is not interlaced, each a list of pixels; what does
+    not decode, by the format's own checksums, is an error."""
+    with open(path, "rb") as opened:
+        data = opened.read()
+    chunks, at = {}, 8
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        assert zlib.crc32(name + body) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+        chunks[name] = chunks.get(name, b"") + body
+        at += 12 + size
+    width, height, depth, kind, _, _, interlaced = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
+    assert b"IEND" in chunks and (depth, interlaced) == (8, 0) and kind in (2, 6)
+    step = 3 if kind == 2 else 4
+    stream, before, rows = zlib.decompress(chunks[b"IDAT"]), bytes(step * width), []
+    assert len(stream) == height * (1 + step * width)
+    for y in range(height):
+        way, *row = stream[y * (1 + step * width):(y + 1) * (1 + step * width)]
+        for k, above in enumerate(before):
+            left, corner = (row[k - step], before[k - step]) if k >= step else (0, 0)
+            if way == 4:  # Paeth: whichever is nearest to left + above − corner
+                nearest = min((left, above, corner), key=lambda x: abs(left + above - corner - x))
+            else:
+                nearest = (0, left, above, (left + above) // 2)[way]
+            row[k] = (row[k] + nearest) % 256
+        before = row
+        rows.append(list(zip(*(row[c::step] for c in range(3)))))
+    return rows
 
 
 class Laboratory(unittest.TestCase):
@@ -293,6 +327,7 @@ class Laboratory(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
             self.assertEqual(json.load(opened)["config"]["discs"], 28)
+        self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
         # A point of the page's Figure 5b is a run: 20 swirls after a warm-up of 20.
         with open(os.path.join(folder, "study.csv"), encoding="utf-8") as opened:
             points = {(row["mu_disc"], row["mu_wall"], row["discs"]): row for row in csv.DictReader(opened)}
@@ -307,6 +342,25 @@ class Laboratory(unittest.TestCase):
                                     os.path.join(folder, "swirl.webm")],
                                    check=True, capture_output=True, text=True)
             self.assertGreater(int(asked.stdout), 5)
+
+    def assert_shows_discs(self, path, discs):
+        """In colours from blue over grey to orange, on light paper: as much of the picture as they cover,
+        within a fifth (their rims and hands are drawn in ink, the arc along the wall in colour)."""
+        rows = pixels_of(path)
+        self.assertEqual({len(row) for row in rows}, {len(rows)})
+        paper, ink = (0xfb, 0xfa, 0xf8), (0x23, 0x27, 0x2b)
+        for corner in (rows[0][0], rows[0][-1], rows[-1][0], rows[-1][-1]):
+            self.assertEqual(corner, paper)
+        colors = collections.Counter(pixel for row in rows for pixel in row)
+        self.assertGreater(colors[ink], len(rows))
+        much = 1e-4 * len(rows) ** 2
+        shown = [color for color, n in colors.items() if n > much and color not in (paper, ink)]
+        self.assertGreater(len(shown), 5)
+        self.assertGreater(max(r - b for r, _, b in shown), 20)
+        self.assertGreater(max(b - r for r, _, b in shown), 20)
+        covered = sum(colors[color] for color in shown) / len(rows) ** 2
+        expected = discs * math.pi / (2 * 1.06 * (8.6 + 1.892)) ** 2
+        self.assertLess(abs(covered / expected - 1), 0.2)
 
     def test_what_the_page_works_out_by_itself(self):
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],

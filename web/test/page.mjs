@@ -372,7 +372,7 @@ await page.click("#record");
 await page.waitForSelector("#save-film", {timeout: 90_000}); // a busy machine is slow to end a film
 
 // Downloads.
-const saved = {};
+const saved = {}, canvasSize = await page.$eval("#views canvas", ({width, height}) => [width, height]);
 for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
                                       ["#save-table", "rotation.csv", "swirl,varpi\n"],
                                       ["#save-film", "swirl.webm", "\x1a\x45\xdf\xa3"],
@@ -383,6 +383,10 @@ for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
     saved[name] = bytes;
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
+
+// The picture has the canvas's size; tests/app/lab_test.py decodes it.
+assert.deepEqual([16, 20].map((at) => saved["swirl.png"].readUInt32BE(at)), canvasSize);
+assert.ok(canvasSize[0] >= 300, `${canvasSize}`);
 
 // Positions are extended XYZ, frame for frame: later and later, everybody in the dish, nobody in another.
 const lines = saved["swirl.xyz"].toString().trimEnd().split("\n"), frames = [];
