@@ -149,16 +149,18 @@ function pageOf(file) {
     }
 }
 
-/** What was made of web/gallery.txt, with the sentence and the command. */
+/** What was made of web/gallery.txt, or stands in docs/, with the sentence and the command. */
 function gallery() {
     const shown = readFileSync(join(root, "web/gallery.txt"), "utf-8").split("\n")
         .filter((line) => line && !line.startsWith("#")).map((line) => line.split(" | "))
-        .map(([caption, command]) => ({caption, command, name: command.match(/--out (\S+)/)[1]}))
-        .filter(({name}) => existsSync(join(out, "gallery", name)));
-    write("gallery.html", "Gallery", "<h1>Gallery</h1>\n" + shown.map(({caption, command, name}) => {
-        const picture = name.endsWith(".mp4")
-            ? `<video src="gallery/${name}" controls loop muted playsinline preload="metadata"></video>`
-            : `<img src="gallery/${name}" alt="${escaped(caption)}" loading="lazy">`;
+        .map(([caption, command, kept]) =>
+            ({caption, command, kept, from: kept ?? `gallery/${command.match(/--out (\S+)/)[1]}`}))
+        .filter(({kept, from}) => kept || existsSync(join(out, from)));
+    for (const {kept} of shown) if (kept) linked(kept, "README.md"); // and so it comes along
+    write("gallery.html", "Gallery", "<h1>Gallery</h1>\n" + shown.map(({caption, command, from}) => {
+        const picture = from.endsWith(".mp4")
+            ? `<video src="${from}" controls loop muted playsinline preload="metadata"></video>`
+            : `<img src="${from}" alt="${escaped(caption)}" loading="lazy">`;
         return `<figure>\n${picture}\n<figcaption>${escaped(caption)}\n` +
             `<pre><code>./${escaped(command)}</code></pre></figcaption>\n</figure>`;
     }).join("\n"));
@@ -169,8 +171,8 @@ cpSync(join(root, "web/site.css"), join(out, "site.css"));
 if (report) cpSync(report, join(out, "report"), {recursive: true});
 need("README.md");
 for (const name of documents) need(`docs/${name}.md`);
-while (waiting.length > 0) pageOf(waiting.shift());
 gallery();
+while (waiting.length > 0) pageOf(waiting.shift());
 
 const commands = readdirSync(help).filter((name) => name.endsWith(".txt")).map((name) => basename(name, ".txt"))
     .sort((a, b) => (a === "swirl" ? -1 : b === "swirl" ? 1 : a < b ? -1 : 1));

@@ -61,7 +61,7 @@ done
 mkdir "$aside/gallery"
 install_packages pictures movies || true # what cannot be made without them is not shown
 # shellcheck disable=SC2016
-sed -n 's/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
+sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
     cd "$aside/gallery"
     while read -r made; do
         # The file is ours, and its commands have quoted nothing.

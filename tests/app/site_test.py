@@ -98,15 +98,21 @@ class Site(unittest.TestCase):
 
     def test_the_gallery_shows_what_its_commands_make(self):
         with open(os.path.join(SOURCE, "web", "gallery.txt"), encoding="utf-8") as opened:
-            commands = [line.split(" | ")[1].strip() for line in opened if not line.startswith("#")]
+            lines = [line.strip().split(" | ") for line in opened if not line.startswith("#")]
         with open(os.path.join(self.site, "gallery.html"), encoding="utf-8") as opened:
             text = opened.read()
-        self.assertGreater(len(commands), 5)
-        for command in commands:
-            if " movie " in command and not shutil.which("ffmpeg"):
+        self.assertGreater(len([line for line in lines if len(line) == 2]), 5)
+        kept = {line[2] for line in lines if len(line) == 3}
+        for _, command, *picture in lines:
+            if not picture and " movie " in command and not shutil.which("ffmpeg"):
                 continue
             self.assertIn(command, text)
-            self.assertIn(f'src="gallery/{command.split()[-1]}"', text)
+            src = picture[0] if picture else f"gallery/{command.split()[-1]}"
+            self.assertIn(f'src="{src}"', text)
+        # Every picture of the documents is in it; that of the spheres is there as a film.
+        of_documents = {f"docs/{name}" for name in os.listdir(os.path.join(SOURCE, "docs"))
+                        if name.endswith((".png", ".gif"))}
+        self.assertEqual(of_documents - kept, {"docs/spheres.png"})
 
     def test_notebooks_are_read_as_documents(self):
         path = os.path.join(self.site, "examples", "first_steps.ipynb.html")
