@@ -67,7 +67,7 @@ function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Par
 export class Study {
     readonly panel: HTMLDetailsElement;
     private readonly discs = element("input", {type: "text", id: "study-discs", value: "5:6:53"});
-    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1, 1:0"});
+    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1"});
     private readonly swirls = element("input", {type: "text", id: "study-swirls", value: "200"});
     private readonly said = element("p", {id: "study-said"});
     private readonly findings = element("ul", {id: "study-findings"});
