@@ -106,14 +106,6 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
     return plan;
 }
 
-/// With μ_d = 0 nothing but the wall changes a disc's spin, which takes of the order of 100 swirls:
-/// what the paper averages over is a transient. Here 300 swirls are left out, and 100 where there
-/// is disc friction (half as many when quick).
-static std::int64_t warmup_of_5b_steady(const PaperSettings& settings, const Friction& friction) {
-    const std::int64_t swirls = friction.mu_disc == 0.0 ? 300 : 100;
-    return settings.swirls(settings.quick ? swirls / 2 : swirls, 2);
-}
-
 static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
@@ -123,12 +115,7 @@ static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
              settings.quick ? sparse_numbers(settings) : numbers_of_discs(settings))
             points.push_back({friction, n});
     for (const PointOfFigure5b& p : points) {
-        RunConfig config = paper_config(settings, p.friction, p.discs);
-        config.warmup = warmup_of_5b_steady(settings, p.friction);
-        const auto measured = static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) /
-                                                        expected_events_per_swirl(config));
-        const std::int64_t least = settings.quick ? 50 : 200;
-        config.periods = *config.warmup + settings.swirls(std::max(least, measured), 3);
+        const RunConfig config = settled_config(settings, p.friction, p.discs);
         plan.points.push_back(
             varied_point(settings,
                          fmt::format("steady_{}_N{}_{}of{}periods", p.friction.name, p.discs,

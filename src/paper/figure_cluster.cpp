@@ -31,19 +31,20 @@ std::vector<Point> points_of(const std::vector<Friction>& frictions,
     return points;
 }
 
+using PointOf = std::function<PaperPoint(const PaperSettings&, const Friction&, std::int64_t)>;
 using Sentences =
     std::function<std::vector<std::string>(const std::vector<Point>&, const std::vector<Json>&)>;
 
 FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name,
                           const std::vector<Friction>& frictions,
                           const std::vector<std::string>& names, const Sentences& sentences,
-                          const std::vector<std::int64_t>& numbers = {}) {
+                          const std::vector<std::int64_t>& numbers = {},
+                          const PointOf& of_point = measured_point) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
     const std::vector<Point> points =
         points_of(frictions, numbers.empty() ? numbers_of_the_experiment(settings) : numbers);
-    for (const Point& p : points)
-        plan.points.push_back(measured_point(settings, p.friction, p.discs));
+    for (const Point& p : points) plan.points.push_back(of_point(settings, p.friction, p.discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(
             joined(joined({"setting", "mu_disc", "mu_wall", "discs"}, number_columns(names)),
@@ -156,7 +157,8 @@ static FigurePlan plan_figure_4b(const PaperSettings& settings) {
 }
 
 /// With both frictions, and with one of them absent: how much the discs move in the M-frame, at a
-/// low and at a high N.
+/// low and at a high N. Without disc friction in the steady state: what the paper's 10^6 events see
+/// of that is the way there.
 static FigurePlan plan_figure_states(const PaperSettings& settings) {
     return plan_against_n(
         settings, "states", {high_friction, no_wall_friction, no_disc_friction},
@@ -169,7 +171,11 @@ static FigurePlan plan_figure_states(const PaperSettings& settings) {
                                                    "temperature", "granular", points, results));
             return sentences;
         },
-        {rotating, counterrotating});
+        {rotating, counterrotating},
+        [](const PaperSettings& study, const Friction& friction, std::int64_t discs) {
+            return friction.mu_disc == 0.0 ? settled_point(study, friction, discs)
+                                           : measured_point(study, friction, discs);
+        });
 }
 
 static FigurePlan plan_figure_4c(const PaperSettings& settings) {

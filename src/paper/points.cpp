@@ -112,6 +112,30 @@ PaperPoint dense_point(const PaperSettings& settings, const Friction& friction,
             }};
 }
 
+RunConfig settled_config(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs) {
+    RunConfig config = paper_config(settings, friction, discs);
+    const std::int64_t left_out = friction.mu_disc == 0.0 ? 300 : 100;
+    config.warmup = settings.swirls(settings.quick ? left_out / 2 : left_out, 2);
+    const auto measured =
+        static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) / expected_events_per_swirl(config));
+    const std::int64_t least = settings.quick ? 50 : 200;
+    config.periods = *config.warmup + settings.swirls(std::max(least, measured), 3);
+    return config;
+}
+
+PaperPoint settled_point(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs) {
+    RunConfig config = settled_config(settings, friction, discs);
+    const std::string name = "settled_" + name_of(friction, discs);
+    return {settings, name, settings.seeds(), [&](std::uint64_t seed) {
+                config.seed = seed;
+                return run_task(fmt::format("measured_{}_{}of{}periods_seed{}", name,
+                                            *config.warmup, *config.periods, seed),
+                                config, measurements_of_the_paper(discs));
+            }};
+}
+
 PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
                         const RunConfig& config) {
     RunConfig varied = config;

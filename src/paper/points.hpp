@@ -55,6 +55,16 @@ PaperPoint measured_point(const PaperSettings& settings, const Friction& frictio
 /// More discs than the paper has: as many swirls as it takes, instead of its 10^6 events.
 PaperPoint dense_point(const PaperSettings& settings, const Friction& friction, std::int64_t discs);
 
+/// What the paper does not have, the steady state: a long warm-up is left out, and what is averaged
+/// goes by swirls. With μ_d = 0 nothing but the wall changes a disc's spin, which takes of the
+/// order of 100 swirls: 300 are left out, and 100 where there is disc friction (half as many when
+/// quick).
+RunConfig settled_config(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs);
+/// Everything measured in it that the figures need.
+PaperPoint settled_point(const PaperSettings& settings, const Friction& friction,
+                         std::int64_t discs);
+
 /// The same at other parameters than the paper's; `name` says which.
 PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
                         const RunConfig& config);
