@@ -406,30 +406,46 @@ def what_was_found(path):
     return sentences
 
 
-# The same setting, both frictions 1 and I = 10, in several figures: (figure, curve, how).
-SAME_SETTING = (("5b", "high", "by event"), ("1b", "high", "by time, the same runs"),
-                ("restitution", "1", "by time, shorter runs, fewer seeds and N"),
-                ("inertia", "10", "by time, shorter runs, fewer seeds and N"))
+# The same discs in several figures, whose N_c the report has more than once: (figure, curve, how).
+SAME_SETTING = {
+    1.0: (("5b", "high", "by event"), ("5b-steady", "high", "after a long warm-up"),
+          ("1b", "high", "by time, the runs of 5b"), ("friction", None, "by time, searched for"),
+          ("restitution", "1", "by time, shorter runs, fewer seeds and N"),
+          ("inertia", "10", "the runs of restitution")),
+    0.5: (("5b", "medium", "by event"), ("5b-steady", "medium", "after a long warm-up"),
+          ("friction", None, "by time, searched for")),
+}
 
 
-def crossings_of_one_setting(folder):
-    """N_c for both frictions 1 wherever the report has it, and whether the values agree."""
-    found = []
-    for figure, curve, how in SAME_SETTING:
-        try:
-            c = claims.Folder(folder).crossing(figure, curve)
-        except (FileNotFoundError, IndexError, KeyError):
+def crossing_of(folder, figure, curve, mu):
+    """N_c of a figure's curve; None if it has none."""
+    if curve is None:
+        row = claims.tables.select(folder.table(figure), mu=mu)[0]
+        return claims.Value(row["crossing"], row["crossing_error"]) if row["crosses"] else None
+    found = folder.crossing(figure, curve)
+    return found.at if found.verdict == "crosses" else None
+
+
+def crossings_of_one_setting(path):
+    """N_c wherever the report has it more than once, and whether the values agree."""
+    folder, sentences = claims.Folder(path), []
+    for mu, places in SAME_SETTING.items():
+        found = []
+        for figure, curve, how in places:
+            try:
+                at = crossing_of(folder, figure, curve, mu)
+            except (FileNotFoundError, IndexError, KeyError):
+                continue
+            if at:
+                found.append((figure, at, how))
+        if len(found) < 2:
             continue
-        if c.verdict == "crosses":
-            found.append((figure, c.at, how))
-    if len(found) < 2:
-        return ""
-    first = found[0][1]
-    apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9)
-                for _, at, _ in found[1:])
-    listed = "; ".join(f"{claims.number(at)} (figure {figure}, {how})" for figure, at, how in found)
-    return (f"N_c for both frictions 1 is estimated more than once: {listed}. The first is the one "
-            f"to quote; the others differ from it by at most {apart:.1f} standard errors.")
+        first = found[0][1]
+        apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9) for _, at, _ in found[1:])
+        listed = "; ".join(f"{claims.number(at)} (figure {figure}, {how})" for figure, at, how in found)
+        sentences.append(f"N_c for both frictions {mu:g} is estimated more than once: {listed}. The first is "
+                         f"the one to quote; the others differ from it by at most {apart:.1f} standard errors.")
+    return " ".join(sentences)
 
 
 def split(figures):

@@ -49,6 +49,17 @@ class FirstPage(Tables):
     def test_without_tables_nothing_is_said(self):
         self.assertEqual(report.what_was_found(self.folder), [])
 
+    def test_a_crossing_that_is_told_more_than_once_is_compared(self):
+        self.crossings(high=("crosses", 38.0, 0.3), medium=("crosses", 43.7, 0.1))
+        self.assertEqual(report.crossings_of_one_setting(self.folder), "")
+        self.write("friction", [{"mu": mu, "crosses": crosses, "crossing": at, "crossing_error": 0.4}
+                                for mu, crosses, at in ((0.1, 0, ""), (0.5, 0, ""), (1, 1, 39.5))])
+        # 1.5 apart, √(.3² + .4²) = .5; with μ = .5 the search found none.
+        self.assertEqual(report.crossings_of_one_setting(self.folder),
+                         "N_c for both frictions 1 is estimated more than once: 38.0 ± 0.3 (figure 5b, by "
+                         "event); 39.5 ± 0.4 (figure friction, by time, searched for). The first is the "
+                         "one to quote; the others differ from it by at most 3.0 standard errors.")
+
     def test_that_few_rotate_and_many_counterrotate(self):
         self.rotation(high=[(5, 0.2), (48, -0.1)])
         self.crossings(high=("crosses", 38.5, 0.2))
