@@ -531,18 +531,25 @@ def pinned_grows(folder):
         f"{ends(rows, 'share')}.")
 
 
-def pinned_earlier(folder):
-    def moved(rows, name):
-        path = unwrapped(rows, name)
-        # Discs run clockwise, so earlier is at a larger θ.
-        return path[-1] - path[0]
+def upstream(rows, name):
+    """How far a place moves from the first N to the last: who runs clockwise is earlier at a larger θ."""
+    path = unwrapped(rows, name)
+    return path[-1] - path[0]
 
+
+def spread(rows, name):
+    """How far apart a place is at any two N."""
+    path = unwrapped(rows, name)
+    return max(path, key=lambda a: a.mean) - min(path, key=lambda a: a.mean)
+
+
+def pinned_earlier(folder):
     rows, choices = angles(folder), by_choice(folder)
-    shifts = [moved(c, "becoming_pinned") for c in choices.values()]
+    shifts = [upstream(c, "becoming_pinned") for c in choices.values()]
     span, choice = from_to(choices, shifts)
     return agreed([above(shift, EARLIER) for shift in shifts]), (
         f"Stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees); the place moves "
-        f"upstream by {number(moved(rows, 'stay_begins'))}° (earlier: more than {EARLIER:.0f}°), and "
+        f"upstream by {number(upstream(rows, 'stay_begins'))}° (earlier: more than {EARLIER:.0f}°), and "
         f"by {span}° with the {choice}. By the SI's sharp turns: {ends(rows, 'becoming_pinned')}.")
 
 
@@ -551,10 +558,6 @@ def resultants(rows, name):
 
 
 def free_fixed(folder):
-    def spread(rows, name):
-        path = unwrapped(rows, name)
-        return max(path, key=lambda a: a.mean) - min(path, key=lambda a: a.mean)
-
     rows, choices = angles(folder), by_choice(folder)
     spreads = [spread(c, "becoming_free") for c in choices.values()]
     same = [below(s, SAME_PLACE) for s in spreads]
@@ -575,20 +578,17 @@ def grows(rows):
 
 
 def earlier(rows):
-    path = unwrapped(rows, "stay_begins")
-    # Who runs clockwise is earlier at a larger θ.
-    shift = path[-1] - path[0]
+    shift = upstream(rows, "stay_begins")
     return above(shift, EARLIER), (
         f"stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees): the place moves "
         f"upstream by {number(shift)}° (earlier: more than {EARLIER:.0f}°)")
 
 
 def same_place(rows):
-    path = unwrapped(rows, "stay_ends")
-    low, high = min(path, key=lambda a: a.mean), max(path, key=lambda a: a.mean)
-    return below(high - low, SAME_PLACE), (
+    apart = spread(rows, "stay_ends")
+    return below(apart, SAME_PLACE), (
         f"stays at the wall end at θ = {ends(rows, 'stay_ends')} (degrees): over all N the place "
-        f"moves by {number(high - low)}° (the same place: within {SAME_PLACE:.0f}°)")
+        f"moves by {number(apart)}° (the same place: within {SAME_PLACE:.0f}°)")
 
 
 def left_of_M(folder):

@@ -234,7 +234,8 @@ def in_short(judged):
               (claims.UNDECIDED, "Undecided"))
     result = []
     for kind, heading in groups:
-        here = [(claim.says, "" if kind == claims.UNDECIDED else found) for claim, verdict, found in judged if verdict == kind]
+        here = [(claim.says, "" if kind == claims.UNDECIDED else found)
+                for claim, verdict, found in judged if verdict == kind]
         if here:
             result.append((heading, here))
     return result

@@ -91,9 +91,7 @@ std::string sign_changes_sentence(std::span<const RotationPoint> curve) {
         text += fmt::format("{} to {} at N = {}", &change == changes.data() ? ":" : ",",
                             change.to_counterrotation ? "counterrotation" : "rotation",
                             with_error(change.discs, change.error));
-    const RotationPoint* lowest = nullptr;
-    for (const RotationPoint& p : curve)
-        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
+    const RotationPoint* const lowest = lowest_of(curve);
     return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f}", text,
                        with_error(lowest->mean, lowest->error), lowest->discs);
 }

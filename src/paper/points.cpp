@@ -251,6 +251,20 @@ void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& 
     }
 }
 
+const RotationPoint* lowest_of(std::span<const RotationPoint> curve) {
+    const RotationPoint* lowest = nullptr;
+    for (const RotationPoint& p : curve)
+        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
+    return lowest;
+}
+
+static const RotationPoint* highest_of(std::span<const RotationPoint> curve) {
+    const RotationPoint* highest = nullptr;
+    for (const RotationPoint& p : curve)
+        if (std::isfinite(p.mean) && (!highest || p.mean > highest->mean)) highest = &p;
+    return highest;
+}
+
 std::string crossing_sentence(std::span<const RotationPoint> curve) {
     const Crossing crossing = find_crossing(curve);
     if (crossing.verdict == Crossing::Verdict::crosses)
@@ -259,11 +273,7 @@ std::string crossing_sentence(std::span<const RotationPoint> curve) {
                            crossing.upper);
     // The point that is nearest to the other sense.
     const bool counterrotates = crossing.verdict == Crossing::Verdict::always_counterrotates;
-    const RotationPoint* next = nullptr;
-    for (const RotationPoint& p : curve)
-        if (std::isfinite(p.mean) &&
-            (!next || (counterrotates ? p.mean > next->mean : p.mean < next->mean)))
-            next = &p;
+    const RotationPoint* const next = counterrotates ? highest_of(curve) : lowest_of(curve);
     if (!next) return "has no points";
     return fmt::format("{}; {} is ϖ/Ω = {} at N = {:.0f}",
                        crossing.verdict == Crossing::Verdict::undecided
@@ -278,9 +288,9 @@ void write_crossings(const std::vector<NamedCurve>& curves, const std::filesyste
                  "lowest_error", "lowest_discs"});
     for (const NamedCurve& curve : curves) {
         const Crossing c = find_crossing(curve.points);
-        RotationPoint lowest{not_known, not_known, not_known};
-        for (const RotationPoint& p : curve.points)
-            if (std::isfinite(p.mean) && !(p.mean >= lowest.mean)) lowest = p;
+        const RotationPoint* const known = lowest_of(curve.points);
+        const RotationPoint lowest =
+            known ? *known : RotationPoint{not_known, not_known, not_known};
         table.add({curve.name, std::string(verdict_word(c.verdict)), c.discs, c.error, c.lower,
                    c.upper, lowest.mean, lowest.error, lowest.discs});
     }

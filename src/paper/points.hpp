@@ -105,6 +105,9 @@ void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& 
 /// crossing looks at it.
 RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, const char* average);
 
+/// Null, if no point has a mean.
+const RotationPoint* lowest_of(std::span<const RotationPoint> curve);
+
 /// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or "always rotates" with the lowest
 /// point.
 std::string crossing_sentence(std::span<const RotationPoint> curve);
