@@ -34,7 +34,9 @@ class Dish {
           observation_times_(samples_per_period, config.period),
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
-          at_start_(budget_of(observed())) {}
+          at_start_(budget_of(observed())) {
+        if (snapshot_.are_balls()) snapshot_.turned.assign(snapshot_.size(), {});
+    }
 
     /// The last one that was passed.
     const Event& event() const { return passed_; }

@@ -264,7 +264,8 @@ EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t most) {
 
 /// The dish at a moment (between the last event and the next): time, swirls, clock, container's
 /// centre and velocity (4), its radius, the direction from S to C (2), N; then of every disc x, y,
-/// angle, spin, vx, vy, radius, 1 if it is pinned. In the lab frame.
+/// angle, spin, vx, vy, radius, 1 if it is pinned; then of every sphere the quaternion that takes
+/// its own axes to the lab's. In the lab frame.
 EXPORTED(frame) const double* frame(double time) {
     const Snapshot& s = dish->seen_at(time);
     const MFrame m = m_frame(s);
@@ -276,7 +277,16 @@ EXPORTED(frame) const double* frame(double time) {
         numbers.insert(numbers.end(), {at.x, at.y, s.orientation(i), s.spin[i], s.vx[i], s.vy[i],
                                        s.radius[i], dish->is_pinned(i) ? 1.0 : 0.0});
     }
+    if (!s.are_balls()) return numbers.data();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Quaternion q = s.quaternion(i);
+        numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
+    }
     return numbers.data();
+}
+/// How many numbers that frame has.
+EXPORTED(frame_size) std::uint32_t frame_size() {
+    return static_cast<std::uint32_t>(numbers.size());
 }
 
 namespace {

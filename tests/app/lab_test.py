@@ -12,6 +12,7 @@ import signal
 import socket
 import struct
 import subprocess
+import tempfile
 import unittest
 import zlib
 
@@ -66,7 +67,8 @@ engineOf(process.argv[1]).then((make) => {
                 answers.push(engine.out[name](...values));
             }
             const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
-            const frame = new Float64Array(engine.out.memory.buffer, seen, 11 + 8 * given.discs);
+            const frame = new Float64Array(engine.out.memory.buffer, seen,
+                                           seen ? engine.out.frame_size() : 0);
             said.push({
                 answers, frame: answers.length ? [...frame] : [],
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
@@ -208,6 +210,32 @@ class Laboratory(unittest.TestCase):
         for begin in range(0, len(frame), 8):
             discs.append(frame[begin:begin + 6])
         return discs, said["answers"]
+
+    def test_spheres_are_turned_as_in_a_recording(self):
+        given = {"preset": "experiment", "discs": "12", "seed": "4"}
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        recorded = os.path.join(folder, "frames.h5")
+        swirl("run", *options(given), "--periods", "2", "--warmup", "0", "--frames", "7",
+              "--trajectory", recorded, "--quiet")
+        swirl("export", recorded, "--to", "table", "--out", recorded + ".csv", "--quiet")
+        with open(recorded + ".csv", encoding="utf-8") as opened:
+            rows = list(csv.DictReader(opened))
+        frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
+        turned = 0.0
+        for frame in frames[1:10:4]:
+            time = float(frame[0]["time (r/v)"])
+            seen = self.engine([{"given": given, "events": 0,
+                                 "steps": [["advance_to", time, 10 ** 6]]}])["said"][0]["frame"]
+            self.assertEqual(len(seen), 11 + 12 * (8 + 4))
+            for i, sphere in enumerate(frame):
+                there = seen[11 + 12 * 8 + 4 * i:][:4]
+                here = [float(sphere[f"turned {axis}"]) for axis in "wxyz"]
+                # The moment of a frame is rounded to one of the page's clock: 1e-15 of some 20.
+                for a, b in zip(there, here, strict=True):
+                    self.assertAlmostEqual(a, b, delta=1e-12)
+                turned = max(turned, 1 - abs(here[0]))
+        self.assertGreater(turned, 0.5)  # or the test is one of spheres at rest
 
     def assert_same_discs(self, these, those):
         # Positions are shifted into the other dish and rounded, and a few collisions make ten times

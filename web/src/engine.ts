@@ -44,6 +44,7 @@ interface Exports {
     run_events(count: number): void;
     advance_to(time: number, most: number): number;
     frame(time: number): number;
+    frame_size(): number;
     event(): number;
     next_event(): number;
     time(): number;
@@ -71,9 +72,11 @@ export interface Crossing {
     upper: number | null;
 }
 
-/** What a frame begins with, and what follows for every disc. */
+/** What a frame begins with, and what follows for every disc; then, of spheres that can roll, how each is
+ *  turned: four numbers. */
 export const frameHead = 11;
 export const frameDisc = 8;
+export const frameTurn = 4;
 
 /** What the C library would ask of a system; a page has none, and 52 is its word for that. */
 const noSystem = new Proxy({}, {get: () => () => 52});
@@ -180,8 +183,7 @@ export class Engine {
     /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
     frame(time: number): Float64Array {
         const at = this.out.frame(time);
-        const discs = this.numbers(at, frameHead)[10] ?? 0;
-        return this.numbers(at, frameHead + frameDisc * discs);
+        return this.numbers(at, this.out.frame_size());
     }
     /** Of numbers that a call has left there. Only now is the memory's buffer asked for: a call may have
      *  made it grow, and then it is another one. */

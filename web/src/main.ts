@@ -181,7 +181,7 @@ function redraw(): void {
                                   omega: forces && !byHand ? 2 * Math.PI / Number(configuration["period"]) : 0,
                                   room: room(), turned, held});
         beside?.redraw();
-        const label = texts.dish(last.frame[10] ?? 0, texts.views[each]);
+        const label = texts.dish(counted(last.frame[10] ?? 0), texts.views[each]);
         if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
     }
 }
@@ -198,12 +198,18 @@ const plot = new uPlot({
     legend: {show: false},
 }, [[], [], []], byId("plot"));
 
+/** So many of what is in a dish of these parameters. */
+function counted(n: number, {preset, body, floor} = configuration): string {
+    const sphere = body === "sphere" || (preset === "experiment" && !body);
+    return texts.counted(n, texts.bodies[sphere ? "sphere" : floor === "sliding" ? "coin" : "disc"]);
+}
+
 function sentence(rotation: Rotation): string {
     if (byHand) return texts.handSays(turned.toFixed(2).replace("-", "−"));
     const discs = Number(configuration["discs"]);
     const {mean, error} = rotation.by_time;
-    if (mean === null || error === null || Math.abs(mean) < 2 * error) return texts.undecided(discs);
-    return mean > 0 ? texts.rotates(discs) : texts.counterrotates(discs);
+    if (mean === null || error === null || Math.abs(mean) < 2 * error) return texts.undecided(counted(discs));
+    return (mean > 0 ? texts.rotates : texts.counterrotates)(discs, counted(discs));
 }
 
 let averages: Rotation | undefined; // as they were shown last
@@ -280,7 +286,7 @@ function begin(events = 0): void {
     recording.stop();
     turned = 0;
     const discs = Number(given["discs"]);
-    byId("headline").textContent = discs >= manyDiscs ? texts.placing(discs) : "…";
+    byId("headline").textContent = discs >= manyDiscs ? texts.placing(counted(discs, asked())) : "…";
     byId("refusal").hidden = true;
     for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
     tell({kind: "begin", given: asked(), events});
@@ -314,43 +320,76 @@ function refuse(text: string): void {
 
 // --- controls ---------------------------------------------------------------------------------
 
-const fields: Record<string, {text: HTMLInputElement; slider?: HTMLInputElement}> = {};
+/** What a parameter is given by: text or a choice of words, and a slider beside it. */
+interface Field {
+    text: HTMLInputElement | HTMLSelectElement;
+    slider?: HTMLInputElement;
+}
+const fields: Record<string, Field> = {};
 
 function setGiven(values: Record<string, string>): void {
     given = {...values};
-    for (const [name, field] of Object.entries(fields)) showField(name, field);
+    showFields();
 }
 
-function showField(name: string, field: {text: HTMLInputElement; slider?: HTMLInputElement}): void {
-    const value = given[name] ?? "";
-    field.text.value = value;
-    const row = rows.find((each) => each.name === name);
-    if (field.slider) field.slider.value = value || row?.default || field.slider.value;
+function showField(name: string, field: Field): void {
+    const value = given[name] ?? "", holds = holding(name);
+    const isChoice = field.text instanceof HTMLSelectElement;
+    if (field.text instanceof HTMLInputElement) field.text.placeholder = holds;
+    const text = isChoice ? value || holds : value;
+    if (field.text.value.trim() !== text) field.text.value = text; // not what is being typed
+    if (field.slider) field.slider.value = value || holds || field.slider.value;
+}
+
+/** What holds where nothing is given: a preset has other values than the paper. */
+function holding(name: string): string {
+    const {mu_disc, mu_wall, [name]: configured} = configuration;
+    const both = name === "mu" && mu_disc === mu_wall ? mu_disc : undefined;
+    return configured ?? both ?? rows.find((row) => row.name === name)?.default ?? "";
+}
+
+function showFields(): void {
+    for (const [name, field] of Object.entries(fields)) showField(name, field);
 }
 
 const describe = ({name, description}: Parameter): string => texts.descriptions[name] ?? description;
 
+/** The words that a parameter can be, from how it is given: "none|sliding", "NUMBER|paper|solid". */
+const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z]+$/.test(word));
+
+/** Words alone are to choose from; words beside numbers are proposed. */
+function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]] {
+    const words = wordsOf(row);
+    if (words.length > 0 && words.length === row.form.split("|").length)
+        return [element("select", {id}, ...(words.includes(row.default) ? words : ["", ...words])
+            .map((word) => element("option", {value: word, textContent: word})))];
+    const text = element("input", {type: "text", id, spellcheck: false});
+    if (words.length === 0) return [text];
+    text.setAttribute("list", `${id}-words`);
+    return [text, element("datalist", {id: `${id}-words`},
+                          ...words.map((word) => element("option", {value: word})))];
+}
+
 function parameterRow(row: Parameter): HTMLElement {
     const id = `parameter-${row.name}`;
-    const text = element("input", {type: "text", id, placeholder: row.default, spellcheck: false});
-    const label = element("label", {htmlFor: id, title: describe(row)},
-                          row.symbol ? `${row.name} ${row.symbol}` : row.name);
+    const [text, ...proposed] = textField(row, id), [symbol, index] = row.symbol.split("_");
+    const label = element("label", {htmlFor: id, title: describe(row)}, row.name, " ",
+                          element("i", {}, symbol ?? "", element("sub", {textContent: index ?? ""})));
     text.title = describe(row) + (row.unit ? ` (${row.unit})` : "");
     text.addEventListener("input", () => {
         given[row.name] = text.value.trim();
-        if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || row.default;
+        if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || holding(row.name);
         changed();
     });
     const range = sliders[row.name];
     fields[row.name] = {text};
     if (!range) {
         text.className = "wide";
-        return element("div", {className: "row"}, label, text);
+        return element("div", {className: "row"}, label, text, ...proposed);
     }
     const [min, max, by] = range.map(String);
     const slider = element("input", {type: "range", min: min!, max: max!, step: by!});
     slider.setAttribute("aria-label", describe(row));
-    slider.value = row.default || "1";
     slider.addEventListener("input", () => {
         given[row.name] = text.value = slider.value;
         changed();
@@ -369,7 +408,7 @@ function layOutParameters(): void {
         "details", {open: k === 0},
         element("summary", {textContent: texts.groups[group] ?? group}),
         ...shown.filter((row) => row.group === group).map(parameterRow))));
-    for (const [name, field] of Object.entries(fields)) showField(name, field);
+    showFields();
 }
 
 const playButton = element("button", {type: "button", className: "main", id: "play"});
@@ -415,7 +454,7 @@ const recording = new Recording(() => canvases.lab ?? canvases.m);
 
 const besideButton = button(texts.beside, () => {
     const given = asked();
-    const name = [`${configuration["discs"]} ${texts.discs}`,
+    const name = [counted(Number(configuration["discs"])),
                   ...Object.entries(given).filter(([key]) => key !== "discs")
                       .map(([key, value]) => `${key} ${value}`)].join(", ");
     beside = new Beside(new EngineWorker(), engine, given, name, () => {
@@ -436,7 +475,12 @@ function choice<Value extends string>(name: string, options: Record<Value, strin
     return element("label", {}, `${name} `, select);
 }
 
+function sayColors(): void {
+    byId("colors").textContent = texts.colorMeans[coloring];
+}
+
 function layOutBar(): void {
+    sayColors();
     playButton.addEventListener("click", () => setPlaying(!playing));
     const speed = element("input", {type: "range", min: "-3", max: "1", step: "0.1",
                                     value: String(Math.log10(swirlsPerSecond)), id: "speed"});
@@ -461,7 +505,7 @@ function layOutBar(): void {
         button(texts.restart, () => begin(), "restart"),
         element("label", {}, `${texts.presets} `, preset),
         choice(texts.view, texts.views, view, (value) => { view = value; layOutViews(); }),
-        choice(texts.color, texts.colors, coloring, (value) => { coloring = value; redraw(); }),
+        choice(texts.color, texts.colors, coloring, (value) => { coloring = value; sayColors(); redraw(); }),
         element("label", {}, trailBox, ` ${texts.trails}`),
         element("label", {title: texts.forcesHow}, forcesBox, ` ${texts.forces}`),
         element("label", {title: texts.keepHow}, keepBox, ` ${texts.keep}`),
@@ -592,6 +636,7 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             break;
         case "begun":
             configuration = data.configuration;
+            showFields();
             allowBackwards();
             break;
         case "changed":
@@ -600,6 +645,7 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
                 break;
             }
             configuration = data.configuration;
+            showFields();
             startAnew();
             allowBackwards();
             break;

@@ -1,6 +1,7 @@
 // A frame on a canvas: in the laboratory, or in the M-frame, whose origin is the dish's centre and
 // whose −y axis points from the swirl's centre S to it.
-import {frameDisc, frameHead} from "./engine";
+import {drawBall, seenFrom, type Turn} from "./ball";
+import {frameDisc, frameHead, frameTurn} from "./engine";
 import {symbols} from "./texts";
 
 export type View = "lab" | "m";
@@ -62,6 +63,12 @@ export function discAt(f: Float64Array, x: number, y: number): number | undefine
     return undefined;
 }
 
+/** How sphere i is turned; of what cannot roll, nothing. */
+function turnOf(f: Float64Array, i: number): Turn | undefined {
+    const k = frameHead + frameDisc * f[10]! + frameTurn * i;
+    return k < f.length ? [f[k]!, f[k + 1]!, f[k + 2]!, f[k + 3]!] : undefined;
+}
+
 /** By how much the pack has turned about its centre of mass from one frame to a later one, in turns:
  *  the rigid rotation that moves the discs most nearly as they moved. */
 export function turnBetween(a: Float64Array, b: Float64Array): number {
@@ -102,6 +109,8 @@ function color(f: Float64Array, k: number, i: number, coloring: Coloring): strin
     return diverging(Math.hypot(vx, vy) - 1);
 }
 
+const smallestBall = 6; // pixels; of smaller ones no pattern is seen
+
 export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): void {
     const context = canvas.getContext("2d");
     if (!context) return;
@@ -141,10 +150,14 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i;
         const [x, y] = shown(frame, look.view, f[k]!, f[k + 1]!);
-        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle;
+        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle, turn = turnOf(f, i);
+        context.fillStyle = color(f, k, i, look.coloring);
+        if (turn && r * scale > smallestBall) {
+            drawBall(context, x, y, r, seenFrom(frameAngle, turn));
+            continue;
+        }
         context.beginPath();
         context.arc(x, y, r, 0, 2 * Math.PI);
-        context.fillStyle = color(f, k, i, look.coloring);
         context.fill();
         if (r * scale < 3) continue;
         context.lineWidth = Math.min(hair, 0.15 * r);

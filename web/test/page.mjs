@@ -135,6 +135,18 @@ await page.waitForFunction(
 await page.selectOption("#choose-View", "both");
 assert.equal(await page.locator("canvas:visible").count() >= 2, true);
 
+// Words are chosen; what a preset brings stands where nothing is given.
+await page.selectOption("#parameter-preset", "experiment");
+await page.waitForSelector('canvas[aria-label^="48 spheres"]');
+await page.waitForFunction(() => document.getElementById("parameter-body").value === "sphere");
+assert.equal(await page.inputValue("#parameter-restitution"), "");
+assert.equal(await page.getAttribute("#parameter-restitution", "placeholder"), "0.9");
+await page.selectOption("#parameter-body", "disc");
+await page.waitForSelector('canvas[aria-label^="48 coins"]');
+await page.selectOption("#parameter-preset", "");
+await page.selectOption("#parameter-body", "sphere");
+await page.waitForSelector('canvas[aria-label^="48 spheres"]');
+
 // What cannot be is said in a sentence, and mended.
 await page.fill("#parameter-discs", "1000");
 await page.waitForFunction(() => !document.getElementById("refusal").hidden);

@@ -98,6 +98,32 @@ try {
     assert.equal(discAt(frame(pack), 2.5, 0.5), 1);
     assert.equal(discAt(frame(pack), 2.9, 0.9), undefined);
 
+    // The eight octants of a ball, however it is turned, cover what is seen of it, and nothing twice.
+    const {seenFrom, turnedBy, visiblePart} = await load("ball");
+    const areaOf = (outline) => outline.reduce((sum, [x, y], k) => {
+        const [u, v] = outline[(k + 1) % outline.length];
+        return sum + 0.5 * (x * v - y * u);
+    }, 0);
+    const edge = (from, to) => Array.from({length: 200}, (_, k) => from.map(
+        (x, axis) => x * Math.cos(Math.PI * k / 400) + to[axis] * Math.sin(Math.PI * k / 400)));
+    for (const raw of [[1, 0, 0, 0], [1, 1, 1, 1], [1, 2, 3, 4], [0.3, -1, 0.2, 0.7], [1, 1e-3, 0, 0]]) {
+        const turn = raw.map((x) => x / Math.hypot(...raw));
+        let seen = 0;
+        for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) {
+            const corners = [[x, 0, 0], [0, y, 0], [0, 0, z]];
+            const outline = corners.flatMap((corner, k) => edge(corner, corners[(k + 1) % 3]));
+            seen += Math.abs(areaOf(visiblePart(outline.map((point) => turnedBy(turn, point)))));
+        }
+        // A limb of five straight pieces to an eighth of a turn or more is short of the circle by at most
+        // a sixth of (π/2/5)², and nothing else is cut off.
+        assert.ok(seen < Math.PI * (1 + 1e-12) && seen > Math.PI * (1 - 0.1 / 6), `${seen} for ${turn}`);
+    }
+    const [q0, q1] = [0, 0.3].map((angle) => turnedBy(
+        seenFrom(angle, [0.5, 0.5, 0.5, 0.5]), [0.6, 0, 0.8]));
+    assert.ok(Math.abs(q1[0] - (q0[0] * Math.cos(0.3) + q0[1] * Math.sin(0.3))) < 1e-15);
+    assert.ok(Math.abs(q1[1] - (q0[1] * Math.cos(0.3) - q0[0] * Math.sin(0.3))) < 1e-15);
+    assert.deepEqual(turnedBy([0.5, 0.5, 0.5, 0.5], [1, 0, 0]), [0, 1, 0]); // x to y, y to z, z to x
+
     const {xyz, positionsOf, Frames} = await load("recording");
     const lines = xyz(frame([[1, 2], [3, 4, 0.5]], {time: 7.5})).split("\n");
     assert.equal(lines[0], "2");

@@ -1,0 +1,27 @@
+// The picture of docs/lab.md and the README: node picture.mjs FILE.html CHROMIUM FILE.png. The paper's 48 discs,
+// and 36 of the experiment's spheres kept beside, after some fifty swirls; how many depends on the machine.
+import {pathToFileURL} from "node:url";
+import {chromium} from "playwright-core";
+
+const [file, executablePath, picture] = process.argv.slice(2);
+const swirls = 50;
+
+const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu"]});
+const page = await browser.newPage({viewport: {width: 1280, height: 760}});
+await page.goto(`${pathToFileURL(file).href}?preset=experiment&discs=36`);
+await page.waitForSelector('canvas[aria-label^="36 spheres"]');
+await page.evaluate(() => { // swirls a second
+    const speed = document.getElementById("speed");
+    speed.value = "0.7";
+    speed.dispatchEvent(new Event("input"));
+});
+await page.click("#keep-beside");
+await page.selectOption("#choose-preset", {index: 1});
+await page.waitForSelector('canvas[aria-label^="48 discs"]');
+await page.waitForFunction((wanted) => Number(
+    document.querySelector("#estimates dd:nth-of-type(3)")?.textContent) > wanted, swirls, {timeout: 120_000});
+await page.click("#play");
+await page.waitForTimeout(500);
+await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
+await page.screenshot({path: picture});
+await browser.close();
