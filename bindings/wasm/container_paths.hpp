@@ -7,14 +7,18 @@
 
 namespace swirl {
 
+/// Of a container that is swirled by hand, which has none: long enough.
+inline constexpr double no_period = 1e6;
+
 /// Straight to a point, and there it waits to be told where next. At rest at once: that is a
 /// corner, as all others.
 inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
-    constexpr double long_enough = 1e6;  // periods of a container without any
-    return {long_enough,
+    return {no_period,
             {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},
-             {duration, long_enough, to, {0.0, 0.0}, 0.0}}};
+             {duration, no_period, to, {0.0, 0.0}, 0.0}}};
 }
+
+inline bool is_by_hand(const ContainerPath& path) { return path.period == no_period; }
 
 /// The same path, counted from a moment of its swirl.
 inline ContainerPath path_from(const ContainerPath& path, double clock) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +14,8 @@
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
-#include "swirl/run/budget.hpp"
+#include "swirl/run/bare_run.hpp"
 #include "swirl/run/config.hpp"
-#include "swirl/run/run.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
@@ -26,27 +26,25 @@ class Dish {
   public:
     Dish(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
         : config_(config),
-          path_(begin.path),
-          simulation_(begin),
-          snapshot_(simulation_.snapshot()),
-          seen_(snapshot_),
-          rotation_times_(rotation_samples, config.period),
-          observation_times_(samples_per_period, config.period),
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
-          at_start_(budget_of(observed())) {
-        if (snapshot_.are_balls()) snapshot_.turned.assign(snapshot_.size(), {});
+          run_(with_warmup(config), begin, measured_.empty() ? nullptr : &observation_),
+          seen_(run_.kept_snapshot()),
+          pinned_times_(samples_per_period, config.period) {
+        run_.follow_orientations();
     }
+    Dish(const Dish&) = delete;
+    Dish& operator=(const Dish&) = delete;
 
     /// The last one that was passed.
     const Event& event() const { return passed_; }
     /// The one to come. Nothing is executed for it: hash and counts stay those of the last one.
     Event next_event() const {
-        if (found_) return event_;
-        InitialState state = without_discs(config_, path_);
-        for (std::uint32_t i = 0; i < snapshot_.size(); ++i)
-            state.discs.push_back(simulation_.disc(i));
-        return Simulation(state, simulation_.progress()).step();
+        if (found_) return run_.event();
+        InitialState state = without_discs(config_, path());
+        for (std::uint32_t i = 0; i < simulation().size(); ++i)
+            state.discs.push_back(simulation().disc(i));
+        return Simulation(state, simulation().progress()).step();
     }
     /// An event that was found is passed, so that averages, counts and state are of the same
     /// moment.
@@ -59,73 +57,67 @@ class Dish {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.knows() && found.pinned()[i] != 0;
     }
-    const Simulation& simulation() const { return simulation_; }
+    const Simulation& simulation() const { return run_.simulation(); }
     const RunConfig& config() const { return config_; }
-    const ContainerPath& path() const { return path_; }
+    const ContainerPath& path() const { return run_.path(); }
     /// The names that are measured.
     const std::vector<std::string>& measured() const { return measured_; }
-    const ClusterRotation& in_warmup() const { return in_warmup_; }
-    const ClusterRotation& rotation() const { return rotation_; }
+    const ClusterRotation& rotation_in_warmup() { return run_.rotation_in_warmup(); }
+    const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
 
     /// As a run of the command line that ended with the last event would have it, but for the time
-    /// that it took. None is found beyond that one (settle).
+    /// that it took. Nothing is said of a warm-up that has not ended. No event is found beyond the
+    /// last one (settle).
     RunResult result() {
-        RunResult r;
+        RunResult r = run_.result();
         r.config = config_;
-        r.events = simulation_.events();
         r.config.events = static_cast<std::int64_t>(r.events.total());
         r.complete = true;
-        r.periods = periods();
-        r.warmup = left_out_;
-        r.warmup_events = left_out_events_;
-        r.rotation = rotation_.estimates();
-        r.steady = find_steady_state(rotation_.by_event().block_means());
-        r.steady_spin = find_steady_state(spin_.series().block_means());
-        r.max_overlap = max_overlap_;
-        const Budget end = budget_of(observed());
-        r.energy_at_start = at_start_.energy;
-        r.invariant_at_start = at_start_.invariant;
-        r.energy = end.energy;
-        r.invariant = end.invariant;
-        r.state_hash = simulation_.state_hash();
+        if (!run_.is_warm()) {
+            r.rotation = {};
+            r.steady = r.steady_spin = {};
+        }
         return r;
     }
 
+    /// In the words of a run of the command line, which would end here; from then on there are no
+    /// more events.
+    const std::optional<std::string>& trouble() const { return trouble_; }
+    /// The same, if this is the end.
+    std::optional<std::string> trouble_at_the_end() const {
+        return trouble_ || is_by_hand(path()) ? trouble_ : run_.trouble_at_the_end();
+    }
+
     void step() {
-        if (!found_) find();
-        pass();
+        if (find()) pass();
     }
 
     /// All events up to a moment, but no more than `most`; says whether it has come to that moment.
     bool advance_to(double time, std::uint32_t most) {
-        for (;;) {
-            if (!found_) find();
-            if (time_of(event_) > time) return true;
+        while (find()) {
+            if (time_of(run_.event()) > time) return true;
             if (most-- == 0) return false;
             pass();
         }
+        return false;
     }
 
     /// The dish at a moment between the last event and the next.
     const Snapshot& seen_at(double time) {
-        seen_ = snapshot_;
+        seen_ = run_.kept_snapshot();
         const double clock = time - static_cast<double>(seen_.swirls) * config_.period;
         // The samples may have moved the snapshot on towards the next event.
         seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
-        const Leg& leg = path_.leg_at(seen_.clock);
+        const Leg& leg = path().leg_at(seen_.clock);
         seen_.container_centre = leg.position_at(seen_.clock);
         seen_.container_velocity = leg.velocity_at(seen_.clock);
         return seen_;
     }
     /// Of the last event that was passed.
     double time() const {
-        return static_cast<double>(snapshot_.swirls) * config_.period + passed_clock_;
-    }
-
-    double periods() const {
-        return static_cast<double>(snapshot_.swirls) + passed_clock_ / config_.period;
+        return static_cast<double>(run_.kept_snapshot().swirls) * config_.period + passed_clock_;
     }
 
     /// What another dish begins with whose discs are where they are at this moment, as seen from
@@ -148,71 +140,44 @@ class Dish {
     double time_of(const Event& event) const {
         return static_cast<double>(event.swirls) * config_.period + event.clock;
     }
-    /// Spheres brought up to date, as a run shows them: an observer takes it that nobody is
-    /// accelerated.
-    const Snapshot& observed() {
-        if (!snapshot_.are_spheres()) return snapshot_;
-        snapshot_.up_to_date(dated_);
-        return dated_;
+    /// A page's dish has no length of which the warm-up could be a part.
+    static RunConfig with_warmup(RunConfig config) {
+        config.warmup = config.warmup.value_or(default_warmup);
+        config.warmup_found = false;
+        return config;
     }
-    bool counts() const { return snapshot_.swirls >= warmup(); }
-    ClusterRotation& rotation_now() { return counts() ? rotation_ : in_warmup_; }
 
-    void find() {
-        event_ = simulation_.step();
+    /// Finds the event to come, unless it is found; false where there is none.
+    bool find() {
+        if (found_) return true;
+        // By hand there is no swirl to go by.
+        if (!trouble_ && run_.is_time_to_look() && !is_by_hand(path())) trouble_ = run_.trouble();
+        if (trouble_) return false;
+        run_.find_event();
         found_ = true;
-        while (rotation_times_.next(snapshot_, path_, event_.clock)) {
-            rotation_now().sample_by_time(snapshot_);
-            if (counts()) spin_.add(mean_spin(snapshot_));
-        }
         // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
-        if (measured_.empty()) return;
-        const bool watched = observes();
-        while (observation_times_.next(snapshot_, path_, event_.clock)) {
-            const Snapshot& now = observed();
-            pinned_.sample(now);
-            if (watched) observation_.sample(now);
-        }
+        if (!measured_.empty())
+            while (run_.next_sample(pinned_times_)) pinned_.sample(run_.snapshot());
+        return true;
     }
     void pass() {
+        run_.pass_event();
         found_ = false;
-        passed_ = event_;
-        ClusterRotation& rotation = rotation_now();
-        const bool watched = observes();
-        simulation_.refresh(snapshot_, event_);
-        passed_clock_ = snapshot_.clock;
-        rotation.follow(snapshot_, event_);
-        rotation.sample(snapshot_);
-        max_overlap_ = std::max(max_overlap_, event_.overlap);
-        if (watched) observation_.sample(event_, observed());
-        if (snapshot_.swirls == event_.swirls) return;
-        if (&rotation == &rotation_) spin_.close_block();
-        rotation.close_block();
-        if (watched) observation_.close_block();
-        if (snapshot_.swirls != warmup()) return;
-        left_out_ = warmup();
-        left_out_events_ = simulation_.events();
+        passed_ = run_.event();
+        passed_clock_ = run_.kept_snapshot().clock;
     }
-    bool observes() const { return counts() && !observation_.empty(); }
 
     const RunConfig config_;
-    const ContainerPath path_;
-    Simulation simulation_;
-    Snapshot snapshot_, seen_, dated_;
-    Event event_{}, passed_{};
+    std::vector<std::string> measured_;
+    Observation observation_;
+    BareRun run_;
+    Snapshot seen_;
+    Event passed_{};
+    SampleTimes pinned_times_;
     PinnedFrames pinned_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed
-    /// What no average has seen: nothing is said of it before it has ended.
-    std::int64_t left_out_ = 0;  // swirls
-    EventCounts left_out_events_;
-    SampleTimes rotation_times_, observation_times_;
-    ClusterRotation in_warmup_, rotation_;
-    std::vector<std::string> measured_;
-    Observation observation_;
-    BlockMean spin_;  // of the discs, after the warm-up
-    double max_overlap_ = 0.0;
-    Budget at_start_;
+    std::optional<std::string> trouble_;
 };
 
 }  // namespace swirl

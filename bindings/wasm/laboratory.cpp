@@ -253,13 +253,20 @@ EXPORTED(configuration) std::uint32_t configuration() {
     return answer(lines);
 }
 
+/// None where there is trouble, and none after it.
 EXPORTED(run_events) void run_events(std::uint32_t count) {
     for (std::uint32_t k = 0; k < count; ++k) dish->step();
 }
 
-/// 1: it has come there; 0: there are more events before.
+/// 1: it has come there; 0: there are more events before, or trouble.
 EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t most) {
     return dish->advance_to(time, most);
+}
+
+/// The sentence with which a run of the command line would have ended here, if it is the end (1) or
+/// not (0); nothing for a sound run.
+EXPORTED(trouble) std::uint32_t trouble(std::uint32_t at_the_end) {
+    return answer((at_the_end ? dish->trouble_at_the_end() : dish->trouble()).value_or(""));
 }
 
 /// The dish at a moment (between the last event and the next): time, swirls, clock, container's
@@ -316,10 +323,11 @@ EXPORTED(state_hash) std::uint64_t state_hash() { return dish->simulation().stat
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = dish->rotation().estimates();
     std::string blocks;
-    for (const ClusterRotation* part : {&dish->in_warmup(), &dish->rotation()})
+    for (const ClusterRotation* part : {&dish->rotation_in_warmup(), &dish->rotation()})
         for (const double mean : part->by_time().block_means())
             blocks += (blocks.empty() ? "" : ",") + number(mean);
-    const BlockSeries &before = dish->in_warmup().by_time(), &after = dish->rotation().by_time();
+    const BlockSeries &before = dish->rotation_in_warmup().by_time(),
+                      &after = dish->rotation().by_time();
     return answer(fmt::format(
         R"({{"by_event":{},"by_time":{},"warmup":{},"warmup_blocks":{},"swirls_per_block":[{},{}],)"
         R"("blocks":[{}]}})",

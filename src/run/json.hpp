@@ -7,7 +7,7 @@
 #include <string>
 
 #include "swirl/run/parameters.hpp"
-#include "swirl/run/run.hpp"
+#include "swirl/run/result.hpp"
 
 namespace swirl {
 

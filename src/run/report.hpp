@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "swirl/run/run.hpp"
+#include "swirl/run/result.hpp"
 
 namespace swirl {
 

@@ -2,7 +2,6 @@
 // a crossing) is made of runs.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -10,52 +9,14 @@
 #include <optional>
 #include <string>
 
-#include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/sample_times.hpp"
-#include "swirl/measure/statistics.hpp"
-#include "swirl/physics/container_path.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
+#include "swirl/run/bare_run.hpp"
 #include "swirl/run/config.hpp"
-#include "swirl/simulation/simulation.hpp"
+#include "swirl/run/result.hpp"
 
 namespace swirl {
-
-class Observation;
-
-struct RunResult {
-    RunConfig config;
-    bool complete = false;      // false: stopped before its end
-    EventCounts events;         // all of them, warm-up included
-    double periods = 0.0;       // swirls simulated, warm-up included
-    std::int64_t warmup = 0;    // whole swirls left out
-    EventCounts warmup_events;  // the events in them
-    /// In units of Ω, lab frame, over whole swirls; by_event is the paper's average. Without a
-    /// whole swirl after the warm-up nothing is averaged, and all is NaN.
-    RotationEstimates rotation;
-    SteadyState steady;        // of the rotation by event, after the warm-up
-    SteadyState steady_spin;   // of the mean spin of the discs, which may take much longer
-    double max_overlap = 0.0;  // largest overlap met at a contact: a rounding error
-    /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
-    double energy_at_start = 0.0, energy = 0.0;
-    /// K − ΩL, L about the swirl centre, spins included: conserved on the exact circle when there
-    /// is no friction (docs/physics.md).
-    double invariant_at_start = 0.0, invariant = 0.0;
-    std::uint64_t state_hash = 0;
-    double seconds = 0.0;
-
-    /// Steady if both are, drifting if either is.
-    SteadyState::Verdict steady_state() const {
-        using Verdict = SteadyState::Verdict;
-        for (const Verdict v : {Verdict::drifting, Verdict::too_short})
-            if (steady.verdict == v || steady_spin.verdict == v) return v;
-        return Verdict::steady;
-    }
-    bool has_whole_swirl() const { return rotation.by_event.blocks > 0; }
-    double events_per_second() const {
-        return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
-    }
-};
 
 struct RunProgress {
     double fraction;       // of the run
@@ -106,26 +67,22 @@ class Run {
     /// Failure when time all but stands still.
     bool next_event();
     /// Puts the snapshot to the next of these moments, if one is left up to the event.
-    bool next_sample(SampleTimes& times) { return times.next(snapshot_, path_, event_.clock); }
+    bool next_sample(SampleTimes& times) { return run_.next_sample(times); }
     /// Puts the snapshot behind the event; once for each.
-    void pass_event();
+    void pass_event() { run_.pass_event(); }
 
-    const Event& event() const { return event_; }
+    const Event& event() const { return run_.event(); }
     /// Spheres brought up to date: an observer may take it that nobody is accelerated.
-    const Snapshot& snapshot() {
-        if (!snapshot_.are_spheres()) return snapshot_;
-        snapshot_.up_to_date(dated_);
-        return dated_;
-    }
+    const Snapshot& snapshot() { return run_.snapshot(); }
 
     /// k T / per_period from the beginning on; or k · interval, if that is above 0.
     SampleTimes sample_times(int per_period, double interval = 0.0) const {
         return {per_period, config_.period, interval};
     }
 
-    bool complete() const;
+    bool complete() const { return run_.complete(); }
     /// Whether the warm-up is over, and what is seen counts.
-    bool is_warm() const { return warm_; }
+    bool is_warm() const { return run_.is_warm(); }
     /// A run that goes on from the state of a shorter one has the bits of a run that was as long
     /// from the beginning, but not always its averages: says what they would lack.
     std::optional<std::string> trouble_with_length(const RunConfig& shorter) const;
@@ -139,49 +96,15 @@ class Run {
     using Clock = std::chrono::steady_clock;
 
     double seconds() const;
-    double periods() const;
-    double fraction() const;
-    bool observes() const { return warm_ && control_.observation; }
-    /// How far the run was at some time.
-    struct Mark {
-        std::uint64_t events;
-        double periods;
-    };
-    Mark now() const;
     bool look_up();
-    void refuse_overlaps() const;
-    void refuse_collapse_since(const Mark& mark) const;
-    void refuse_collapse_lately() const;
-    std::uint64_t collapse_window() const;
-    std::string reason_for_collapse() const;
-    void sample_rotation_by_event();
-    void begin_period();
-    bool warm_now();
-    bool found_warm();
-    ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
-    BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
     template <class Visitor>
     void fields(Visitor&& visit);
 
     const RunConfig config_;
     const RunControl control_;
-    const ContainerPath path_;
-    Simulation simulation_;
-    Snapshot snapshot_, dated_;
-    Event event_;
-    SampleTimes rotation_times_, observation_times_;
-    int events_to_look_up_;        // until stop, progress and collapse are thought of again
-    Mark mark_;                    // the last time that a collapse was looked for
-    std::array<Mark, 2> lately_;   // some hundreds of events ago, and fewer
+    BareRun run_;
     double seconds_before_ = 0.0;  // by the runs that this one resumes
     Clock::time_point begin_ = Clock::now(), last_report_ = begin_;
-    /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
-    ClusterRotation in_warmup_, after_warmup_;
-    BlockMean spin_in_warmup_, spin_after_;
-    std::int64_t next_question_;  // at this swirl: warm?
-    bool warm_;
-    bool rotation_is_sampled_ = true;  // after the last event
-    RunResult result_;
 };
 
 /// From the beginning to the end.

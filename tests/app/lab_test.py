@@ -74,6 +74,7 @@ engineOf(process.argv[1]).then((make) => {
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 result: JSON.parse(engine.answer(engine.out.result())),
+                trouble: engine.answer(engine.out.trouble(1)),
                 asked: engine.asked});
         } catch (error) {
             said.push({refused: error.message});
@@ -191,6 +192,22 @@ class Laboratory(unittest.TestCase):
                 rotation = said["rotation"]
                 self.assertEqual([rotation["warmup_blocks"], rotation["swirls_per_block"],
                                   len(rotation["blocks"])], blocks)
+
+    def test_a_dish_in_trouble_says_so_at_the_event_and_in_the_words_of_the_command_line(self):
+        collapsing = {"discs": 48, "restitution": 0.5, "contact_duration": 0}
+        # On the way, at the end of what was asked for, and not yet; then rounding errors.
+        troubles = []
+        for scene, events in ((collapsing, 300000), (collapsing, 100000), (collapsing, 2000),
+                              ({"discs": 5, "radius": 1e-6, "container_radius": 0.001,
+                                "amplitude": 100000}, 3000)):
+            with self.subTest(scene, events=events):
+                given = {key: str(value) for key, value in scene.items()}
+                there = self.engine([{"given": given, "events": events}])["said"][0]
+                here = swirl("run", *options(scene), "--events", str(events), "--quiet", check=False)
+                self.assertEqual(here.returncode, 1 if there["trouble"] else 0, here.stderr)
+                self.assertIn(there["trouble"], here.stderr)
+                troubles.append(there["trouble"][:9])
+        self.assertEqual(troubles, ["The last ", "The last ", "", "After 0.0"])
 
     def test_the_event_to_come_is_the_one_that_comes_and_changes_nothing(self):
         given = {"discs": "28", "seed": "2"}

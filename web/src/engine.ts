@@ -43,6 +43,7 @@ interface Exports {
     configuration(): number;
     run_events(count: number): void;
     advance_to(time: number, most: number): number;
+    trouble(atTheEnd: number): number;
     frame(time: number): number;
     frame_size(): number;
     event(): number;
@@ -179,6 +180,10 @@ export class Engine {
     }
     advanceTo(time: number, most: number): boolean {
         return this.out.advance_to(time, most) === 1;
+    }
+    /** The sentence with which a run of the command line would have ended here; empty if it is sound. */
+    trouble(atTheEnd: boolean): string {
+        return this.answer(this.out.trouble(Number(atTheEnd)));
     }
     /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
     frame(time: number): Float64Array {

@@ -129,9 +129,6 @@ export const texts = {
 
 /** What the engine's worker says: apart, so that it need not carry the page's texts. */
 export const workerTexts = {
-    collapse: "Time all but stands still: discs that lie pressed together collide ever " +
-        "faster, and the model has no state after that (a collapse). Another seed may not " +
-        "meet it; with a restitution below 1 a longer contact_duration keeps them apart.",
     stopped: (error: string): string => `The engine stopped: ${error}. Reload the page.`,
     tooMany: (discs: string, most: number): string => `${discs} discs are too many for a page, which ` +
         `takes ${most} at most; the command line has no such limit: ./swirl run --discs ${discs}.`,

@@ -1,5 +1,4 @@
 // The engine at work, beside the page so that the page never waits for it.
-import {betweenLooks, CollapseWatch} from "./collapse";
 import {Engine, Refusal} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
 import {workerTexts} from "./texts";
@@ -16,7 +15,6 @@ let engine: Engine | undefined;
 let now = 0; // the moment that is shown
 let period = 1;
 let lastAverages = 0;
-let watch: CollapseWatch | undefined; // of the engine's dish, whenever that is a new one
 let change: Record<string, string> | undefined; // waits for the end of the swirl
 
 const say = (message: FromWorker): void => postMessage(message);
@@ -27,12 +25,10 @@ function refuse(error: unknown): void {
         workerTexts.stopped(String(error))});
 }
 
-function refuseCollapse(collapsed: boolean): void {
-    if (collapsed) throw new Refusal(workerTexts.collapse);
-}
-
-function newWatch(dish: Engine, configuration: Record<string, string>): CollapseWatch {
-    return new CollapseWatch(dish, Number(configuration["period"]), Number(configuration["discs"]));
+/** Nothing is shown of a dish that the command line would end with a sentence. */
+function refuseTrouble(dish: Engine, atTheEnd: boolean): void {
+    const sentence = dish.trouble(atTheEnd);
+    if (sentence) throw new Refusal(sentence);
 }
 
 function show(single = false): void {
@@ -56,17 +52,17 @@ function dishOf(module: WebAssembly.Module, given: Record<string, string>): Engi
     return dish;
 }
 
-/** So many events, unless the dish collapses before; says on the way how far it has come. */
-function run(dish: Engine, watch: CollapseWatch, events: number): void {
+/** So many events; says on the way how far it has come. */
+function run(dish: Engine, events: number): void {
     let said = performance.now();
-    for (let done = 0; done < events; done += betweenLooks) {
-        dish.runEvents(Math.min(betweenLooks, events - done));
-        refuseCollapse(watch.look());
+    for (let done = 0; done < events; done += eventsAtOnce) {
+        dish.runEvents(Math.min(eventsAtOnce, events - done));
+        refuseTrouble(dish, false);
         if (performance.now() - said < betweenAverages) continue;
         said = performance.now();
-        say({kind: "progress", done: Math.min(done + betweenLooks, events), all: events});
+        say({kind: "progress", done: Math.min(done + eventsAtOnce, events), all: events});
     }
-    refuseCollapse(watch.lookAtTheEnd());
+    refuseTrouble(dish, true);
 }
 
 function begin(given: Record<string, string>, events: number): void {
@@ -77,9 +73,8 @@ function begin(given: Record<string, string>, events: number): void {
     change = undefined;
     const configuration = engine.configuration();
     period = Number(configuration["period"]);
-    watch = newWatch(engine, configuration);
     say({kind: "begun", configuration});
-    run(engine, watch, events);
+    run(engine, events);
     now = engine.time;
     show(events > 0);
 }
@@ -93,7 +88,7 @@ function advance(dish: Engine, target: number): boolean {
     let arrived = false;
     do {
         arrived = dish.advanceTo(target, eventsAtOnce);
-        refuseCollapse(watch?.look() ?? false);
+        refuseTrouble(dish, false);
     } while (!arrived && performance.now() < deadline);
     return arrived;
 }
@@ -124,7 +119,6 @@ function goOn(given: Record<string, string>): void {
     if (kept) {
         now = 0;
         period = Number(configuration["period"]);
-        watch = newWatch(engine, configuration);
     }
     say({kind: "changed", kept, configuration});
 }
@@ -133,7 +127,6 @@ function steer(x: number, y: number, duration: number): void {
     if (!engine) return;
     engine.steer(now, x, y, duration);
     period = Number.POSITIVE_INFINITY;
-    watch = undefined; // no swirl to go by
     now = advance(engine, duration) ? duration : engine.time;
     show();
 }
@@ -141,7 +134,7 @@ function steer(x: number, y: number, duration: number): void {
 function reverse(): void {
     if (!engine) return;
     const done = engine.reverse(now);
-    if (done) [now, watch] = [0, newWatch(engine, engine.configuration())];
+    if (done) now = 0;
     say({kind: "reversed", done});
     show();
 }
@@ -149,7 +142,7 @@ function reverse(): void {
 function drag(disc: number, x: number, y: number): void {
     if (!engine) return;
     engine.drag(now, disc, x, y);
-    [now, watch] = [0, newWatch(engine, engine.configuration())];
+    now = 0;
     show();
 }
 
@@ -168,10 +161,8 @@ function point(given: Record<string, string>, swirls: number): void {
     if (!module) return;
     const dish = dishOf(module, given), configuration = dish.configuration();
     const end = (swirls + dish.rotation().warmup) * Number(configuration["period"]);
-    const ofPoint = newWatch(dish, configuration);
-    let collapsed = false;
-    while (!collapsed && !dish.advanceTo(end, betweenLooks)) collapsed = ofPoint.look();
-    collapsed ||= ofPoint.lookAtTheEnd();
+    while (!dish.advanceTo(end, eventsAtOnce) && !dish.trouble(false));
+    const collapsed = dish.trouble(true) !== "";
     say({kind: "point", rotation: dish.rotation().by_time, collapsed});
 }
 

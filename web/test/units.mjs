@@ -148,25 +148,6 @@ try {
     assert.deepEqual(swirlsOf(long), [2, 4, 9, 13]);
     assert.deepEqual(meansOf(long), [null, null, 3, 4]);
 
-    const {CollapseWatch} = await load("collapse");
-    /** When a dish is found collapsed whose time stands still after so many events; and at the end. */
-    const found = (discs, stands, end) => {
-        const dish = {events: 0, time: 0}, watch = new CollapseWatch(dish, 12, discs);
-        while (dish.events < end) {
-            dish.events += 250;
-            if (dish.events <= stands) dish.time += 0.01;
-            if (watch.look()) return dish.events;
-        }
-        return watch.lookAtTheEnd() ? "at the end" : "never";
-    };
-    assert.equal(found(48, Infinity, 1e6), "never");
-    assert.equal(found(48, 0, 1e6), 20_000);
-    assert.equal(found(48, 100_000, 1e6), 120_000);
-    assert.equal(found(48, 100_000, 105_000), "at the end");
-    assert.equal(found(48, 100_000, 101_000), "at the end");
-    assert.equal(found(48, 100_000, 100_250), "never"); // too few to tell
-    assert.equal(found(2000, 0, 1e6), 400_000);
-
     const {withError} = await load("page");
     assert.equal(withError(-0.0412, 0.0013, "?"), "−0.0412 ± 0.0013");
     assert.equal(withError(0.5, 0.04, "?"), "0.500 ± 0.040");

@@ -1,0 +1,47 @@
+// What a run has found, as every way to it tells it: the terminal, JSON, Python, a page.
+#pragma once
+
+#include <cstdint>
+
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/simulation/simulation.hpp"
+
+namespace swirl {
+
+struct RunResult {
+    RunConfig config;
+    bool complete = false;      // false: stopped before its end
+    EventCounts events;         // all of them, warm-up included
+    double periods = 0.0;       // swirls simulated, warm-up included
+    std::int64_t warmup = 0;    // whole swirls left out
+    EventCounts warmup_events;  // the events in them
+    /// In units of Ω, lab frame, over whole swirls; by_event is the paper's average. Without a
+    /// whole swirl after the warm-up nothing is averaged, and all is NaN.
+    RotationEstimates rotation;
+    SteadyState steady;        // of the rotation by event, after the warm-up
+    SteadyState steady_spin;   // of the mean spin of the discs, which may take much longer
+    double max_overlap = 0.0;  // largest overlap met at a contact: a rounding error
+    /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
+    double energy_at_start = 0.0, energy = 0.0;
+    /// K − ΩL, L about the swirl centre, spins included: conserved on the exact circle when there
+    /// is no friction (docs/physics.md).
+    double invariant_at_start = 0.0, invariant = 0.0;
+    std::uint64_t state_hash = 0;
+    double seconds = 0.0;
+
+    /// Steady if both are, drifting if either is.
+    SteadyState::Verdict steady_state() const {
+        using Verdict = SteadyState::Verdict;
+        for (const Verdict v : {Verdict::drifting, Verdict::too_short})
+            if (steady.verdict == v || steady_spin.verdict == v) return v;
+        return Verdict::steady;
+    }
+    bool has_whole_swirl() const { return rotation.by_event.blocks > 0; }
+    double events_per_second() const {
+        return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
+    }
+};
+
+}  // namespace swirl
