@@ -5,6 +5,7 @@
 #include <map>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/vision/mean_ball.hpp"
 
@@ -134,16 +135,18 @@ double contact_distance(const std::vector<Spot>& spots, const std::vector<Circle
 /// The limbs' own places and sizes with that blur.
 std::vector<CircleFit> exact_fits(const std::vector<Picture>& pictures,
                                   const std::vector<Spot>& spots, double radius, Polarity polarity,
-                                  double blur) {
+                                  double blur, unsigned threads) {
     const Limb limb = limb_for(radius / pictures.front().shrink, blur);
-    std::vector<CircleFit> fits;
-    for (const Spot& spot : spots) {
+    std::vector<CircleFit> fits(spots.size());
+    const auto fit_spot = [&](std::size_t k) {
+        const Spot& spot = spots[k];
         const Picture& p = pictures[spot.picture];
         RaySettings rays = rays_for(p, spot.radius);
         rays.free_radius = true;
         rays.limb = &limb;
-        fits.push_back(fit_circle(p.sharp, spot.centre, spot.radius, polarity, rays));
-    }
+        fits[k] = fit_circle(p.sharp, spot.centre, spot.radius, polarity, rays);
+    };
+    on_all_cores(spots.size(), fit_spot, threads);
     return fits;
 }
 
@@ -152,12 +155,12 @@ std::vector<CircleFit> exact_fits(const std::vector<Picture>& pictures,
 /// pictures are fitted best by too much of it and radii that are too small; distances of discs in
 /// contact have an onset that is known to some per cent only.
 double blur_of(const std::vector<Picture>& pictures, const std::vector<Spot>& spots, double radius,
-               Polarity polarity) {
+               Polarity polarity, unsigned threads) {
     constexpr std::array trials{0.6, 0.8, 1.0, 1.25, 1.6, 2.0};
     constexpr double onset_of_contacts = 1.01, onset_known_to = 0.04;
     std::array<double, trials.size()> worth{};
     for (std::size_t k = 0; k < trials.size(); ++k) {
-        const auto fits = exact_fits(pictures, spots, radius, polarity, trials[k]);
+        const auto fits = exact_fits(pictures, spots, radius, polarity, trials[k], threads);
         std::vector<double> rests;
         for (const CircleFit& fit : fits)
             if (fit.good) rests.push_back(fit.rest);
@@ -176,7 +179,8 @@ double blur_of(const std::vector<Picture>& pictures, const std::vector<Spot>& sp
 
 }  // namespace
 
-BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims) {
+BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims,
+                      unsigned threads) {
     // Which radius explains most edges?
     const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 6);
     struct Best {
@@ -241,9 +245,9 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
                 separate.push_back(f);
         for (const CircleFit& f : separate) spots.push_back({k, f.centre, f.radius});
     }
-    const double blur = blur_of(pictures, spots, best.radius, best.polarity);
+    const double blur = blur_of(pictures, spots, best.radius, best.polarity, threads);
     const std::vector<CircleFit> exact =
-        exact_fits(pictures, spots, best.radius, best.polarity, blur);
+        exact_fits(pictures, spots, best.radius, best.polarity, blur, threads);
     by_picture.resize(pictures.size());
     for (std::size_t k = 0; k < spots.size(); ++k) {
         if (!exact[k].good) continue;
@@ -562,6 +566,7 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
             vote(edges, picture.small.size(), radius * picture.shrink, look.polarity, 0.18,
                  std::min(static_cast<std::size_t>(1.3 * area) + 4, 3 * look.number + 8));
         RaySettings rays = rays_for(picture, radius);
+        rays.rays = std::max(28, rays.rays / 2);  // their exact places come later
         for (const CircleCandidate& c : candidates) {
             const Vec2 seed = picture.to_sharp(c.centre);
             if (!within(rim, seed, radius)) continue;

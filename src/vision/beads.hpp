@@ -53,7 +53,8 @@ struct Bead {
 };
 
 /// Throws Failure where there are none.
-BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims);
+BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims,
+                      unsigned threads);
 
 /// By how much the pictures of the survey are to be smoothed.
 inline constexpr double survey_blur = 0.6;

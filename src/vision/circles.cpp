@@ -1,7 +1,9 @@
 #include "swirl/vision/circles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "swirl/math/unit_circle.hpp"
@@ -10,13 +12,56 @@ namespace swirl {
 
 namespace {
 
-inline float between_pixels(const cv::Mat& picture, float x, float y) {
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-    const float* above = picture.ptr<float>(row) + column;
-    const float* below = picture.ptr<float>(row + 1) + column;
-    return (1.0f - v) * ((1.0f - u) * above[0] + u * above[1]) +
-           v * ((1.0f - u) * below[0] + u * below[1]);
+constexpr double cells_in_scatter = 1.6;  // standard deviations of votes
+
+/// As many directions all around. They are the same for every circle, and not free.
+const std::vector<Vec2>& directions(int rays) {
+    thread_local std::map<int, std::vector<Vec2>> known;
+    std::vector<Vec2>& all = known[rays];
+    if (all.empty())
+        for (int k = 0; k < rays; ++k) all.push_back(unit_circle(double(k) / rays));
+    return all;
+}
+
+/// The picture at `first`, `first + step`, …, linear between pixels. In two loops, for the first
+/// of them needs no memory and is done for several places at once.
+void sample_ray(const cv::Mat& picture, const Vec2& first, const Vec2& step, int samples,
+                float* into) {
+    constexpr int most = 32;
+    std::array<int, most> at;
+    std::array<float, most> u, v;
+    const auto stride = static_cast<int>(picture.step1());
+    const float* const pixels = picture.ptr<float>();
+    const auto x0 = static_cast<float>(first.x), y0 = static_cast<float>(first.y),
+               dx = static_cast<float>(step.x), dy = static_cast<float>(step.y);
+    for (int done = 0; done < samples; done += most) {
+        const int now = std::min(most, samples - done);
+        for (int j = 0; j < now; ++j) {
+            const auto k = static_cast<float>(done + j);
+            const float x = x0 + k * dx, y = y0 + k * dy;
+            const int column = static_cast<int>(x), row = static_cast<int>(y);
+            const auto n = static_cast<std::size_t>(j);
+            u[n] = x - static_cast<float>(column);
+            v[n] = y - static_cast<float>(row);
+            at[n] = row * stride + column;
+        }
+        for (int j = 0; j < now; ++j) {
+            const auto n = static_cast<std::size_t>(j);
+            const float* above = pixels + at[n];
+            const float* below = above + stride;
+            const float a = above[0] + u[n] * (above[1] - above[0]),
+                        b = below[0] + u[n] * (below[1] - below[0]);
+            into[done + j] = a + v[n] * (b - a);
+        }
+    }
+}
+
+/// The middle one of values that may be put in another order.
+double middle_of(std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 /// Steepest place on a ray.
@@ -60,7 +105,7 @@ void weigh(std::vector<RayEdge>& edges, std::vector<double>& sharpness) {
     constexpr double power = 0.6, most = 4.0;
     sharpness.clear();
     for (const RayEdge& e : edges) sharpness.push_back(e.weight);
-    const double middle = median(sharpness);
+    const double middle = middle_of(sharpness);
     for (RayEdge& e : edges)
         e.weight = middle > 0.0 ? std::pow(std::min(e.weight / middle, most), power) : 1.0;
 }
@@ -71,12 +116,12 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
     const Limb& limb = *settings.limb;
     const int samples = limb.inside() + limb.outside() + 1;
     std::vector<float> profile(static_cast<std::size_t>(samples));
-    for (int k = 0; k < settings.rays; ++k) {
-        const Vec2 u = unit_circle(double(k) / settings.rays);
+    for (const Vec2& u : directions(settings.rays)) {
         const Vec2 first = fit.centre + (fit.radius - Limb::step * limb.inside()) * u,
                    last = fit.centre + (fit.radius + Limb::step * limb.outside()) * u;
         const auto within = [&](const Vec2& p) {
-            return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
+            return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1.01 &&
+                   p.y < picture.rows - 1.01;
         };
         if (!within(first) || !within(last)) continue;
         if (std::any_of(settings.others.begin(), settings.others.end(), [&](const NearCircle& o) {
@@ -84,10 +129,7 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
                 return dot(d, d) < o.radius * o.radius;
             }))
             continue;
-        for (int j = 0; j < samples; ++j)
-            profile[static_cast<std::size_t>(j)] =
-                between_pixels(picture, static_cast<float>(first.x + Limb::step * j * u.x),
-                               static_cast<float>(first.y + Limb::step * j * u.y));
+        sample_ray(picture, first, Limb::step * u, samples, profile.data());
         const Limb::Edge edge = limb.find(profile.data());
         if (!edge.found || polarity * edge.contrast <= 0.0) continue;
         edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest,
@@ -175,13 +217,23 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
 
 std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size size, double radius,
                                   Polarity polarity, double least, std::size_t most) {
-    cv::Mat votes = cv::Mat::zeros(size, CV_32F);
+    // Votes scatter: by the pixels' grid, and by a few degrees of the gradient's direction. Where
+    // that is by many pixels they are counted in cells of several.
+    const double scatter = 0.7 + 0.07 * radius;
+    const int cell = std::max(1, static_cast<int>(scatter / cells_in_scatter));
+    const double spread = scatter / cell;
+    const cv::Size cells((size.width + cell - 1) / cell, (size.height + cell - 1) / cell);
+    cv::Mat votes = cv::Mat::zeros(cells, CV_32F);
     const auto step = static_cast<float>(polarity * radius);
+    // The middle of the first cell is (cell − 1)/2 pixels from that of the first pixel.
+    const auto origin = 0.5f * static_cast<float>(cell - 1);
+    const auto scale = 1.0f / static_cast<float>(cell);
     for (const EdgePixel& e : edges) {
-        const float x = e.x + step * e.gx, y = e.y + step * e.gy;
+        const float x = scale * (e.x + step * e.gx - origin),
+                    y = scale * (e.y + step * e.gy - origin);
         if (!(x >= 0.0f && y >= 0.0f)) continue;
         const int column = static_cast<int>(x), row = static_cast<int>(y);
-        if (column + 1 >= size.width || row + 1 >= size.height) continue;
+        if (column + 1 >= cells.width || row + 1 >= cells.height) continue;
         const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
         float* above = votes.ptr<float>(row) + column;
         float* below = votes.ptr<float>(row + 1) + column;
@@ -190,19 +242,18 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
         below[0] += e.weight * (1.0f - u) * v;
         below[1] += e.weight * u * v;
     }
-    // Votes scatter: by the pixels' grid, and by a few degrees of the gradient's direction.
-    const double spread = 0.7 + 0.07 * radius;
     const int side = 2 * static_cast<int>(std::ceil(2.2 * spread)) + 1;
     cv::GaussianBlur(votes, votes, cv::Size(side, side), spread, spread, cv::BORDER_CONSTANT);
     const double own = 0.5 + 0.05 * radius;
     // All of a circumference of 2π a pixels, of which the ridge keeps nine in ten.
-    const double whole = 0.9 * 2.0 * pi * radius / (2.0 * pi * (spread * spread + own * own));
+    const double whole =
+        0.9 * 2.0 * pi * radius / (2.0 * pi * (spread * spread + own * own / (cell * cell)));
     std::vector<CircleCandidate> found;
     const auto threshold = static_cast<float>(least * whole);
     const int near = std::max(1, static_cast<int>(0.5 * radius));
-    for (int row = 1; row + 1 < size.height; ++row) {
+    for (int row = 1; row + 1 < cells.height; ++row) {
         const float* v = votes.ptr<float>(row);
-        for (int column = 1; column + 1 < size.width; ++column) {
+        for (int column = 1; column + 1 < cells.width; ++column) {
             const float here = v[column];
             if (here < threshold || here < v[column - 1] || here <= v[column + 1]) continue;
             const float* above = votes.ptr<float>(row - 1) + column;
@@ -214,11 +265,12 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
                 const float bend = before - 2.0f * here + after;
                 return bend < 0.0f ? 0.5 * double((before - after) / bend) : 0.0;
             };
-            found.push_back(
-                {{column + vertex(v[column - 1], v[column + 1]), row + vertex(above[0], below[0])},
-                 radius,
-                 polarity,
-                 double(here) / whole});
+            const double x = column + vertex(v[column - 1], v[column + 1]),
+                         y = row + vertex(above[0], below[0]);
+            found.push_back({{cell * x + double(origin), cell * y + double(origin)},
+                             radius,
+                             polarity,
+                             double(here) / whole});
         }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -241,7 +293,7 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
 CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarity polarity,
                      const RaySettings& settings) {
     CircleFit fit{centre, radius};
-    constexpr double step = 0.5;
+    constexpr double step = 0.5, stands_still = 2e-3;
     std::vector<RayEdge> edges;
     std::vector<float> profile;
     std::vector<double> sizes, weights;
@@ -254,19 +306,17 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         if (by_limb) limb_edges(picture, fit, polarity, settings, edges);
         const int samples = 2 * static_cast<int>(std::ceil(window / step)) + 5;
         profile.resize(static_cast<std::size_t>(samples));
-        for (int k = 0; k < settings.rays && !by_limb; ++k) {
-            const Vec2 u = unit_circle(double(k) / settings.rays);
+        for (const Vec2& u : directions(settings.rays)) {
+            if (by_limb) break;
             const double begin = fit.radius - 0.5 * step * (samples - 1);
             const Vec2 first = fit.centre + begin * u,
                        last = fit.centre + (begin + step * (samples - 1)) * u;
             const auto inside = [&](const Vec2& p) {
-                return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1 && p.y < picture.rows - 1;
+                return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1.01 &&
+                       p.y < picture.rows - 1.01;
             };
             if (!inside(first) || !inside(last)) continue;
-            for (int j = 0; j < samples; ++j)
-                profile[static_cast<std::size_t>(j)] =
-                    between_pixels(picture, static_cast<float>(first.x + step * j * u.x),
-                                   static_cast<float>(first.y + step * j * u.y));
+            sample_ray(picture, first, step * u, samples, profile.data());
             // Slopes over two pixels; bright inside descends outwards.
             int best = -1;
             float steepest = 0.0f;
@@ -292,7 +342,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         {  // a start that half of the rays cannot move: the median of the distances
             sizes.clear();
             for (const RayEdge& e : edges) sizes.push_back(e.distance - fit.radius);
-            if (settings.free_radius) d[2] = median(sizes);
+            if (settings.free_radius) d[2] = middle_of(sizes);
         }
         if (by_limb) weigh(edges, sizes);
         double scale = window;
@@ -315,9 +365,11 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             m[1][0] = m[0][1];
             if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse))
                 return by_limb ? steep : fit;
-            for (int r = 0; r < 3; ++r) d[r] = x[r];
-            scale = std::max(1.4826 * median(sizes), 0.15);
+            double moved = 0.0;
+            for (int r = 0; r < 3; ++r) moved += std::abs(x[r] - d[r]), d[r] = x[r];
+            scale = std::max(1.4826 * middle_of(sizes), 0.15);
             scale = std::min(scale, window);
+            if (pass > 2 && moved < stands_still) break;
         }
         const double limit = 1.5 * settings.window;
         if (std::abs(d[0]) > limit || std::abs(d[1]) > limit || std::abs(d[2]) > limit)
@@ -339,7 +391,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         if (on > 0) fit.rest = fit_rest / double(on);
         fit.support = std::max(fit.support, double(on) / settings.rays);
         if (on < 6) return by_limb ? steep : fit;
-        fit.contrast = median(weights);
+        fit.contrast = middle_of(weights);
         fit.residual = std::sqrt(square / double(on - 2));
         fit.error = fit.residual * std::sqrt(0.5 * (inverse[0] + inverse[1]));
         fit.good = true;

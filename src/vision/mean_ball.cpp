@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/run/all_cores.hpp"
 
 namespace swirl {
 
@@ -22,20 +24,48 @@ constexpr double pixels_of_a_patch = 4.0;
 
 int half_of(double radius) { return static_cast<int>((radius + beyond + 1.5) / step) + 1; }
 
-/// Linear between the grid's points; x, y in pixels from the ball's middle.
-cv::Vec3f on_grid(const cv::Mat& grid, double x, double y) {
-    const double half = 0.5 * (grid.cols - 1);
-    const double u = std::clamp(x / step + half, 0.0, grid.cols - 1.001),
-                 v = std::clamp(y / step + half, 0.0, grid.rows - 1.001);
-    const int column = static_cast<int>(u), row = static_cast<int>(v);
-    const auto p = static_cast<float>(u - column), q = static_cast<float>(v - row);
-    const cv::Vec3f* above = grid.ptr<cv::Vec3f>(row) + column;
-    const cv::Vec3f* below = grid.ptr<cv::Vec3f>(row + 1) + column;
-    const float a = (1.0f - q) * (1.0f - p), b = (1.0f - q) * p, c = q * (1.0f - p), d = q * p;
-    cv::Vec3f value;
-    for (int k = 0; k < 3; ++k)
-        value[k] = a * above[0][k] + b * above[1][k] + c * below[0][k] + d * below[1][k];
-    return value;
+/// T, its slopes, and nothing, of a point of the grid; side by side in a register.
+typedef float OnGrid __attribute__((vector_size(16)));
+OnGrid four_at(const float* from) {
+    OnGrid four;
+    std::memcpy(&four, from, sizeof four);
+    return four;
+}
+
+/// A row of pixels on the grid: heights and offsets are in pixels from the ball's middle. Linear
+/// between the grid's points.
+class GridRow {
+  public:
+    GridRow(const cv::Mat& grid, double y)
+        : half_(0.5f * static_cast<float>(grid.cols - 1)),
+          last_(static_cast<float>(grid.cols) - 1.001f) {
+        const double v = std::clamp(y / step + 0.5 * (grid.rows - 1), 0.0, grid.rows - 1.001);
+        const int row = static_cast<int>(v);
+        q_ = static_cast<float>(v - row);
+        above_ = grid.ptr<float>(row);
+        below_ = grid.ptr<float>(row + 1);
+    }
+    OnGrid at(float x) const {
+        constexpr auto per_pixel = static_cast<float>(1.0 / step);
+        const float u = std::min(std::max(x * per_pixel + half_, 0.0f), last_);
+        const int column = static_cast<int>(u);
+        const float p = u - static_cast<float>(column);
+        const float a = (1.0f - q_) * (1.0f - p), b = (1.0f - q_) * p, c = q_ * (1.0f - p),
+                    d = q_ * p;
+        const float *above = above_ + 4 * column, *below = below_ + 4 * column;
+        return (a * four_at(above) + b * four_at(above + 4)) +
+               (c * four_at(below) + d * four_at(below + 4));
+    }
+
+  private:
+    const float *above_, *below_;
+    float half_, last_, q_;
+};
+
+/// tanh to a fortieth, smooth up to where it ends at ±1; several at once.
+inline float bounded(float x) {
+    const float y = std::min(std::max(x, -3.0f), 3.0f), square = y * y;
+    return y * (27.0f + square) / (27.0f + 9.0f * square);
 }
 
 /// Solves A x = b, symmetric and positive, in place; false if it is not.
@@ -106,55 +136,66 @@ std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& se
     return others;
 }
 
+/// 255 where the floor can be seen.
+cv::Mat MeanBall::free_floor(const cv::Size& size, const CircleFit& rim,
+                             const std::vector<Bead>& beads) const {
+    cv::Mat mask = cv::Mat::zeros(size, CV_8U);
+    const auto fill = [&](const Vec2& centre, double radius, int level) {
+        cv::circle(mask, {cvRound(centre.x), cvRound(centre.y)}, static_cast<int>(radius), level,
+                   cv::FILLED);
+    };
+    fill(rim.centre, reach_ - 3.0, 255);
+    for (const Bead& b : beads) fill(b.centre, look_.kinds[b.kind].radius + 4.0, 0);
+    return mask;
+}
+
 double MeanBall::lamp(const cv::Mat& sharp, const CircleFit& rim,
                       const std::vector<Bead>& beads) const {
     if (floor_.empty()) return 1.0;
+    const cv::Mat open = free_floor(sharp.size(), rim, beads);
     std::vector<double> ratios;
     constexpr int stride = 3;
-    for (int row = 0; row < sharp.rows; row += stride)
-        for (int column = 0; column < sharp.cols; column += stride) {
-            const Vec2 x{double(column), double(row)};
-            if (length(x - rim.centre) > reach_ - 3.0 || !(floor_.at<float>(row, column) > 1.0f))
-                continue;
-            if (std::any_of(beads.begin(), beads.end(), [&](const Bead& b) {
-                    return length(b.centre - x) < look_.kinds[b.kind].radius + 4.0;
-                }))
-                continue;
-            ratios.push_back(double(sharp.at<float>(row, column) / floor_.at<float>(row, column)));
-        }
+    for (int row = 0; row < sharp.rows; row += stride) {
+        const std::uint8_t* free = open.ptr(row);
+        const float *here = sharp.ptr<float>(row), *floor = floor_.ptr<float>(row);
+        for (int column = 0; column < sharp.cols; column += stride)
+            if (free[column] && floor[column] > 1.0f)
+                ratios.push_back(double(here[column] / floor[column]));
+    }
     return ratios.size() < 30 ? 1.0 : median(ratios);
 }
 
-void MeanBall::learn_floor(const std::vector<Example>& examples) {
+void MeanBall::learn_floor(const std::vector<Example>& examples, unsigned threads) {
     const cv::Size size = examples.front().sharp.size();
     // Twice: the lamp of a picture is known after its floor.
     for (int round = 0; round < 2; ++round) {
-        std::vector<double> lamps;
-        for (const Example& e : examples) lamps.push_back(lamp(e.sharp, e.rim, e.beads));
+        std::vector<float> of_lamps;
+        for (const Example& e : examples)
+            of_lamps.push_back(static_cast<float>(1.0 / lamp(e.sharp, e.rim, e.beads)));
         cv::Mat sum = cv::Mat::zeros(size, CV_32F), known = cv::Mat::zeros(size, CV_32F);
-        // Every second pixel will do for what is smooth.
         std::vector<cv::Mat> taken;
-        for (const Example& e : examples) {
-            cv::Mat mask = cv::Mat::zeros(size, CV_8U);
-            cv::circle(mask, {cvRound(e.rim.centre.x), cvRound(e.rim.centre.y)},
-                       static_cast<int>(reach_ - 3.0), 255, cv::FILLED);
-            for (const Bead& b : e.beads)
-                cv::circle(mask, {cvRound(b.centre.x), cvRound(b.centre.y)},
-                           static_cast<int>(look_.kinds[b.kind].radius + 4.0), 0, cv::FILLED);
-            taken.push_back(mask);
-        }
-        std::vector<double> levels;
-        for (int row = 0; row < size.height; ++row)
-            for (int column = 0; column < size.width; ++column) {
-                levels.clear();
-                for (std::size_t k = 0; k < examples.size(); ++k)
-                    if (taken[k].at<std::uint8_t>(row, column))
-                        levels.push_back(double(examples[k].sharp.at<float>(row, column)) /
-                                         lamps[k]);
-                if (levels.empty()) continue;
-                sum.at<float>(row, column) = static_cast<float>(median(levels));
-                known.at<float>(row, column) = 1.0f;
-            }
+        for (const Example& e : examples) taken.push_back(free_floor(size, e.rim, e.beads));
+        constexpr int rows_at_once = 16;
+        const auto median_of_rows = [&](std::size_t part) {
+            std::vector<float> levels;
+            const int begin = rows_at_once * static_cast<int>(part);
+            for (int row = begin; row < std::min(begin + rows_at_once, size.height); ++row)
+                for (int column = 0; column < size.width; ++column) {
+                    levels.clear();
+                    for (std::size_t k = 0; k < examples.size(); ++k)
+                        if (taken[k].at<std::uint8_t>(row, column))
+                            levels.push_back(examples[k].sharp.at<float>(row, column) *
+                                             of_lamps[k]);
+                    if (levels.empty()) continue;
+                    const auto middle =
+                        levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+                    std::nth_element(levels.begin(), middle, levels.end());
+                    sum.at<float>(row, column) = *middle;
+                    known.at<float>(row, column) = 1.0f;
+                }
+        };
+        on_all_cores(static_cast<std::size_t>((size.height + rows_at_once - 1) / rows_at_once),
+                     median_of_rows, threads);
         // Where nobody ever made room it is as nearby.
         cv::Mat narrow_sum, narrow, wide_sum, wide;
         cv::GaussianBlur(sum, narrow_sum, {}, 2.0);
@@ -181,7 +222,7 @@ MeanBall::Excess MeanBall::excess(const cv::Mat& sharp, const CircleFit& rim,
     made.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
     const auto of_lamp = static_cast<float>(1.0 / lamp(sharp, rim, beads));
     const auto soft = static_cast<float>(soft_);
-    const auto sign = static_cast<float>(look_.polarity);
+    const auto steep = static_cast<float>(look_.polarity / soft_);
     const double reach = reach_ - 0.5;
     for (int row = 0; row < sharp.rows; ++row) {
         const double y = double(row) - rim.centre.y;
@@ -192,17 +233,17 @@ MeanBall::Excess MeanBall::excess(const cv::Mat& sharp, const CircleFit& rim,
         const float* in = sharp.ptr<float>(row);
         const float* floor = floor_.ptr<float>(row);
         float* out = made.level.ptr<float>(row);
-        for (int column = from; column <= to; ++column)
-            if (floor[column] > 0.0f)
-                out[column] =
-                    soft * std::tanh(sign * (in[column] * of_lamp - floor[column]) / soft);
+        for (int column = from; column <= to; ++column) {
+            const float level = soft * bounded(steep * (in[column] * of_lamp - floor[column]));
+            out[column] = floor[column] > 0.0f ? level : nowhere;
+        }
     }
     return made;
 }
 
 template <typename Use>
-void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
-                          const std::vector<NearCircle>& others, int stride, Use&& use) const {
+void MeanBall::each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
+                        const std::vector<NearCircle>& others, int stride, Use&& use) const {
     const double radius = balls_[kind].radius;
     const double scale = look_.lens.seen_radius(centre, radius) / radius;
     const double reach = scale * radius + beyond;
@@ -225,22 +266,43 @@ void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t 
             for (int c = first; c <= last; ++c) hidden[static_cast<std::size_t>(c - from)] = 1;
         }
         const float* level = excess.level.ptr<float>(row);
-        for (int column = from; column <= to; column += stride)
-            if (level[column] != nowhere && !hidden[static_cast<std::size_t>(column - from)])
-                use(Vec2{double(column), double(row)}, level[column], scale);
+        for (int column = from; column <= to; column += stride) {
+            char& none = hidden[static_cast<std::size_t>(column - from)];
+            none = static_cast<char>(none | (level[column] == nowhere ? 1 : 0));
+        }
+        use(Row{row, from, to, level, hidden.data(), scale});
     }
+}
+
+template <typename Use>
+void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
+                          const std::vector<NearCircle>& others, int stride, Use&& use) const {
+    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
+        for (int column = r.from; column <= r.to; column += stride)
+            if (!r.hidden[column - r.from])
+                use(Vec2{double(column), double(r.row)}, r.level[column], r.scale);
+    });
 }
 
 double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kind,
                        const std::vector<NearCircle>& others, int stride) const {
     // What is hidden says nothing, for it or against it.
     double rest = 0.0, all = 0.0, scaled = 1.0;
-    each_pixel(excess, centre, kind, others, stride, [&](const Vec2& x, float e, double scale) {
-        const auto t = double(
-            on_grid(balls_[kind].grid, (x.x - centre.x) / scale, (x.y - centre.y) / scale)[0]);
-        rest += (double(e) - t) * (double(e) - t);
-        all += t * t;
-        scaled = scale;
+    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
+        const GridRow grid(balls_[kind].grid, (r.row - centre.y) / r.scale);
+        const auto shrink = static_cast<float>(1.0 / r.scale),
+                   begin = static_cast<float>(r.from - centre.x);
+        float row_rest = 0.0f, row_all = 0.0f;
+        for (int column = 0; column <= r.to - r.from; column += stride) {
+            if (r.hidden[column]) continue;
+            const float t = grid.at(shrink * (begin + static_cast<float>(column)))[0];
+            const float e = r.level[r.from + column];
+            row_rest += (e - t) * (e - t);
+            row_all += t * t;
+        }
+        rest += double(row_rest);
+        all += double(row_all);
+        scaled = r.scale;
     });
     return (all - rest) * stride * stride / (balls_[kind].squares * scaled * scaled);
 }
@@ -258,73 +320,147 @@ double MeanBall::excess_at(const Excess& excess, const Vec2& place) const {
     return double(excess.level.at<float>(row, column));
 }
 
+namespace {
+
+/// What a row of pixels gives to the normal equations: with u the offset in radii, sums of T²uᵏ,
+/// of T∂ₓT uᵏ, T∂ᵧT uᵏ and T e uᵏ for k = 0 … 3, of four other squares, and of e times T and its
+/// slopes.
+struct RowSums {
+    OnGrid tt{}, tx{}, ty{}, te{}, squares{}, slopes{};
+    int pixels = 0;
+
+    void add(const OnGrid& t, float u, float e) {
+        const float uu = u * u;
+        const OnGrid power{1.0f, u, uu, u * uu};
+        const OnGrid left{t[0] * uu, t[1], t[1], t[2]}, right{t[0] * uu, t[1], t[2], t[2]};
+        const OnGrid p = t[0] * power;
+        tt += t[0] * p;
+        tx += t[1] * p;
+        ty += t[2] * p;
+        te += e * p;
+        squares += left * right;
+        slopes += e * t;
+        ++pixels;
+    }
+};
+
+}  // namespace
+
+/// A and b of A x = b for the changes of what is fitted: the gain and the modes, of which `made` is
+/// there, and the place.
+struct MeanBall::Normal {
+    static constexpr std::size_t n = 1 + modes + 2;
+    std::array<std::array<double, n>, n> a{};
+    std::array<double, n> b{};
+    int pixels = 0;
+
+    /// Of a row at v radii; `gain` is what the slopes count.
+    void add(const RowSums& s, double v, double gain) {
+        // The modes, T (1, u, v, u² − v², 2uv), are T (c₀ + c₁u + c₂u²), row by row.
+        const double c[1 + modes][3] = {{1.0, 0.0, 0.0},
+                                        {0.0, 1.0, 0.0},
+                                        {v, 0.0, 0.0},
+                                        {-v * v, 0.0, 1.0},
+                                        {0.0, 2.0 * v, 0.0}};
+        const double tt[5] = {double(s.tt[0]), double(s.tt[1]), double(s.tt[2]), double(s.tt[3]),
+                              double(s.squares[0])};
+        const auto with = [](const double(&f)[3], const OnGrid& sums) {
+            return f[0] * double(sums[0]) + f[1] * double(sums[1]) + f[2] * double(sums[2]);
+        };
+        for (std::size_t r = 0; r <= modes; ++r) {
+            for (std::size_t k = r; k <= modes; ++k)
+                for (std::size_t p = 0; p < 3; ++p)
+                    for (std::size_t q = 0; q < 3; ++q) a[r][k] += c[r][p] * c[k][q] * tt[p + q];
+            a[r][modes + 1] += gain * with(c[r], s.tx);
+            a[r][modes + 2] += gain * with(c[r], s.ty);
+            b[r] += with(c[r], s.te);
+        }
+        a[modes + 1][modes + 1] += gain * gain * double(s.squares[1]);
+        a[modes + 1][modes + 2] += gain * gain * double(s.squares[2]);
+        a[modes + 2][modes + 2] += gain * gain * double(s.squares[3]);
+        b[modes + 1] += gain * double(s.slopes[1]);
+        b[modes + 2] += gain * double(s.slopes[2]);
+        pixels += s.pixels;
+    }
+    /// b is that of the picture; what the ball as it is made explains of it is taken off.
+    void complete(const std::array<double, 1 + modes>& made) {
+        for (std::size_t r = 0; r < n; ++r)
+            for (std::size_t k = 0; k < r; ++k) a[r][k] = a[k][r];
+        for (std::size_t r = 0; r < n; ++r)
+            for (std::size_t k = 0; k <= modes; ++k) b[r] -= a[r][k] * made[k];
+    }
+};
+
+MeanBall::Normal MeanBall::normal(const Excess& excess, const Vec2& centre, std::size_t kind,
+                                  const std::vector<NearCircle>& others, int stride,
+                                  double gain) const {
+    const Look& ball = balls_[kind];
+    Normal sum;
+    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
+        const double y = (r.row - centre.y) / r.scale;
+        const GridRow grid(ball.grid, y);
+        const auto shrink = static_cast<float>(1.0 / r.scale),
+                   begin = static_cast<float>(r.from - centre.x),
+                   radii = static_cast<float>(1.0 / ball.radius);
+        RowSums row;
+        for (int column = 0; column <= r.to - r.from; column += stride) {
+            if (r.hidden[column]) continue;
+            const float x = shrink * (begin + static_cast<float>(column));
+            row.add(grid.at(x), radii * x, r.level[r.from + column]);
+        }
+        sum.add(row, y / ball.radius, -gain / r.scale);
+    });
+    return sum;
+}
+
 MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_t kind,
                             const std::vector<NearCircle>& others, int stride) const {
-    constexpr std::size_t n = 1 + modes + 2;
+    constexpr int rounds = 4;
+    constexpr double small_move = 0.1;  // pixels; what is left then is less than a tenth of it
     const Look& ball = balls_[kind];
     Fit fit;
     fit.centre = centre;
     std::array<double, 1 + modes> made{1.0};
-    for (int round = 0; round < 4; ++round) {
-        std::array<std::array<double, n>, n> a{};
-        std::array<double, n> b{};
-        std::size_t pixels = 0;
-        const Vec2 at = fit.centre;
-        each_pixel(excess, at, kind, others, stride, [&](const Vec2& x, float e, double scale) {
-            const double px = (x.x - at.x) / scale, py = (x.y - at.y) / scale;
-            const cv::Vec3f level = on_grid(ball.grid, px, py);
-            const auto t = double(level[0]), tx = double(level[1]), ty = double(level[2]);
-            const double u = px / ball.radius, v = py / ball.radius;
-            const std::array<double, n> j{t,
-                                          t * u,
-                                          t * v,
-                                          t * (u * u - v * v),
-                                          2.0 * t * u * v,
-                                          -made[0] * tx / scale,
-                                          -made[0] * ty / scale};
-            double rest = double(e);
-            for (std::size_t k = 0; k <= modes; ++k) rest -= made[k] * j[k];
-            for (std::size_t r = 0; r < n; ++r) {
-                for (std::size_t c = r; c < n; ++c) a[r][c] += j[r] * j[c];
-                b[r] += j[r] * rest;
-            }
-            ++pixels;
-        });
-        if (double(pixels) * stride * stride < 0.25 * pi * ball.radius * ball.radius) return fit;
-        for (std::size_t r = 0; r < n; ++r)
-            for (std::size_t c = 0; c < r; ++c) a[r][c] = a[c][r];
+    for (int round = 0; round < rounds; ++round) {
+        Normal system = normal(excess, fit.centre, kind, others, stride, made[0]);
+        if (double(system.pixels) * stride * stride < 0.25 * pi * ball.radius * ball.radius)
+            return fit;
+        system.complete(made);
         for (std::size_t k = 0; k <= modes; ++k) {
             const double varies = k == 0 ? gain_varies : mode_varies;
             const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride));
             const double weight = variance_ * patch / (varies * varies);
-            a[k][k] += weight;
-            b[k] += weight * ((k == 0 ? 1.0 : 0.0) - made[k]);
+            system.a[k][k] += weight;
+            system.b[k] += weight * ((k == 0 ? 1.0 : 0.0) - made[k]);
         }
-        if (!solve_system(a, b)) return fit;
-        for (std::size_t k = 0; k <= modes; ++k) made[k] += b[k];
+        if (!solve_system(system.a, system.b)) return fit;
+        for (std::size_t k = 0; k <= modes; ++k) made[k] += system.b[k];
         const double most = 0.1 * ball.radius;
-        const Vec2 move{std::clamp(b[modes + 1], -most, most),
-                        std::clamp(b[modes + 2], -most, most)};
+        const Vec2 move{std::clamp(system.b[modes + 1], -most, most),
+                        std::clamp(system.b[modes + 2], -most, most)};
         fit.centre = fit.centre + move;
-        if (length(move) < (stride > 1 ? 0.1 : 0.03)) break;
+        if (length(move) < small_move) break;
     }
     fit.good = length(fit.centre - centre) < 0.4 * ball.radius;
     return fit;
 }
 
-void MeanBall::learn_ball(const std::vector<Example>& examples,
-                          const std::vector<std::vector<Vec2>>& places, std::size_t kind) {
+void MeanBall::learn_ball(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
+                          const std::vector<std::vector<Vec2>>& places, std::size_t kind,
+                          unsigned threads) {
     Look& ball = balls_[kind];
     const int half = half_of(ball.radius), side = 2 * half + 1;
-    cv::Mat sum = cv::Mat::zeros(side, side, CV_32F), weight = cv::Mat::zeros(side, side, CV_32F);
-    for (std::size_t k = 0; k < examples.size(); ++k) {
-        const Example& e = examples[k];
-        const Excess seen = excess(e.sharp, e.rim, e.beads);
-        const std::vector<Bead> moved = at_places(e.beads, places[k]);
+    struct Sums {
+        cv::Mat level, weight;
+    };
+    std::vector<Sums> sums(examples.size());  // added up in their order
+    const auto add_example = [&](std::size_t k) {
+        sums[k] = {cv::Mat::zeros(side, side, CV_32F), cv::Mat::zeros(side, side, CV_32F)};
+        const std::vector<Bead> moved = at_places(examples[k].beads, places[k]);
         for (const Bead& bead : moved) {
             if (bead.kind != kind || !bead.sure) continue;
             const Vec2 centre = bead.centre;
-            each_pixel(seen, centre, kind, sure_others(moved, bead, look_), 1,
+            each_pixel(excesses[k], centre, kind, sure_others(moved, bead, look_), 1,
                        [&](const Vec2& x, float level, double scale) {
                            const double u = (x.x - centre.x) / (scale * step) + half,
                                         v = (x.y - centre.y) / (scale * step) + half;
@@ -336,12 +472,15 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
                            for (int r = 0; r < 2; ++r)
                                for (int c = 0; c < 2; ++c) {
                                    const float w = (r ? q : 1.0f - q) * (c ? p : 1.0f - p);
-                                   sum.at<float>(row + r, column + c) += w * level;
-                                   weight.at<float>(row + r, column + c) += w;
+                                   sums[k].level.at<float>(row + r, column + c) += w * level;
+                                   sums[k].weight.at<float>(row + r, column + c) += w;
                                }
                        });
         }
-    }
+    };
+    on_all_cores(examples.size(), add_example, threads);
+    cv::Mat sum = cv::Mat::zeros(side, side, CV_32F), weight = cv::Mat::zeros(side, side, CV_32F);
+    for (const Sums& s : sums) sum += s.level, weight += s.weight;
     cv::GaussianBlur(sum, sum, {}, 0.7);
     cv::GaussianBlur(weight, weight, {}, 0.7);
     cv::Mat level = cv::Mat::zeros(side, side, CV_32F), along_x, along_y;
@@ -353,11 +492,40 @@ void MeanBall::learn_ball(const std::vector<Example>& examples,
     ball.squares = std::max(cv::norm(level, cv::NORM_L2SQR) * step * step, 1e-9);
     cv::Scharr(level, along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
     cv::Scharr(level, along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
-    cv::merge(std::vector<cv::Mat>{level, along_x, along_y}, ball.grid);
+    const cv::Mat nothing = cv::Mat::zeros(level.size(), CV_32F);
+    cv::merge(std::vector<cv::Mat>{level, along_x, along_y, nothing}, ball.grid);
+}
+
+/// One round of an example: who went where by the ball as it is known.
+MeanBall::Moved MeanBall::moved(const Example& example, const Excess& seen,
+                                const std::vector<Vec2>& edges,
+                                const std::vector<Vec2>& places) const {
+    Moved made{places, {}, {}};
+    const std::vector<Bead> beads = at_places(example.beads, places);
+    for (std::size_t i = 0; i < beads.size(); ++i) {
+        if (!beads[i].sure) continue;
+        const auto others = sure_others(beads, beads[i], look_);
+        const Fit fitted = fit(seen, places[i], beads[i].kind, others);
+        if (!fitted.good || length(fitted.centre - edges[i]) > 0.3 * look_.radius()) continue;
+        made.places[i] = fitted.centre;
+        made.from_edges.push_back(fitted.centre - edges[i]);
+        double square = 0.0;
+        std::size_t pixels = 0;
+        each_pixel(seen, fitted.centre, beads[i].kind, others, 2,
+                   [&](const Vec2& x, float level, double scale) {
+                       const Vec2 d = (1.0 / scale) * (x - fitted.centre);
+                       const GridRow grid(balls_[beads[i].kind].grid, d.y);
+                       const auto rest = double(level - grid.at(static_cast<float>(d.x))[0]);
+                       square += rest * rest;
+                       ++pixels;
+                   });
+        if (pixels > 0) made.rests.push_back(square / double(pixels));
+    }
+    return made;
 }
 
 std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
-                                          const BeadLook& look) {
+                                          const BeadLook& look, unsigned threads) {
     constexpr int rounds = 4;
     constexpr double good_places = 0.05;  // pixels: edges that need no help
     constexpr std::size_t fewest = 150;   // balls, of each kind
@@ -385,7 +553,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     if (alone < good_places * good_places) return std::nullopt;
     mean.reach_ = median(reaches);
     // The usual contrast, against what the floor seems to be.
-    mean.learn_floor(examples);
+    mean.learn_floor(examples, threads);
     std::vector<double> contrasts;
     for (const Example& e : examples) {
         const double of_lamp = 1.0 / mean.lamp(e.sharp, e.rim, e.beads);
@@ -410,48 +578,40 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     mean.soft_ = 0.38 * contrast;
     for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
 
+    std::vector<Excess> excesses(examples.size());
+    on_all_cores(
+        examples.size(),
+        [&](std::size_t k) {
+            excesses[k] = mean.excess(examples[k].sharp, examples[k].rim, examples[k].beads);
+        },
+        threads);
     std::vector<std::vector<Vec2>> places = edges;
     mean.variance_ = 0.01 * mean.soft_ * mean.soft_;
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
-            mean.learn_ball(examples, places, kind);
-        std::vector<std::vector<Vec2>> next = places;
+            mean.learn_ball(examples, excesses, places, kind, threads);
+        std::vector<Moved> moved(examples.size());
+        on_all_cores(
+            examples.size(),
+            [&](std::size_t k) {
+                moved[k] = mean.moved(examples[k], excesses[k], edges[k], places[k]);
+            },
+            threads);
         std::vector<double> xs, ys, rests;
-        for (std::size_t k = 0; k < examples.size(); ++k) {
-            const Example& e = examples[k];
-            const Excess seen = mean.excess(e.sharp, e.rim, e.beads);
-            const std::vector<Bead> moved = at_places(e.beads, places[k]);
-            for (std::size_t i = 0; i < e.beads.size(); ++i) {
-                if (!e.beads[i].sure) continue;
-                const auto others = sure_others(moved, moved[i], look);
-                const Fit fit = mean.fit(seen, places[k][i], e.beads[i].kind, others);
-                if (!fit.good || length(fit.centre - edges[k][i]) > 0.3 * look.radius()) continue;
-                next[k][i] = fit.centre;
-                xs.push_back(fit.centre.x - edges[k][i].x);
-                ys.push_back(fit.centre.y - edges[k][i].y);
-                double square = 0.0;
-                std::size_t pixels = 0;
-                mean.each_pixel(
-                    seen, fit.centre, e.beads[i].kind, others, 2,
-                    [&](const Vec2& x, float level, double scale) {
-                        const Vec2 d = (1.0 / scale) * (x - fit.centre);
-                        const auto rest =
-                            double(level - on_grid(mean.balls_[e.beads[i].kind].grid, d.x, d.y)[0]);
-                        square += rest * rest;
-                        ++pixels;
-                    });
-                if (pixels > 0) rests.push_back(square / double(pixels));
-            }
+        for (const Moved& m : moved) {
+            for (const Vec2& d : m.from_edges) xs.push_back(d.x), ys.push_back(d.y);
+            rests.insert(rests.end(), m.rests.begin(), m.rests.end());
         }
         if (xs.size() < fewest) return std::nullopt;
         const Vec2 drift{median(xs), median(ys)};
-        for (auto& here : next)
-            for (Vec2& p : here) p = p - drift;
-        places = std::move(next);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            places[k] = std::move(moved[k].places);
+            for (Vec2& p : places[k]) p = p - drift;
+        }
         mean.variance_ = median(rests);
     }
     for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
-        mean.learn_ball(examples, places, kind);
+        mean.learn_ball(examples, excesses, places, kind, threads);
     double least = alone;
     for (double counts = 0.1; counts < 1.05; counts += 0.1) {
         const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);

@@ -40,7 +40,7 @@ class MeanBall {
     };
     /// Nothing where the examples are too few, or the edges do as well alone.
     static std::optional<MeanBall> learned(const std::vector<Example>& examples,
-                                           const BeadLook& look);
+                                           const BeadLook& look, unsigned threads);
 
     double counts() const { return counts_; }  // against the edges, 0 … 1
     double error() const { return error_; }    // of a coordinate, from overlaps that cannot be
@@ -69,17 +69,41 @@ class MeanBall {
 
   private:
     MeanBall() = default;
-    void learn_floor(const std::vector<Example>& examples);
-    void learn_ball(const std::vector<Example>& examples,
-                    const std::vector<std::vector<Vec2>>& places, std::size_t kind);
+    void learn_floor(const std::vector<Example>& examples, unsigned threads);
+    void learn_ball(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
+                    const std::vector<std::vector<Vec2>>& places, std::size_t kind,
+                    unsigned threads);
+    struct Moved {
+        std::vector<Vec2> places, from_edges;
+        std::vector<double> rests;  // mean squares of what the ball leaves
+    };
+    Moved moved(const Example& example, const Excess& seen, const std::vector<Vec2>& edges,
+                const std::vector<Vec2>& places) const;
     double lamp(const cv::Mat& sharp, const CircleFit& rim, const std::vector<Bead>& beads) const;
+    cv::Mat free_floor(const cv::Size& size, const CircleFit& rim,
+                       const std::vector<Bead>& beads) const;
+
+    /// A row of the pixels that a ball covers, from column `from` to `to`: `hidden` counts from
+    /// `from`, `level` from the picture's edge.
+    struct Row {
+        int row, from, to;
+        const float* level;
+        const char* hidden;
+        double scale;
+    };
+    template <typename Use>
+    void each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
+                  const std::vector<NearCircle>& others, int stride, Use&& use) const;
+    struct Normal;
+    Normal normal(const Excess& excess, const Vec2& centre, std::size_t kind,
+                  const std::vector<NearCircle>& others, int stride, double gain) const;
     template <typename Use>
     void each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
                     const std::vector<NearCircle>& others, int stride, Use&& use) const;
 
     struct Look {  // of a kind
         double radius = 0.0, squares = 1.0;
-        cv::Mat grid;  // T and its slopes, three floats
+        cv::Mat grid;  // T, its slopes, and nothing, floats
     };
     BeadLook look_;
     cv::Mat floor_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <map>
 #include <opencv2/core.hpp>
 
@@ -48,6 +49,10 @@ struct Survey {
     cv::Size size;
 };
 
+unsigned threads_of(const TrackingSettings& settings) {
+    return settings.threads ? settings.threads : available_cores();
+}
+
 Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const std::int64_t every = std::max<std::int64_t>(1, pictures / survey_pictures);
     Video video(settings.film, every);
@@ -65,9 +70,13 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     if (side < 64)
         throw Failure(fmt::format("The pictures of '{}' are {}x{} pixels, which shows no discs.",
                                   settings.film, found.size.width, found.size.height));
+    const double rough = std::min(1.0, votes_side / side);
+    const unsigned threads = threads_of(settings);
+    std::vector<std::optional<Picture>> made(kept.size());
+    on_all_cores(
+        kept.size(), [&](std::size_t k) { made[k].emplace(kept[k], rough, 1.0); }, threads);
     std::vector<Picture> small;
-    for (const cv::Mat& picture : kept)
-        small.emplace_back(picture, std::min(1.0, votes_side / side), 1.0);
+    for (auto& picture : made) small.push_back(std::move(*picture));
     found.rim = survey_rim(small);
     // The discs are looked for on fewer.
     std::vector<Picture> fewer;
@@ -81,54 +90,66 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
         fewer.emplace_back(kept[k], sharp_side, survey_blur);
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
-    found.look = survey_beads(fewer, rims);
+    found.look = survey_beads(fewer, rims, threads);
     // What discs look like on the mean, for films with poor edges.
+    const double shrink = std::min(1.0, votes_radius / found.look.radius());
+    std::vector<std::optional<MeanBall::Example>> seen(kept.size());
+    on_all_cores(
+        kept.size(),
+        [&](std::size_t k) {
+            const Picture sharp(kept[k], shrink, found.look.blur);
+            const CircleFit rim = find_rim(sharp, found.rim);
+            if (rim.good) seen[k] = {sharp.sharp, rim, find_beads(sharp, rim, found.look)};
+        },
+        threads);
     std::vector<MeanBall::Example> examples;
-    for (const cv::Mat& picture : kept) {
-        const Picture sharp(picture, std::min(1.0, votes_radius / found.look.radius()),
-                            found.look.blur);
-        const CircleFit rim = find_rim(sharp, found.rim);
-        if (rim.good) examples.push_back({sharp.sharp, rim, find_beads(sharp, rim, found.look)});
-    }
-    if (auto mean = MeanBall::learned(examples, found.look))
+    for (auto& example : seen)
+        if (example) examples.push_back(std::move(*example));
+    if (auto mean = MeanBall::learned(examples, found.look, threads))
         found.look.mean_ball = std::make_shared<const MeanBall>(std::move(*mean));
     return found;
 }
 
-/// Every picture, a batch at a time, shared between the threads.
+/// Every picture, a batch at a time, shared between the threads, while the next one is read.
 std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& found,
                               std::int64_t expected, TrackedFilm& film) {
-    const unsigned threads = settings.threads ? settings.threads : available_cores();
+    const unsigned threads = threads_of(settings);
     Video video(settings.film);
     const double radius = found.look.radius();
     const double shrink = std::min(1.0, votes_radius / radius);
     const double blur = found.look.blur;
     std::vector<Seen> all;
-    std::vector<cv::Mat> batch(4 * threads);
-    cv::setNumThreads(1);
-    for (bool more = true; more;) {
-        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
-        std::size_t got = 0;
-        while (got < batch.size() && more) {
-            more = (settings.most_pictures == 0 || video.count() < settings.most_pictures) &&
-                   video.next(batch[got]);
-            if (!more) break;
-            if (batch[got].size() != found.size)
+    struct Batch {
+        std::vector<cv::Mat> pictures;
+        std::size_t number = 0;
+    } now, next;
+    now.pictures.resize(4 * threads);
+    next.pictures.resize(4 * threads);
+    const auto read = [&](Batch& batch) {
+        for (batch.number = 0; batch.number < batch.pictures.size(); ++batch.number) {
+            if (settings.most_pictures > 0 && video.count() >= settings.most_pictures) return;
+            cv::Mat& picture = batch.pictures[batch.number];
+            if (!video.next(picture)) return;
+            if (picture.size() != found.size)
                 throw Failure(fmt::format("Picture {} of '{}' has another size than the first.",
                                           video.count(), settings.film));
-            ++got;
         }
+    };
+    for (read(now); now.number > 0; std::swap(now, next)) {
+        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        std::future<void> reading = std::async(std::launch::async, [&] { read(next); });
         const std::size_t begin = all.size();
-        all.resize(begin + got);
+        all.resize(begin + now.number);
         on_all_cores(
-            got,
+            now.number,
             [&](std::size_t k) {
-                const Picture picture(batch[k], shrink, blur);
+                const Picture picture(now.pictures[k], shrink, blur);
                 Seen& seen = all[begin + k];
                 seen.rim = find_rim(picture, found.rim);
                 if (seen.rim.good) seen.beads = find_beads(picture, seen.rim, found.look);
             },
             threads);
+        reading.get();
         if (settings.progress)
             settings.progress("finding discs",
                               double(all.size()) / double(std::max<std::int64_t>(
@@ -556,6 +577,7 @@ TrackScale TrackedFilm::scale() const {
 
 TrackedFilm track_film(const TrackingSettings& settings) {
     TrackedFilm film;
+    cv::setNumThreads(1);  // the pictures are shared out among ours
     FilmTimes times = film_times(settings.film);
     std::int64_t expected = times.pictures;
     if (settings.most_pictures > 0)
