@@ -42,13 +42,15 @@ class HexaticOrder : public AllAndPinned {
   public:
     void sample(const MFrameView& view, const Voronoi& cells,
                 std::span<const std::uint8_t> pinned = {}) {
-        for (std::size_t i = 0; i < view.size(); ++i) add(hexatic_order(view, cells, i), i, pinned);
+        add(view, pinned, [&](std::size_t i) { return hexatic_order(view, cells, i); });
     }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
         visit(ReportRow{"all", "1", "hexatic order ψ6 of all discs", all()});
         visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
+        visit(ReportRow{"stays", "1", "hexatic order ψ6 of the discs on a stay at the wall",
+                        on_stays()});
     }
 };
 

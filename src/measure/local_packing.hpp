@@ -24,16 +24,18 @@ class LocalPacking : public AllAndPinned {
   public:
     void sample(const MFrameView& view, const Voronoi& cells,
                 std::span<const std::uint8_t> pinned = {}) {
-        for (std::size_t i = 0; i < view.size(); ++i) {
+        add(view, pinned, [&](std::size_t i) {
             const double area = cells.area(i);
-            add(area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known, i, pinned);
-        }
+            return area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known;
+        });
     }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
         visit(ReportRow{"all", "1", "local packing fraction φ of all discs", all()});
         visit(ReportRow{"pinned", "1", "local packing fraction φ of the pinned discs", pinned()});
+        visit(ReportRow{"stays", "1", "local packing fraction φ of the discs on a stay at the wall",
+                        on_stays()});
     }
 };
 

@@ -18,6 +18,8 @@
 //                                      which is not known sooner (pinned_loose.hpp)
 //     sample(view, cells, pinned)      every 100th sample and its Voronoi cells; seven samples late
 //                                      too where somebody follows the pinned
+//     sample_stays(stays)              after every sample, beside those of the pinned: by now it is
+//                                      known who was on a long stay at the wall some time ago
 //     sample_in_lab(snapshot)          every sample, in the lab
 //     sample_within_period(snapshot)   every 7th sample, in the lab
 //     sample_across_periods(snapshot)  the first sample of every block, in the lab
@@ -44,6 +46,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "swirl/measure/long_stays.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_list.hpp"
 #include "swirl/measure/pinned_loose.hpp"
@@ -144,6 +147,7 @@ class Observation {
         visit(discs_);
         visit(block_begins_);
         pinned_.fields(visit);
+        stays_.fields(visit);
         each([&](auto& m) { m.fields(visit); });
     }
 
@@ -165,13 +169,15 @@ class Observation {
     double period_;
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
-    bool follows_pinned_ = false, finds_cells_ = false, samples_by_event_ = false;
+    bool follows_pinned_ = false, follows_stays_ = false;
+    bool finds_cells_ = false, samples_by_event_ = false;
 
     std::int64_t samples_ = 0;
     std::uint64_t events_ = 0;
     std::size_t discs_ = 0;     // at the last event
     bool block_begins_ = true;  // nothing has been sampled of it
     PinnedFrames pinned_;
+    LongStays stays_;  // of the frames that pinned_ knows
     MFrameView view_;  // of now, where the pinned are not followed; and of the last event
     Voronoi cells_;
 };

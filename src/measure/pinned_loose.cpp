@@ -149,8 +149,16 @@ void PinnedLoose::judge(const MFrameView& view) {
         pinned_[i] = is_pinned_[i] != 0.0 ? 1 : 0;
         pinned_now += is_pinned_[i];
         if (freed_[i] + turned_[i] == 0.0) continue;
-        if (freed_[i] != 0.0) becoming_free_.add({left_x_[i], left_y_[i]});
-        if (turned_[i] != 0.0) becoming_pinned_.add({x[i], y[i]});
+        if (freed_[i] != 0.0) {
+            const Vec2 place{left_x_[i], left_y_[i]};
+            becoming_free_.add(place);
+            free_places_.add(place);
+        }
+        if (turned_[i] != 0.0) {
+            const Vec2 place{x[i], y[i]};
+            becoming_pinned_.add(place);
+            pinned_places_.add(place);
+        }
     }
     share_.add(pinned_now / static_cast<double>(n));
 }
@@ -165,6 +173,8 @@ void PinnedLoose::merge(const PinnedLoose& other) {
     becoming_pinned_.merge(other.becoming_pinned_);
     becoming_free_.merge(other.becoming_free_);
     share_.merge(other.share_);
+    pinned_places_.merge(other.pinned_places_);
+    free_places_.merge(other.free_places_);
     breaks_ += other.breaks_;
 }
 

@@ -24,7 +24,8 @@
 //   becoming free    the position where a disc's longest flight of a swirl begins
 //   becoming pinned  the position where it ends
 //
-// The angles θ about C in the M-frame are averaged as directions (circular_mean.hpp).
+// The angles θ about C in the M-frame are averaged as directions (circular_mean.hpp); the table
+// `places` has how those of the tracks are distributed.
 // Units: radians. Limits: frames whose times do not ascend, or not in equal steps (to 1 %), begin
 // new tracks, and are counted; so does a change of the number of discs. Fewer than 15 frames:
 // nothing.
@@ -35,6 +36,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/circular_mean.hpp"
+#include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
@@ -69,6 +71,8 @@ class PinnedLoose {
     /// θ where discs become pinned, and where they become free.
     const CircularMean& becoming_pinned() const { return becoming_pinned_; }
     const CircularMean& becoming_free() const { return becoming_free_; }
+    const DirectionHistogram& pinned_places() const { return pinned_places_; }
+    const DirectionHistogram& free_places() const { return free_places_; }
     /// The share of the discs that is pinned.
     Estimate share() const { return share_.estimate(); }
     /// How often the frames' times broke the track.
@@ -90,6 +94,7 @@ class PinnedLoose {
         becoming_pinned_.fields(visit);
         becoming_free_.fields(visit);
         share_.fields(visit);
+        for (DirectionHistogram* places : {&pinned_places_, &free_places_}) places->fields(visit);
     }
 
   private:
@@ -113,6 +118,7 @@ class PinnedLoose {
     std::vector<std::uint8_t> pinned_;
     CircularMean becoming_pinned_, becoming_free_;
     BlockMean share_;
+    DirectionHistogram pinned_places_, free_places_;
 };
 
 class PinnedByCollisions {
@@ -136,6 +142,9 @@ class PinnedByCollisions {
         visit(row_of("becoming_free_by_collisions", "θ where discs become free, by collisions",
                      becoming_free()));
         visit(ReportRow{"share", "1", "share of the discs that is pinned", by_tracks.share()});
+        visit(table_of(
+            "how the places of becoming pinned and free, by tracks, are distributed over θ",
+            by_tracks.pinned_places(), by_tracks.free_places()));
     }
     void merge(const PinnedByCollisions& other) {
         becoming_pinned_.merge(other.becoming_pinned_);
@@ -159,13 +168,6 @@ class PinnedByCollisions {
     };
 
   private:
-    static ReportRow row_of(const char* name, const char* description, const CircularMean& mean) {
-        return {name,
-                "°",
-                description,
-                scaled(mean.angle(), degrees_per_radian),
-                {{"concentration", "1", mean.concentration()}, {"count", "1", mean.count()}}};
-    }
     void collide(std::size_t disc, double time, const Vec2& position);
 
     std::vector<Collision> last_;  // of every disc

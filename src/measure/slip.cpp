@@ -1,7 +1,5 @@
 #include "swirl/measure/slip.hpp"
 
-#include "swirl/measure/wall_stays.hpp"
-
 namespace swirl {
 namespace {
 
@@ -26,6 +24,7 @@ struct Rates {
         sum += rate;
         count += 1.0;
     }
+    double mean() const { return sum / count; }
 };
 
 }  // namespace
@@ -43,24 +42,29 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     perimeter_.add(P);
     pancake_.add(pancake_rotation(P, P_container));
 
-    Rates all, held, held_at_wall;
+    const double omega = view.frame.omega, factor = P / (P_container * omega);
+    const bool hold = held_.empty();
+    Rates all, pinned_ones;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const double rate = view.varpi[i];
         const Vec2 d = view.position(i) - view.centre_of_mass;
         if (!(rate == rate) || dot(d, d) < view.radius[i] * view.radius[i]) continue;
         all.add(rate);
-        if (i >= pinned.size() || pinned[i] == 0) continue;
-        held.add(rate);
-        if (in_wall_layer(view, i)) held_at_wall.add(rate);
+        if (i < pinned.size() && pinned[i] != 0) pinned_ones.add(rate);
+        if (hold && in_wall_layer(view, i)) held_.push_back({i, rate});
     }
-    const auto add = [&](BlockMean& slip, const Rates& rates) {
-        if (rates.count == 0.0) return;
-        slip.add((view.frame.omega - rates.sum / rates.count) *
-                 (P / (P_container * view.frame.omega)));
-    };
-    add(cluster_, all);
-    add(pinned_, held);
-    add(pinned_at_wall_, held_at_wall);
+    if (hold) held_at_ = view.time, held_factor_ = factor, held_omega_ = omega;
+    if (all.count > 0.0) cluster_.add((omega - all.mean()) * factor);
+    if (pinned_ones.count > 0.0) pinned_.add((omega - pinned_ones.mean()) * factor);
+}
+
+void Slip::sample_stays(const LongStays& stays) {
+    if (held_.empty() || !stays.knows(held_at_)) return;
+    Rates on_stays;
+    for (const Rate& rate : held_)
+        if (stays.pinned(rate.disc, held_at_)) on_stays.add(rate.varpi);
+    if (on_stays.count > 0.0) stays_.add((held_omega_ - on_stays.mean()) * held_factor_);
+    held_.clear();
 }
 
 }  // namespace swirl

@@ -12,7 +12,11 @@ void SpinFrustration::sample(const MFrameView& view, std::span<const std::uint8_
     double mean_radius = 0.0;
     for (const double r : view.radius) mean_radius += r / static_cast<double>(n);
 
+    const bool hold = held_spins_.empty();  // and no pairs: one of each is in the layer
+    if (hold) held_at_ = view.time;
     for (std::size_t i = 0; i < n; ++i) {
+        if (hold && in_wall_layer(view, i))
+            held_spins_.push_back({i, std::abs(view.spin[i]) / view.frame.omega});
         const Vec2 p = view.position(i);
         const double gap = view.container_radius - view.radius[i] - square_root(dot(p, p));
         if (!(gap < gap_ * view.radius[i])) continue;
@@ -35,12 +39,28 @@ void SpinFrustration::sample(const MFrameView& view, std::span<const std::uint8_
         const bool both_pinned = pair.i < pinned.size() && pair.j < pinned.size() &&
                                  pinned[pair.i] != 0 && pinned[pair.j] != 0;
         if (both_pinned) add_pair(pinned_correlation_, a, b);
+        if (hold && (in_wall_layer(view, pair.i) || in_wall_layer(view, pair.j)))
+            held_pairs_.push_back({pair.i, pair.j, a, b});
         const auto& others = neighbours_[pair.j];
         const bool triangle = std::any_of(
             neighbours_[pair.i].begin(), neighbours_[pair.i].end(),
             [&](auto k) { return std::find(others.begin(), others.end(), k) != others.end(); });
         triangles_.add(triangle ? 1.0 : 0.0);
     }
+}
+
+void SpinFrustration::sample_stays(const LongStays& stays) {
+    if (held_spins_.empty() || !stays.knows(held_at_)) return;
+    const auto pinned = [&](std::size_t disc) { return stays.pinned(disc, held_at_); };
+    for (const Spin& one : held_spins_)
+        if (pinned(one.disc)) stay_spin_.add(one.spin);
+    for (const Spins& pair : held_pairs_) {
+        const bool i = pinned(pair.i), j = pinned(pair.j);
+        if (i || j) add_pair(stay_correlation_, pair.a, pair.b);
+        if (i && j) add_pair(along_wall_, pair.a, pair.b);
+    }
+    held_spins_.clear();
+    held_pairs_.clear();
 }
 
 }  // namespace swirl

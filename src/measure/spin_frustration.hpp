@@ -2,13 +2,16 @@
 // roll on each other like gears spin in opposite senses; three that touch mutually cannot all do
 // so.
 //
-//   wall spin         ⟨|ω_i|⟩/Ω in the lab, over the discs at the wall, and over those of them
-//                     that are pinned: 0 for a disc stuck to the wall, as the container does not
-//                     turn
+//   wall spin         ⟨|ω_i|⟩/Ω in the lab, over the discs at the wall, over those of them that
+//                     are pinned by the SI's criterion (pinned_loose.hpp), and over those on a long
+//                     stay in the wall's layer (long_stays.hpp): 0 for a disc stuck to the wall, as
+//                     the container does not turn
 //   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
 //                     independent spins, 1 for a body that turns as a whole; the same over touching
-//                     pairs of pinned discs; and over all disc–disc collisions, each counted with
-//                     its normal impulse: strong contacts
+//                     pairs of pinned discs; over pairs of a disc on a long stay and any that it
+//                     touches; over those of them that are both on one, neighbours along the wall;
+//                     and over all
+//                     disc–disc collisions, each counted with its normal impulse: strong contacts
 //   triangles         share of the touching pairs that have a common neighbour touching both: the
 //                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
 //                     packing
@@ -28,6 +31,7 @@
 #include <span>
 #include <vector>
 
+#include "swirl/measure/long_stays.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
@@ -51,6 +55,8 @@ class SpinFrustration {
         BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }
+    /// After every sample of the discs, used or not: who is on a long stay.
+    void sample_stays(const LongStays& stays);
     void close_block() {
         for (BlockMean* mean : means()) mean->close_block();
     }
@@ -59,6 +65,9 @@ class SpinFrustration {
     Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
     Estimate correlation() const { return correlation_.estimate(); }
     Estimate pinned_correlation() const { return pinned_correlation_.estimate(); }
+    Estimate stay_spin() const { return stay_spin_.estimate(); }
+    Estimate stay_correlation() const { return stay_correlation_.estimate(); }
+    Estimate along_wall() const { return along_wall_.estimate(); }
     Estimate correlation_by_impulse() const { return by_impulse_.estimate(); }
     Estimate triangles() const { return triangles_.estimate(); }
     Estimate disc_sticking() const { return disc_sticking_.estimate(); }
@@ -72,9 +81,16 @@ class SpinFrustration {
             ReportRow{"wall_spin", "Ω", "size of the spin of the discs at the wall", wall_spin()});
         visit(ReportRow{"pinned_wall_spin", "Ω", "size of the spin of the pinned discs at the wall",
                         pinned_wall_spin()});
+        visit(ReportRow{"stay_spin", "Ω", "size of the spin of the discs on a stay at the wall",
+                        stay_spin()});
         visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
         visit(ReportRow{"pinned_correlation", "1", "the same of touching discs that are pinned",
                         pinned_correlation()});
+        visit(ReportRow{"stay_correlation", "1",
+                        "the same of a disc on a stay at the wall and any that it touches",
+                        stay_correlation()});
+        visit(ReportRow{"along_wall", "1", "the same of touching discs that are both on a stay",
+                        along_wall()});
         visit(ReportRow{"correlation_by_impulse", "1",
                         "the same over collisions, each counted with its normal impulse",
                         correlation_by_impulse()});
@@ -89,8 +105,11 @@ class SpinFrustration {
     void merge(const SpinFrustration& other) {
         wall_spin_.merge(other.wall_spin_);
         pinned_wall_spin_.merge(other.pinned_wall_spin_);
+        stay_spin_.merge(other.stay_spin_);
         correlation_.merge(other.correlation_);
         pinned_correlation_.merge(other.pinned_correlation_);
+        stay_correlation_.merge(other.stay_correlation_);
+        along_wall_.merge(other.along_wall_);
         by_impulse_.merge(other.by_impulse_);
         triangles_.merge(other.triangles_);
         coordination_.merge(other.coordination_);
@@ -101,13 +120,25 @@ class SpinFrustration {
     void fields(Visitor&& visit) {
         visit(samples_);
         for (BlockMean* mean : means()) mean->fields(visit);
+        visit(held_spins_);
+        visit(held_pairs_);
+        visit(held_at_);
     }
+
+    struct Spin {
+        std::size_t disc;
+        double spin;
+    };
+    struct Spins {
+        std::size_t i, j;
+        double a, b;
+    };
 
   private:
     std::vector<BlockMean*> means() {
-        return {&wall_spin_,          &pinned_wall_spin_, &correlation_,
-                &pinned_correlation_, &by_impulse_,       &triangles_,
-                &coordination_,       &disc_sticking_,    &wall_sticking_};
+        return {&wall_spin_,          &pinned_wall_spin_, &stay_spin_,     &correlation_,
+                &pinned_correlation_, &stay_correlation_, &along_wall_,    &by_impulse_,
+                &triangles_,          &coordination_,     &disc_sticking_, &wall_sticking_};
     }
     /// ω_i ω_j over ½ (ω_i² + ω_j²), as a ratio of sums.
     static void add_pair(BlockMean& correlation, double a, double b, double weight = 1.0) {
@@ -121,10 +152,15 @@ class SpinFrustration {
     double gap_;
     int every_;
     std::int64_t samples_ = 0;
-    BlockMean wall_spin_, pinned_wall_spin_, correlation_, triangles_, coordination_;
-    BlockMean pinned_correlation_, by_impulse_, disc_sticking_, wall_sticking_;
+    BlockMean wall_spin_, pinned_wall_spin_, stay_spin_, correlation_, triangles_, coordination_;
+    BlockMean pinned_correlation_, stay_correlation_, along_wall_, by_impulse_, disc_sticking_,
+        wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
+    // Of the discs in the wall layer at a moment, until it is known which were on a long stay then.
+    std::vector<Spin> held_spins_;
+    std::vector<Spins> held_pairs_;
+    double held_at_ = 0.0;
 };
 
 }  // namespace swirl

@@ -1,17 +1,8 @@
 #include "swirl/measure/wall_stays.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace swirl {
-namespace {
-
-std::size_t bin_of(const Vec2& place) {
-    const auto bin = static_cast<std::size_t>(turns_of(place) * WallStays::bins);
-    return std::min(bin, WallStays::bins - 1);
-}
-
-}  // namespace
 
 void WallStays::sample(const MFrameView& view) {
     const std::size_t n = view.size();
@@ -61,8 +52,8 @@ void WallStays::end(std::size_t layer, const Stay& stay, double period) {
         kind.end.add(stay.last);
         if (layer != standard || d != standard) continue;
         length_.add(length / period);
-        if (stay.knows_begin != 0.0) begins_[bin_of(stay.begin)] += 1.0;
-        ends_[bin_of(stay.last)] += 1.0;
+        if (stay.knows_begin != 0.0) begins_.add(stay.begin);
+        ends_.add(stay.last);
     }
 }
 
@@ -84,10 +75,8 @@ void WallStays::merge(const WallStays& other) {
             kinds_[l][d].share.merge(other.kinds_[l][d].share);
         }
     length_.merge(other.length_);
-    for (std::size_t b = 0; b < bins; ++b) {
-        begins_[b] += other.begins_[b];
-        ends_[b] += other.ends_[b];
-    }
+    begins_.merge(other.begins_);
+    ends_.merge(other.ends_);
 }
 
 }  // namespace swirl

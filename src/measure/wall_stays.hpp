@@ -32,25 +32,19 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/circular_mean.hpp"
+#include "swirl/measure/direction_histogram.hpp"
+#include "swirl/measure/long_stays.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 
-/// Is disc i within so many of its radii of the wall? A layer thicker than the dish is all of it.
-inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = 1.5) {
-    const Vec2 p = view.position(i);
-    const double inner = view.container_radius - radii * view.radius[i];
-    return !(inner > 0.0) || dot(p, p) > inner * inner;
-}
-
 class WallStays {
   public:
-    static constexpr std::array layers{1.3, 1.5, 1.7};  // radii between centre and wall
-    static constexpr std::array least{20.0 / 511.0, 40.0 / 511.0, 80.0 / 511.0};  // periods
-    static constexpr std::size_t standard = 1;                                    // of both
-    static constexpr std::size_t bins = 36;                                       // of the places
+    static constexpr std::array layers{1.3, wall_layer, 1.7};  // radii between centre and wall
+    static constexpr std::array least{0.5 * long_stay, long_stay, 2.0 * long_stay};  // periods
+    static constexpr std::size_t standard = 1;                                       // of both
 
     /// All samples at equal steps of time.
     void sample(const MFrameView& view);
@@ -73,9 +67,9 @@ class WallStays {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(direction("becoming_pinned", "θ where stays in the wall layer begin",
-                        becoming_pinned()));
-        visit(direction("becoming_free", "θ where they end", becoming_free()));
+        visit(
+            row_of("becoming_pinned", "θ where stays in the wall layer begin", becoming_pinned()));
+        visit(row_of("becoming_free", "θ where they end", becoming_free()));
         visit(ReportRow{"share", "1", "share of the discs that is on such a stay", share()});
         visit(ReportRow{"length", "T", "of a stay, in swirls", length()});
         ReportTable sensitivity{"sensitivity",
@@ -101,18 +95,8 @@ class WallStays {
                                  kind.end.concentration(), held.mean, held.error});
             }
         visit(std::move(sensitivity));
-        ReportTable places{"places",
-                           "how the places of becoming pinned and free are distributed over θ",
-                           {{"theta", "°"}, {"pinned", "1"}, {"free", "1"}}};
-        double begun = 0.0, ended = 0.0;
-        for (std::size_t b = 0; b < bins; ++b) {
-            begun += begins_[b];
-            ended += ends_[b];
-        }
-        for (std::size_t b = 0; b < bins; ++b)
-            places.add({360.0 * (static_cast<double>(b) + 0.5) / bins, begins_[b] / begun,
-                        ends_[b] / ended});
-        visit(std::move(places));
+        visit(table_of("how the places of becoming pinned and free are distributed over θ", begins_,
+                       ends_));
     }
     void merge(const WallStays& other);
     template <class Visitor>
@@ -127,7 +111,7 @@ class WallStays {
                 kind.share.fields(visit);
             }
         length_.fields(visit);
-        for (auto* column : {&begins_, &ends_}) visit(*column);
+        for (DirectionHistogram* places : {&begins_, &ends_}) places->fields(visit);
     }
 
     /// Of one disc in one layer.
@@ -142,14 +126,6 @@ class WallStays {
         CircularMean begin, end;
         BlockMean share;
     };
-    static ReportRow direction(const char* name, const char* description,
-                               const CircularMean& mean) {
-        return {name,
-                "°",
-                description,
-                scaled(mean.angle(), degrees_per_radian),
-                {{"concentration", "1", mean.concentration()}, {"count", "1", mean.count()}}};
-    }
     void end(std::size_t layer, const Stay& stay, double period);
 
     double last_time_ = 0.0;
@@ -157,7 +133,7 @@ class WallStays {
     std::vector<Stay> stays_;  // of every disc, layer by layer
     std::array<std::array<Kind, least.size()>, layers.size()> kinds_;
     BlockMean length_;
-    std::vector<double> begins_ = std::vector<double>(bins), ends_ = std::vector<double>(bins);
+    DirectionHistogram begins_, ends_;
 };
 
 }  // namespace swirl

@@ -79,6 +79,9 @@ TEST(PinnedLoose, TheCycleGivesItsAngles) {
     EXPECT_GT(pinning.becoming_free().concentration(), 0.99);
     // The only sharp turn of the cycle.
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 240.0 * degree, 2.0 * degree);
+    // It comes to 240° from below: all turns are in the slices beside it.
+    EXPECT_EQ(pinning.pinned_places().share(23) + pinning.pinned_places().share(24), 1.0);
+    EXPECT_GT(pinning.free_places().share(4) + pinning.free_places().share(5), 0.99);
     EXPECT_EQ(pinning.breaks(), 0.0);
 }
 

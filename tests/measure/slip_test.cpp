@@ -70,35 +70,37 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
 }
 
-/// Four discs far inside, at rest in the M-frame.
-void add_still_discs(Snapshot& s) {
-    const MFrame f = m_frame(s);
-    for (int k = 0; k < 4; ++k) {
-        const Vec2 p = 3.0 * unit_circle(0.25 * k);
-        add_disc(s, f.lab_position(p), f.lab_velocity(p, {}));
+// A disc in the wall layer counts from the first sample of a stay on, once the stay has lasted long
+// enough; one that flies along far inside never does, whatever the SI's criterion says of it.
+TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
+    constexpr int samples = 511;
+    for (const bool long_enough : {true, false}) {
+        Slip slip(1), rims(1);
+        LongStays stays;
+        for (int k = 0; k < 60; ++k) {
+            const double u = static_cast<double>(k) / samples;
+            Snapshot s = rim(u, 1.0, k < (long_enough ? 45 : 30) ? 23 : 0);
+            const MFrame f = m_frame(s);
+            while (s.size() < 27) {
+                const Vec2 p = 3.0 * unit_circle(0.25 * static_cast<double>(s.size()));
+                add_disc(s, f.lab_position(p), f.lab_velocity(p, {}));
+            }
+            stays.sample(s);
+            slip.sample(s, std::vector<std::uint8_t>(27, 1));
+            slip.sample_stays(stays);
+        }
+        rims.sample(rim(0.0, 1.0));
+        slip.close_block();
+        rims.close_block();
+        // Four discs at rest inside, as far on the one side as on the other, leave the rim's ϖ as
+        // it is.
+        if (long_enough) {
+            EXPECT_NEAR(slip.on_stays().mean, rims.cluster().mean, 1e-9);
+        } else {
+            EXPECT_TRUE(std::isnan(slip.on_stays().mean));
+        }
+        EXPECT_LT(slip.pinned_region().mean, 0.9 * rims.cluster().mean);
     }
-}
-
-TEST(Slip, OfThePinnedAtTheWallOnlyThoseInTheWallLayerCount) {
-    Snapshot s = rim(0.3, 1.0);
-    const std::vector<std::uint8_t> everybody(27, 1);
-    Slip alone(1);
-    alone.sample(s, everybody);
-    alone.close_block();
-    EXPECT_EQ(alone.pinned_at_wall().mean, alone.pinned_region().mean);
-    add_still_discs(s);
-    Slip both(1);
-    both.sample(s, everybody);
-    both.close_block();
-    EXPECT_NEAR(both.pinned_at_wall().mean, alone.pinned_at_wall().mean, 1e-13);
-    EXPECT_LT(both.pinned_region().mean, 0.9 * alone.pinned_region().mean);
-    Snapshot inside = empty_dish(0.3);
-    add_still_discs(inside);
-    Slip none(1);
-    none.sample(inside, everybody);
-    none.close_block();
-    EXPECT_TRUE(std::isnan(none.pinned_at_wall().mean));
-    EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
 }
 
 TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {

@@ -155,6 +155,39 @@ TEST(SpinFrustration, StrongContactsCountWithTheirImpulse) {
     EXPECT_NEAR(frustration.correlation_by_impulse().mean, -0.6, 1e-12);
 }
 
+/// Three in a chain along the wall that stay there, and one more that touches the last from inside.
+Snapshot along_the_wall(int k) {
+    Snapshot s = empty_dish(k / 511.0);
+    const MFrame f = m_frame(s);
+    const auto add = [&](double radius, double angle, double spin) {
+        const Vec2 p = radius * unit_circle(angle / (2.0 * pi));
+        add_disc(s, f.lab_position(p), f.lab_velocity(p, {}), spin);
+    };
+    const double step = 2.0 * std::asin(2.02 / (2.0 * 7.55));  // two centres 2.02 apart
+    add(7.55, 0.0, 0.5 * omega);
+    add(7.55, step, -0.5 * omega);
+    add(7.55, 2.0 * step, 0.5 * omega);
+    add(5.53, 2.0 * step, 0.5 * omega);
+    return s;
+}
+
+TEST(SpinFrustration, OfDiscsOnAStayItIsKnownWhenTheStayHasLastedLongEnough) {
+    SpinFrustration frustration(0.1, 1);
+    LongStays stays;
+    for (int k = 0; k < 45; ++k) {
+        stays.sample(along_the_wall(k));
+        frustration.sample(along_the_wall(k));
+        frustration.sample_stays(stays);
+        frustration.close_block();
+        EXPECT_EQ(std::isnan(frustration.stay_spin().mean), k < 40) << k;
+    }
+    EXPECT_NEAR(frustration.stay_spin().mean, 0.5, 1e-12);
+    // The fourth, which spins like its neighbour, is on no stay.
+    EXPECT_NEAR(frustration.along_wall().mean, -1.0, 1e-12);
+    EXPECT_NEAR(frustration.stay_correlation().mean, -1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(frustration.correlation().mean, -1.0 / 3.0, 1e-12);
+}
+
 TEST(SpinFrustration, PairsOfPinnedDiscsAreToldApart) {
     SpinFrustration frustration(0.1, 1);
     Snapshot chain = empty_dish();

@@ -169,6 +169,41 @@ TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
     EXPECT_LT(packing.all().mean, pi / std::sqrt(12.0));
 }
 
+TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
+    // The outer ring of a lattice touches the wall; it stays there, and only the first sample has
+    // cells.
+    HexaticOrder order;
+    LocalPacking packing;
+    LongStays stays;
+    const auto seen = [](double time) {
+        Snapshot s = lattice(1);
+        s.clock = time * s.period;
+        s.held_at.assign(s.size(), s.clock);
+        return s;
+    };
+    Voronoi cells;
+    const MFrameView first(seen(0.0));
+    cells.find(first);
+    for (int k = 0; k <= 41; ++k) {
+        stays.sample(MFrameView(seen(k / 511.0)));
+        if (k == 0) order.sample(first, cells);
+        if (k == 0) packing.sample(first, cells);
+        order.sample_stays(stays);
+        packing.sample_stays(stays);
+    }
+    order.close_block();
+    packing.close_block();
+    double psi6 = 0.0, phi = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (i == centre_of(first)) continue;
+        psi6 += hexatic_order(first, cells, i) / 6.0;
+        phi += pi / cells.area(i) / 6.0;
+    }
+    EXPECT_NEAR(order.on_stays().mean, psi6, 1e-14);
+    EXPECT_NEAR(packing.on_stays().mean, phi, 1e-14);
+    EXPECT_GT(std::abs(packing.all().mean - phi), 1e-3);
+}
+
 TEST(LocalStructure, OfNothingIsNotANumberAndMergedRunsAreOneLongRun) {
     HexaticOrder order, first, second;
     LocalPacking packing, one, two;
