@@ -104,8 +104,9 @@ void measure_file(const MeasureCall& call) {
               {"remark", opened.remarks},
               {"version", version()}};
     std::string text = fmt::format(
-        "{} discs {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
-        sense_of_rotation(found.by_time), with_error(found.by_time.mean, found.by_time.error),
+        "{} {} {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
+        series.frame(0).are_balls() ? "spheres" : "discs", sense_of_rotation(found.by_time),
+        with_error(found.by_time.mean, found.by_time.error),
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
     text += measured_text(measured);
     text += opened.remarks;

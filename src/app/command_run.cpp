@@ -31,7 +31,7 @@ struct RunCall {
 
 RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
                             const Provenance& provenance, Observation& observation, bool quiet) {
-    ProgressLine line(fmt::format("{} discs", config.discs), quiet);
+    ProgressLine line(fmt::format("{} {}s", config.discs, body_word(config)), quiet);
     const auto begin = std::chrono::steady_clock::now();
     RunControl control;
     control.stop = &stop_signal();

@@ -54,8 +54,7 @@ std::string symbol_of(const char* name) {
 }
 
 std::string caption_of(const RunConfig& config) {
-    return fmt::format("{} {}{}", config.discs, config.body == Shape::sphere ? "sphere" : "disc",
-                       config.discs == 1 ? "" : "s");
+    return fmt::format("{} {}{}", config.discs, body_word(config), config.discs == 1 ? "" : "s");
 }
 
 /// Nothing where it is of another version, or there is nothing.
@@ -126,7 +125,7 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
     label("container_radius", plain(config.container_radius / config.radius) + " $r$");
     label("amplitude", plain(config.amplitude / config.radius) + " $r$");
     if (config.mixture)
-        labels.push_back(fmt::format("{} discs of {} $r$", config.mixture->count,
+        labels.push_back(fmt::format("{} {}s of {} $r$", config.mixture->count, body_word(config),
                                      plain(config.mixture->radius / config.radius)));
     labels.push_back(fmt::format("seed {}", config.seed));
     return labels;

@@ -223,7 +223,7 @@ std::optional<std::string> problem(const std::vector<FrameSource>& sources,
                                    const Appearance& appearance) {
     for (const FrameSource& dish : sources) {
         if (appearance.coloring == Coloring::spin && !dish.knows_spin)
-            return fmt::format("{} tells no spins, so the discs cannot be coloured by them.",
+            return fmt::format("{} tells no spins, so nothing can be coloured by them.",
                                dish.caption);
         if (appearance.coloring == Coloring::slip && !dish.knows_slip)
             return fmt::format(

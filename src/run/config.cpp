@@ -43,9 +43,9 @@ std::optional<std::string> does_not_cover(const RunConfig& c) {
                         count * c.mixture->radius * c.mixture->radius;
     if (area <= R * R) return {};
     return fmt::format(
-        "{} discs do not fit into a container of radius {}: together they would cover {:.0f} % of "
+        "{} {}s do not fit into a container of radius {}: together they would cover {:.0f} % of "
         "it; {}",
-        c.discs, R, 100.0 * area / (R * R), advice_on_room);
+        c.discs, body_word(c), R, 100.0 * area / (R * R), advice_on_room);
 }
 
 /// In radii of the smallest disc. The centres of Verlet skins are held in single precision, and the
@@ -57,23 +57,23 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
     const double big = c.mixture ? std::fmax(c.radius, c.mixture->radius) : c.radius;
     if (big >= R)
         return fmt::format(
-            "A disc of radius {} does not fit into a container of radius {}: --container-radius "
+            "A {} of radius {} does not fit into a container of radius {}: --container-radius "
             "must be larger than --radius.",
-            big, R);
+            body_word(c), big, R);
     const double small = c.mixture ? std::fmin(c.radius, c.mixture->radius) : c.radius;
     if (R > widest_dish * small)
         return fmt::format(
-            "A container of radius {} is more than {} times as large as a disc of radius {}, and "
+            "A container of radius {} is more than {} times as large as a {} of radius {}, and "
             "the search for neighbours is not as fine as that; a smaller --container-radius would "
             "be right.",
-            R, widest_dish, small);
+            R, widest_dish, body_word(c), small);
     if (c.mixture) return does_not_cover(c);
     const double most = most_discs_in_dish(c.radius, R);
     if (static_cast<double>(c.discs) <= most) return {};
     return fmt::format(
-        "{} discs do not fit into a container of radius {}, where no arrangement holds more than "
+        "{} {}s do not fit into a container of radius {}, where no arrangement holds more than "
         "{:.0f}; {}",
-        c.discs, R, most, advice_on_room);
+        c.discs, body_word(c), R, most, advice_on_room);
 }
 
 /// What only a floor does.
@@ -173,6 +173,10 @@ Tuning stopped_by(const std::atomic<bool>* stop) {
     return tuning;
 }
 
+const char* body_word(const RunConfig& config) {
+    return config.body == Shape::sphere ? "sphere" : "disc";
+}
+
 InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
     return {
         {},
@@ -193,13 +197,13 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     const auto centres =
         place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);
     if (!centres && stop && stop->load())
-        throw_interrupted("Stopped before the discs had their places.");
+        throw_interrupted(fmt::format("Stopped before the {}s had their places.", body_word(c)));
     if (!centres)
         throw_wrong_call(fmt::format(
-            "{} discs of radius {}{} could not be placed in a container of radius {} without "
+            "{} {}s of radius {}{} could not be placed in a container of radius {} without "
             "overlap: {}{}",
-            c.discs, c.radius, c.mixture ? fmt::format(" and {}", c.mixture->radius) : "",
-            c.container_radius,
+            c.discs, body_word(c), c.radius,
+            c.mixture ? fmt::format(" and {}", c.mixture->radius) : "", c.container_radius,
             c.mixture ? ""
                       : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
                                     "may be found; ",

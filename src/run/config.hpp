@@ -17,6 +17,9 @@ std::optional<std::string> problem(const RunConfig& config);
 
 ContainerPath make_path(const RunConfig& config);
 
+/// What they are, in sentences: "disc" or "sphere".
+const char* body_word(const RunConfig& config);
+
 /// A dish without its discs: surfaces, floor, and a path that need not be the configuration's.
 InitialState without_discs(const RunConfig& config, const ContainerPath& path);
 

@@ -14,8 +14,6 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
-const char* word_for(Shape body) { return body == Shape::sphere ? "sphere" : "disc"; }
-
 bool frictionless(const RunConfig& c) { return c.mu_disc == 0.0 && c.mu_wall == 0.0; }
 
 std::string energy_sentence(const RunResult& r) {
@@ -34,7 +32,7 @@ std::string energy_sentence(const RunResult& r) {
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
-std::string drift_sentence(const char* what, const SteadyState& steady) {
+std::string drift_sentence(const std::string& what, const SteadyState& steady) {
     if (steady.drifts())
         return fmt::format(
             "Not steady: the {} was still changing after the warm-up ({:.1f} standard errors "
@@ -93,7 +91,7 @@ std::string sense_of_rotation(const Estimate& e) {
 
 std::string headline(const RunResult& r) {
     const Estimate& e = r.rotation.by_event;
-    const char* const body = word_for(r.config.body);
+    const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
     if (!r.has_whole_swirl())
@@ -129,7 +127,7 @@ std::string report(const RunResult& r) {
              fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
                          r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
-    const char* const body = word_for(r.config.body);
+    const char* const body = body_word(r.config);
     line("events",
          fmt::format("{}: {} {}–{}, {} {}–wall, {} corners of the path{}",
                      with_commas(r.events.total()), with_commas(r.events.disc_disc), body, body,
@@ -163,7 +161,8 @@ std::vector<std::string> warnings(const RunResult& r) {
     else if (r.steady.verdict == SteadyState::Verdict::drifting)
         all.push_back(drift_sentence("rotation", r.steady));
     else if (r.steady_spin.verdict == SteadyState::Verdict::drifting)
-        all.push_back(drift_sentence("mean spin of the discs", r.steady_spin));
+        all.push_back(drift_sentence(fmt::format("mean spin of the {}s", body_word(r.config)),
+                                     r.steady_spin));
     else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
              r.has_whole_swirl())
         all.push_back(too_short_sentence(r));

@@ -301,7 +301,7 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
 CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
     if (!(settings.from >= 2 && settings.to > settings.from))
         throw WrongCall(fmt::format(
-            "The search goes from --from {} to --to {} discs, but it must begin at 2 or more and "
+            "The search goes from --from {} to --to {}, but it must begin at 2 or more and "
             "end above its beginning.",
             settings.from, settings.to));
     if (settings.step < 0)
@@ -379,11 +379,11 @@ std::string crossing_report(const CrossingSettings& settings, const CrossingSear
                                                  "for, so more --events would be right.",
                                                  settings.tolerance));
         case Crossing::Verdict::always_rotates:
-            return fmt::format(
-                "No crossing: the discs always rotate; {}, {:.0f} errors above zero.", evidence,
-                lowest->mean / lowest->error);
+            return fmt::format("No crossing: the {}s always rotate; {}, {:.0f} errors above zero.",
+                               body_word(settings.config), evidence, lowest->mean / lowest->error);
         case Crossing::Verdict::always_counterrotates:
-            return fmt::format("No crossing: the discs always counterrotate; {}.", evidence);
+            return fmt::format("No crossing: the {}s always counterrotate; {}.",
+                               body_word(settings.config), evidence);
         case Crossing::Verdict::undecided:
             break;
     }

@@ -63,6 +63,39 @@ TEST(RunOfSpheres, ResumedItEndsWithTheSameResult) {
     EXPECT_LT(whole.max_overlap, 1e-12);
 }
 
+TEST(RunOfSpheres, SlowInTenMillionEventsNoTwoOverlapByMoreThanRounding) {
+    const RunResult done = run(
+        resolve({{"preset", "experiment"}, {"discs", "48"}, {"events", "1e7"}, {"warmup", "0"}}));
+    EXPECT_EQ(done.events.total(), 10'000'000u);
+    EXPECT_LT(done.max_overlap, 1e-12);
+}
+
+// Without a contact duration a sphere that the floor drives along the wall hops on it ever lower,
+// until it is never apart from it by more than a rounding error. From then on each hop falls by a
+// grain, 2⁻⁵² σ² in what the square of its distance from C leaves of σ² (quartic.hpp), which is
+// 2⁻⁵³ σ in the distance, σ = R − r. Twice that leaves room for the rounding of places.
+TEST(RunOfSpheres, WithoutAContactDurationOneSinksIntoTheWallByAGrainPerHopAtMost) {
+    for (const char* restitution : {"0.9", "0.5", "0"}) {
+        const RunConfig config = resolve({{"preset", "experiment"},
+                                          {"discs", "8"},
+                                          {"contact_duration", "0"},
+                                          {"restitution", restitution}});
+        Simulation simulation(make_initial_state(config));
+        const double grain = 0x1p-53 * (config.container_radius - config.radius);
+        std::vector<double> hops(8, 0.0);
+        double deepest = 0.0;
+        for (int k = 0; k < 300'000; ++k) {
+            const Event event = simulation.step();
+            if (event.kind != EventKind::disc_wall) continue;
+            hops[event.i] += 1.0;
+            deepest = std::fmax(deepest, event.overlap);
+            // 10⁻¹⁴: of a first contact.
+            ASSERT_LT(event.overlap, 2.0 * grain * hops[event.i] + 1e-14) << restitution;
+        }
+        EXPECT_GT(deepest, 1e-12) << restitution;  // it was met
+    }
+}
+
 // The average by time, once more: from the engine, one sphere after the other.
 TEST(RunOfSpheres, RotationIsThatOfTheExactStatesAtTheExactTimes) {
     const RunConfig config =
