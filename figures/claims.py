@@ -53,7 +53,7 @@ SAME_RANGE = 0.15          # of the paper's highest force
 TIMES_AROUND = 10.0        # factor either way: "around" a time
 LEAST_VISITS = 200         # of a slice of θ that is looked at
 ROUGHLY = 2.0              # spheres either way: "at roughly N = 36"
-PLASTIC = 0.2              # friction of the spheres of plastic, where one is chosen
+PLASTIC, ROUGHER = 0.2, 0.3  # frictions of the spheres of plastic, where one or two are chosen
 DENSE_SPHERES = (44, 48)   # where all agree that they counterrotate
 
 # What the paper says.
@@ -71,6 +71,7 @@ MOSTLY = 0.5               # share of the runs of a point: more of them steady, 
 # Standard deviation of log10 of the smallest of many independent times: it is distributed
 # exponentially, and the natural logarithm of such a time has π/√6.
 SCATTER_OF_SMALLEST = math.pi / math.sqrt(6) / math.log(10)
+APART = 90.0               # degrees: another place, not a neighbour of the first
 TENTHS = 10                # an energy is averaged over these parts of a run, the first left out
 NEAR_CROSSING = 3          # discs either way: points that could tell a crossing better
 
@@ -254,13 +255,23 @@ def friction_order(folder):
     return every(steps), text
 
 
+def drifts(row):
+    """Most of its runs do: their average is of the way to somewhere else. A row without the columns was
+    never asked."""
+    return "seeds" in row and row["drifting_runs"] > MOSTLY * row["seeds"]
+
+
 def near_omega(rows, bound, where):
-    inside = [within(v, 1 - bound, 1 + bound) for v in values(rows, "by_event")]
+    inside = [Part(UNDECIDED) if drifts(row) else within(value(row, "by_event"), 1 - bound, 1 + bound)
+              for row in rows]
+    drifting = [row["discs"] for row in rows if drifts(row)]
     worst = max(rows, key=lambda row: abs(row["by_event"] - 1))
     return every(inside), (
         f"{where}ithin {100 * bound:.0f} % of Ω for certain at {count(inside)} of {len(rows)} N, "
         f"outside for certain at {count(inside, FAILS)}; farthest is "
-        f"{number(value(worst, 'by_event'))} at N = {worst['discs']:.0f}.")
+        f"{number(value(worst, 'by_event'))} at N = {worst['discs']:.0f}." +
+        (f" Where most runs drift, from N = {min(drifting):.0f} on at {len(drifting)} N, nothing is "
+         "decided." if drifting else ""))
 
 
 def no_wall_at_omega(folder):
@@ -302,6 +313,10 @@ def no_disc_drop(folder):
                  f"{number(value(steady[-1], 'by_event'))} at N = {steady[-1]['discs']:.0f}.")
     except (FileNotFoundError, IndexError):
         pass
+    # The way there takes longer than a short run, and ϖ is the farther from Ω the less of it is seen.
+    if rows[-1].get("events", EVENTS) < EVENTS:
+        return Part(UNDECIDED), (f"{text} Runs of {rows[-1]['events']:.0f} events see less of the way to the "
+                                 f"steady state than the paper's of {EVENTS:.0f}, and decide nothing.")
     return above(drop, SLIGHT_DROP), text
 
 
@@ -423,9 +438,9 @@ def loose_peak(folder):
 
 def slip_rises(folder):
     rows = folder.curve("4a", setting="high")
-    part, but = rising(rows, "pinned_at_wall")
-    return parts(part, above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
-        f"s of the pinned discs in the wall layer: {ends(rows, 'pinned_at_wall')}{but} (nearly 1: "
+    part, but = rising(rows, "slip_stays")
+    return parts(part, above(value(rows[-1], "slip_stays"), NEARLY_ONE)), (
+        f"s of the discs on a stay at the wall: {ends(rows, 'slip_stays')}{but} (nearly 1: "
         f"above {NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. "
         "The 0.5 at N = 25 is of the experiment, whose friction is not known.")
 
@@ -434,7 +449,7 @@ def closer_to_one(rough, smooth):
     """Of rows of two frictions, at every N that both have: is s closer to 1 for the rougher?"""
     smooth = {row["discs"]: row for row in smooth}
     pairs = [(row, smooth[row["discs"]]) for row in rough if row["discs"] in smooth]
-    closer = [below(abs(value(a, "pinned_at_wall") - 1), abs(value(b, "pinned_at_wall") - 1))
+    closer = [below(abs(value(a, "slip_stays") - 1), abs(value(b, "slip_stays") - 1))
               for a, b in pairs]
     return every(closer), (
         f"certainly at {count(closer)} of {len(closer)} N, certainly not at {count(closer, FAILS)}")
@@ -444,16 +459,17 @@ def slip_rough(folder):
     low = folder.curve("4a", setting="low")
     part, found = closer_to_one(folder.curve("4a", setting="high"), low)
     return part, (
-        f"s of the pinned in the wall layer is closer to 1 for μ = 1 than for μ = 0.1, {found}; "
-        f"for μ = 0.1: {ends(low, 'pinned_at_wall')}, of all pinned by the SI's criterion "
+        f"s of the discs on a stay at the wall is closer to 1 for μ = 1 than for μ = 0.1, {found}; "
+        f"for μ = 0.1: {ends(low, 'slip_stays')}, of all pinned by the SI's criterion "
         f"{ends(low, 'pinned_region')}.")
 
 
 def wall_spin(folder):
     rows = folder.curve("4b", setting="high")
-    part, but = rising(rows, "pinned_wall_spin", falling=True)
+    part, but = rising(rows, "stay_spin", falling=True)
     return part, (
-        f"⟨|ω|⟩/Ω of the pinned discs at the wall: {ends(rows, 'pinned_wall_spin')}{but}. What the "
+        f"⟨|ω|⟩/Ω of the discs on a stay at the wall: {ends(rows, 'stay_spin')}{but}; of those at the "
+        f"wall that are pinned by the SI's criterion: {ends(rows, 'pinned_wall_spin')}. What the "
         "paper calls the reason, frustration, can be counted (no claim of the paper's): the share of "
         f"the contacts that belong to a triangle is {ends(rows, 'triangles')}.")
 
@@ -463,12 +479,14 @@ def gears(folder):
     # In strong contact, at all N together: the runs at different N are independent.
     strong = values(rows, "correlation_by_impulse")
     mean = mean_of([v for v in strong if v.known])
-    pinned = value(rows[-1], "pinned_correlation")
-    return parts(below(mean, 0), below(pinned, 0)), (
+    held = value(rows[-1], "stay_correlation")
+    return parts(below(mean, 0), below(held, 0)), (
         f"Correlation of the spins in disc–disc collisions, each counted with its impulse: "
         f"{number(mean)} on average over N, {ends(rows, 'correlation_by_impulse')}; certainly "
-        f"negative at {count([below(v, 0) for v in strong])} of {len(rows)} N. Of touching pairs of "
-        f"pinned discs: {ends(rows, 'pinned_correlation')}; of all touching pairs, most of which "
+        f"negative at {count([below(v, 0) for v in strong])} of {len(rows)} N. Of discs on "
+        f"a stay at the wall and any that they touch: {ends(rows, 'stay_correlation')}, of neighbours "
+        f"along the wall alone: {ends(rows, 'along_wall')}, of pairs that are pinned by the SI's "
+        f"criterion: {ends(rows, 'pinned_correlation')}; of all touching pairs, most of which "
         f"hardly press: {ends(rows, 'spin_correlation')}. Judged is the sign; gears would have −1.")
 
 
@@ -569,7 +587,25 @@ def free_fixed(folder):
         f"(within {SAME_PLACE:.0f}°) for certain with {count(same)} of them, another for certain "
         f"with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'becoming_free')}, with "
         f"resultants {resultants(rows, 'becoming_free_resultant')}: it counts discs that fly along "
-        "the wall far from it, its places have two maxima, and their mean says little.")
+        f"the wall far from it, too{two_places(folder, 'si_free')}.")
+
+
+def two_places(folder, name):
+    """Where most become free, and where on the other side of the dish, at the last N: the mean of two
+    such places is a place where few do."""
+    try:
+        rows = folder.table("pinning")
+    except FileNotFoundError:
+        return ""
+    last = max(row["discs"] for row in rows)
+    rows = tables.select(rows, discs=last)
+    most = max(rows, key=lambda row: row[name])
+    across = [row for row in rows
+              if abs((row["theta"] - most["theta"] + 180) % 360 - 180) > APART]
+    second = max(across, key=lambda row: row[name])
+    return (f", and its places spread: at N = {last:.0f} most are at θ = {most['theta']:.0f}° "
+            f"({100 * most[name]:.0f} % in 10°), and farther than {APART:.0f}° from there up to "
+            f"{100 * second[name]:.0f} % at {second['theta']:.0f}°")
 
 
 def grows(rows):
@@ -615,10 +651,11 @@ def more_collisions(folder):
 
 def six_fold(folder):
     rows = folder.curve("4b", setting="high")
-    return above(value(rows[-1], "psi6_pinned"), SIX_FOLD), (
-        f"Hexatic order ψ6 of the pinned discs: {ends(rows, 'psi6_pinned')} (often six-fold: above "
-        f"{SIX_FOLD}, that of a liquid of hard discs about to freeze; points without any order have "
-        f"{NO_ORDER}, a crystal 1); of all discs: {ends(rows, 'psi6')}.")
+    return above(value(rows[-1], "psi6_stays"), SIX_FOLD), (
+        f"Hexatic order ψ6 of the discs on a stay at the wall: {ends(rows, 'psi6_stays')} (often "
+        f"six-fold: above {SIX_FOLD}, that of a liquid of hard discs about to freeze; points without any "
+        f"order have {NO_ORDER}, a crystal 1); of all that are pinned by the SI's criterion: "
+        f"{ends(rows, 'psi6_pinned')}; of all discs: {ends(rows, 'psi6')}.")
 
 
 def oblong(folder):
@@ -720,10 +757,10 @@ def smallest_times(folder):
         return (f"{10 ** v.mean:.1g} (times or divided by {10 ** v.error:.1f})" if v.known
                 else "not known")
     counted = "" if events == EVENTS else (
-        f", from runs of {events:.0f} events, as the smallest of n times falls like 1/n (not without "
-        "friction, where discs get faster)")
+        f", estimated from runs of {events:.0f} events by the 1/n that the smallest of n times falls with "
+        "(not so without friction, where discs get faster all the time)")
     return parts(*agree), (
-        f"The smallest time between two collisions of a run of {EVENTS:.0f} events at N = {LARGE_N}"
+        f"The smallest time between two collisions of a run of a million events at N = {LARGE_N}"
         f"{counted}, is {told(1.0)} with friction, {told(0.0)} without (around: within a factor of "
         f"{TIMES_AROUND:.0f}).")
 
@@ -866,10 +903,10 @@ def spheres_minimum(folder):
     return part, f"ϖ/Ω: {told}."
 
 
-def spheres_frustration(folder):
-    name, full = "spheres_ingredients", f"{PLASTIC:g}"
+def frustrated(folder, name, full, ending):
+    """At one friction: do dense spheres counterrotate, and is ϖ higher without vertical friction?"""
     pairs = [[spheres_at(folder, name, curve, n) for n in DENSE_SPHERES]
-             for curve in (full, "no-vertical", "no-vertical-disc", "no-vertical-wall")]
+             for curve in (full, *(f"no-vertical{where}{ending}" for where in ("", "-disc", "-wall")))]
     told = "; ".join(
         f"{words}: " + ", ".join(f"{number(v)} at N = {n}" for v, n in zip(found, DENSE_SPHERES))
         for words, found in zip(("all ingredients", "without vertical friction",
@@ -879,8 +916,20 @@ def spheres_frustration(folder):
     said = "is undecided" if alone.verdict == UNDECIDED else alone.verdict
     return parts(every([below(v, 0) for v in pairs[0]]),
                  every([above(without, v) for v, without in zip(pairs[0], pairs[1])])), (
-        f"ϖ/Ω with {told}. That without vertical friction they rotate {said}, and is no claim of the "
-        "paper's.")
+        f"ϖ/Ω with {told}; that without vertical friction they rotate {said}")
+
+
+def spheres_frustration(folder):
+    """For some friction, as all that is said of spheres."""
+    found = [(f"{PLASTIC:g}", *frustrated(folder, "spheres_ingredients", f"{PLASTIC:g}", ""))]
+    try:
+        found.append((f"{ROUGHER:g}", *frustrated(folder, "spheres_ingredients_rough",
+                                                  f"{ROUGHER:g}", "-rough")))
+    except FileNotFoundError:
+        pass  # it was not asked for
+    told = ". ".join(f"μ = {mu}: {words}" for mu, _, words in found)
+    return either([part for _, part, _ in found]), (
+        f"{told}. That last part is no claim of the paper's.")
 
 
 def spheres_elastic(folder):
@@ -899,23 +948,24 @@ def of_spheres(judge_rows):
 
 
 def spin_falls(rows):
-    rows = [row for row in rows if row["pinned_wall_spin"] == row["pinned_wall_spin"]]
-    part, but = rising(rows, "pinned_wall_spin", falling=True)
-    return part, f"|ω_z|/Ω {ends(rows, 'pinned_wall_spin')}{but}"
+    rows = [row for row in rows if row["stay_spin"] == row["stay_spin"]]
+    part, but = rising(rows, "stay_spin", falling=True)
+    return part, (f"|ω_z|/Ω of those on a stay at the wall {ends(rows, 'stay_spin')}{but}, of those "
+                  f"pinned there by the SI's criterion {ends(rows, 'pinned_wall_spin')}")
 
 
 def slip_from_a_half(rows):
-    part, but = rising(rows, "pinned_at_wall")
-    half = [within(value(row, "pinned_at_wall"), 0.5 - ABOUT_A_HALF, 0.5 + ABOUT_A_HALF)
+    part, but = rising(rows, "slip_stays")
+    half = [within(value(row, "slip_stays"), 0.5 - ABOUT_A_HALF, 0.5 + ABOUT_A_HALF)
             for row in rows if abs(row["discs"] - 25) <= ROUGHLY]
-    return parts(part, either(half), above(value(rows[-1], "pinned_at_wall"), NEARLY_ONE)), (
-        f"{ends(rows, 'pinned_at_wall')}{but}, of all pinned by the SI's criterion "
+    return parts(part, either(half), above(value(rows[-1], "slip_stays"), NEARLY_ONE)), (
+        f"{ends(rows, 'slip_stays')}{but}, of all pinned by the SI's criterion "
         f"{ends(rows, 'pinned_region')}")
 
 
 def spheres_slip(folder):
     part, told = for_some_friction(folder, "spheres_pinned", slip_from_a_half)
-    return part, (f"s of the pinned in the wall layer, {told} (approximately 0.5: within "
+    return part, (f"s of those on a stay at the wall, {told} (approximately 0.5: within "
                   f"{ABOUT_A_HALF}; nearly 1: above {NEARLY_ONE}).")
 
 
@@ -924,7 +974,7 @@ def spheres_slip_rough(folder):
     smooth, rough = (folder.curve("spheres_pinned", most=math.inf, mu=mu)
                      for mu in (frictions[0], frictions[-1]))
     part, found = closer_to_one(rough, smooth)
-    return part, (f"s of the pinned in the wall layer is closer to 1 for μ = {frictions[-1]:g} than "
+    return part, (f"s of those on a stay at the wall is closer to 1 for μ = {frictions[-1]:g} than "
                   f"for μ = {frictions[0]:g}, {found}.")
 
 

@@ -1,35 +1,46 @@
-"""Figure 4b: the spin of the pinned discs at the wall, and how frustrated the contacts are.
+"""Figure 4b: the spin of the discs at the wall, how frustrated the contacts are, and how six-fold the
+packing is.
 
     /usr/bin/python3 figures/figure_4b.py out/figure_4b.csv
 """
 
 import style
 
+PANELS = (
+    (r"spin $\langle|\omega_i|\rangle/\Omega$", (
+        ("stay_spin", "on a stay at the wall", style.RED, "o", {}),
+        ("pinned_wall_spin", "pinned (SI), at the wall", style.RED, "o",
+         {"fillstyle": "none", "linestyle": "--"}),
+        ("wall_spin", "all at the wall", style.BLUE, "s", {"fillstyle": "none"}))),
+    ("correlation of spins", (
+        ("stay_correlation", "one on a stay", style.RED, "o", {}),
+        ("along_wall", "both on stays", style.ORANGE, "P", {}),
+        ("pinned_correlation", "both pinned (SI)", style.RED, "o",
+         {"fillstyle": "none", "linestyle": "--"}),
+        ("correlation_by_impulse", "collisions, by impulse", style.BLACK, "v", {}),
+        ("spin_correlation", "all neighbours", style.BLUE, "s", {"fillstyle": "none"}))),
+    (r"share, or $\psi_6$", (
+        ("triangles", "contacts in triangles", style.GREEN, "^", {}),
+        ("disc_sticking", "sticking, disc–disc", style.PINK, "D", {}),
+        ("wall_sticking", "sticking, disc–wall", style.ORANGE, "P", {}),
+        ("psi6_stays", r"$\psi_6$, on stays", style.RED, "o", {}),
+        ("psi6_pinned", r"$\psi_6$, pinned (SI)", style.RED, "o",
+         {"fillstyle": "none", "linestyle": "--"}))),
+)
+
 
 def main():
     table = style.table_from_arguments("figure_4b")
     rows = style.read(table)
-    drawing, (spin, contacts) = style.figure(height=4.2, nrows=2, sharex=True)
-    style.curve(spin, rows, "discs", "pinned_wall_spin", color=style.RED, marker="o",
-                label="pinned discs at the wall")
-    style.curve(spin, rows, "discs", "wall_spin", color=style.BLUE, marker="s", fillstyle="none",
-                label="all discs at the wall")
-    spin.set_ylabel(r"spin $\langle|\omega_i|\rangle/\Omega$")
-    spin.set_ylim(bottom=0)
-    style.legend(spin)
-    style.zero_line(contacts)
-    style.curve(contacts, rows, "discs", "spin_correlation", color=style.BLACK, marker="v",
-                label="spins, neighbours")
-    style.curve(contacts, rows, "discs", "triangles", color=style.GREEN, marker="^",
-                label="contacts in triangles")
-    style.curve(contacts, rows, "discs", "disc_sticking", color=style.PINK, marker="D",
-                label="sticking, disc–disc")
-    style.curve(contacts, rows, "discs", "wall_sticking", color=style.ORANGE, marker="P",
-                label="sticking, disc–wall")
-    style.curve(contacts, rows, "discs", "pinned_correlation", color=style.BLUE, marker="<",
-                label="spins, pinned neighbours")
-    style.legend(contacts)
-    contacts.set_xlabel(r"number of discs $N$")
+    drawing, places = style.figure(height=6.2, nrows=len(PANELS), sharex=True)
+    for axes, (label, curves) in zip(places, PANELS):
+        for name, words, color, marker, look in curves:
+            style.curve(axes, rows, "discs", name, color=color, marker=marker, label=words, **look)
+        axes.set_ylabel(label)
+        style.legend(axes)
+    places[0].set_ylim(bottom=0)
+    style.zero_line(places[1])
+    places[-1].set_xlabel(r"number of discs $N$")
     style.save(drawing, table)
 
 

@@ -6,7 +6,7 @@
 import style
 
 CURVES = [
-    ("0.2", "all ingredients", style.BLACK, "o"),
+    (None, "all ingredients", style.BLACK, "o"),
     ("no-damping", r"no damping ($e = 1$)", style.SKY, "D"),
     ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s"),
     ("no-floor", "no floor", style.GREEN, "X"),
@@ -16,11 +16,12 @@ CURVES = [
 ]
 
 
-def main():
-    table = style.table_from_arguments("figure_spheres_ingredients")
+def main(figure="figure_spheres_ingredients", full="0.2", ending=""):
+    """`full` is the curve with all ingredients, `ending` that of the names of the others."""
+    table = style.table_from_arguments(figure)
     rows = style.read(table)
     # A curve named by a number is read back as one.
-    curves = [([row for row in rows if str(row["curve"]) == name],
+    curves = [([row for row in rows if str(row["curve"]) == (name + ending if name else full)],
                {"label": label, "color": color, "marker": marker})
               for name, label, color, marker in CURVES]
     style.rotation_figure(table, curves, of="spheres", height=3.2)

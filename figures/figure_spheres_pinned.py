@@ -1,32 +1,39 @@
-"""Spheres that roll: the slip parameter of the pinned, spins at the wall, and how far the spheres
-keep each other from rolling.
+"""Spheres that roll: the slip parameter and the spin of those at the wall, and how far the spheres keep
+each other from rolling.
 
     /usr/bin/python3 figures/figure_spheres_pinned.py out/figure_spheres_pinned.csv
 """
 
 import style
 
+SI = {"fillstyle": "none", "linestyle": "--", "linewidth": 0.6}
 PANELS = (
-    ("pinned_region", "slip parameter $s$, pinned"),
-    ("pinned_wall_spin", r"spin $|\omega_z|/\Omega$, pinned"),
-    ("rolling_share", "share that rolls"),
-    ("contact_correlation", "correlation of rolling"),
+    ("slip parameter $s$", (("slip_stays", {}), ("pinned_region", SI))),
+    (r"spin $|\omega_z|/\Omega$", (("stay_spin", {}), ("pinned_wall_spin", SI))),
+    ("share that rolls", (("rolling_share", {}),)),
+    ("correlation of rolling", (("contact_correlation", {}),)),
 )
 
 
 def main():
     table = style.table_from_arguments("figure_spheres_pinned")
     rows = style.read(table)
+    frictions = sorted({row["mu"] for row in rows})
     drawing, panels = style.figure(width=style.PAGE, height=4.4, nrows=2, ncols=2, sharex=True)
-    for axes, (name, label) in zip(panels.flat, PANELS):
-        for k, mu in enumerate(sorted({row["mu"] for row in rows})):
-            style.curve(axes, style.select(rows, mu=mu), "discs", name, color=style.CYCLE[k],
-                        marker=style.MARKERS[k], label=rf"$\mu = {mu:g}$")
+    for axes, (label, curves) in zip(panels.flat, PANELS):
+        for k, mu in enumerate(frictions):
+            for name, look in curves:
+                style.curve(axes, style.select(rows, mu=mu), "discs", name, color=style.CYCLE[k],
+                            marker=style.MARKERS[k], **look)
         axes.set_ylabel(label)
     for axes in panels[-1]:
         axes.set_xlabel(r"number of spheres $N$")
     panels[0][0].axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
-    style.legend(panels[0][0])
+    marks = [panels[0][0].plot([], [], color=style.CYCLE[k], marker=style.MARKERS[k],
+                               label=rf"$\mu = {mu:g}$")[0] for k, mu in enumerate(frictions)]
+    marks += [panels[0][0].plot([], [], color=style.GREY, marker="o", label=words, **look)[0]
+              for words, look in (("on a stay at the wall", {}), ("pinned (SI)", SI))]
+    style.legend_of_all(drawing, marks, [mark.get_label() for mark in marks], ncol=4)
     style.save(drawing, table)
 
 

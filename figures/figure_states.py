@@ -34,9 +34,7 @@ def main():
         style.zero_line(axes)
     speed.set_title(r"mean speed ($\Omega R$)")
     heat.set_title("granular temp. ($m v_c^2$)")
-    drawing.suptitle(" ", fontsize=style.SMALLEST)  # room for the legend of both
-    drawing.legend(*speed.get_legend_handles_labels(), loc="upper center", ncol=3,
-                   borderaxespad=0.2)
+    style.legend_of_all(drawing, *speed.get_legend_handles_labels(), ncol=3)
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 

@@ -67,6 +67,7 @@ QUESTIONS = {
     "spheres_ingredients": "Friction of the floor, friction of contacts along the vertical, "
                            "damping, a solid sphere's inertia: each is switched off alone, at "
                            "μ = 0.2. Which of them makes counterrotation?",
+    "spheres_ingredients_rough": "Does the answer depend on the friction? Once more at μ = 0.3.",
     "spheres_pinned": "What the paper measured of the spheres at the wall, and what it could not: "
                       "the rolling. The correlation is 1 where the floor has its way and "
                       "neighbours rub with the sum of their speeds, −1 where they roll on each "
@@ -115,13 +116,22 @@ CAPTIONS = {
           "circles: where they end.",
     "3b": "The same, divided by the angular velocity that the wall has at this θ about the same centre "
           "of mass: 1 (dashed) is motion with the wall.",
-    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. Of the pinned discs in the "
-          "wall layer, of all that the SI's criterion calls pinned, and of the whole cluster; for a rough "
-          "wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
-    "4b": "Above: mean magnitude of the spin of discs at the wall, in Ω. Below: how discs in contact "
-          "hinder each other: the correlation of the spins of neighbours (gears would have −1), the share "
-          "of contacts that close a triangle, which cannot all roll, and the share of collisions in which "
-          "friction stops the slip altogether.",
+    "pinning": "How the places at which discs become pinned (above) and free (below) are distributed over the "
+               "angle θ, for few discs and for many. Red, dashed: by the criterion of the SI as it stands, a disc "
+               "is pinned while it flies along the wall, however far from it, and becomes pinned where it turns "
+               "sharply. Blue: a disc is pinned on a stay in the layer at the wall, its rim within half a radius "
+               "of it, that lasts at least 40/511 of a swirl. Triangles: mean directions. The resultant is the "
+               "length of the mean of unit vectors towards the places: 1 if all are one, 0 if they have no mean "
+               "direction. Claims on the pinned region go by the stays.",
+    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. Of the discs on a stay in the "
+          "wall layer (full), of all that the SI's criterion calls pinned (dashed), and of the whole cluster "
+          "(dotted); for a rough wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
+    "4b": "How discs at the wall are kept from spinning; full red symbols are discs on a stay in the wall layer, "
+          "open ones those that the SI's criterion calls pinned. Above: mean magnitude of the spin, in Ω; 0 is "
+          "a disc that sticks to the wall. Middle: correlation of the spins of neighbours, one or both "
+          "of which are on a stay, and, weighted by impulse, of colliding discs; gears would have −1. Below: share of the contacts that close a triangle, "
+          "which cannot all roll, share of the collisions in which friction stops the slip altogether, and the "
+          "hexatic order ψ6 of the packing.",
     "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) "
           "discs and walls. The frictions of the experiment's smooth and roughened spheres are not "
           "known: these two are a choice. Averages over time.",
@@ -141,6 +151,20 @@ CAPTIONS = {
               "mean flow is taken off.",
     "times": "How close in time two collisions of a run come, which is what the precision of the event "
              "times must resolve.",
+    "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for six "
+               "frictions μ of the spheres and the wall. Averages over time. The scale is coarser above the dotted "
+               "line. Up to 57 spheres fit; of 56 and 57 the packing that a run began with decides, not friction, and "
+               "some runs of 56 collapse: their number is told below, and the others are averaged.",
+    "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
+                           "with one of them taken away. Vertical friction is the part of the contacts' friction "
+                           "that acts on the vertical slip of spheres that roll.",
+    "spheres_ingredients_rough": "The same for the numbers of spheres at which the sense of rotation is decided.",
+    "spheres_pinned": "Of spheres on a stay in the wall layer (full) and of those that the SI's criterion calls "
+                      "pinned (open): slip parameter s and the spin about the vertical. Below, of all spheres: the "
+                      "share that rolls on the floor without slip, and the correlation of the rolling of neighbours "
+                      "along the line of their centres.",
+    "spheres_coins": "Rotation against the number of solid discs that lie flat on the floor, without friction of the "
+                     "floor and for three values of it.",
     "spheres_sense": "Every number of spheres at which the sense of rotation changes, against the friction "
                      "of spheres and wall. Dashed: where the paper's experiment has the change.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their "
@@ -366,7 +390,7 @@ def found_pinned(folder):
     moves, _ = claims.pinned_reach_wall(folder)
     rolls, _ = claims.slip_rises(folder)
     speeds = claims.ends(claims.pinned_means(folder, "3b", "normalised"), "mean")
-    slips = claims.ends(folder.curve("4a", setting="high"), "pinned_at_wall")
+    slips = claims.ends(folder.curve("4a", setting="high"), "slip_stays")
     told = f"angular velocity over the wall's, {speeds}; slip parameter, {slips}"
     if moves.verdict == rolls.verdict == claims.HOLDS:
         return ("With more discs those pinned at the wall come to move with it, and hardly slip on it any "
@@ -477,7 +501,7 @@ def caption_of(figure):
 # What `swirl paper` calls its points and runs, in words.
 CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": "μ_w = 0",
           "no-disc": "μ_d = 0"}
-POINT = re.compile(r"\b(?:(?:run|measured|spheres)_)*((?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?|[\d.]+)"
+POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*((?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?|[\d.]+)"
                    r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
 SYMBOLS = {"inertia": "I", "restitution": "e", "tangential_restitution": "β"}
 PARAMETER = re.compile(rf"^({'|'.join(SYMBOLS)}) (?=[\d.])")
@@ -495,8 +519,8 @@ def in_words(finding):
 
 
 # What is said of the runs, not of what they show.
-REMARK = re.compile(r"(Not shown to be steady|At \d+ of \d+ points the seeds|\d+ of them ended|"
-                    r"\d+ runs failed|The run '|Figure \S+: )")
+REMARK = re.compile(r"(Not shown to be steady|At \d+ of \d+ points the seeds|\d+ of them have fewer|"
+                    r"\d+ runs? failed|Figure \S+: )")
 
 
 class Said(dict):

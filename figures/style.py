@@ -177,6 +177,13 @@ def legend(axes, ncol=2, **more):
                 borderaxespad=0.2, **more)
 
 
+def legend_of_all(drawing, handles, labels, ncol):
+    """Above all axes of a figure."""
+    drawing.suptitle(" ", fontsize=SMALLEST)  # room for it
+    drawing.legend(handles, labels, loc="upper center", ncol=ncol, columnspacing=1.2,
+                   borderaxespad=0.2)
+
+
 def rotation_axes(axes, average="by time", of="discs"):
     axes.set_xlabel(rf"number of {of} $N$")
     axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, steps=(1, 2, 5, 10)))

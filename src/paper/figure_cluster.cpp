@@ -121,12 +121,12 @@ static FigurePlan plan_figure_1b(const PaperSettings& settings) {
 static FigurePlan plan_figure_4a(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4a", {smooth, rough},
-        {"slip.cluster", "slip.pinned_region", "slip.pinned_at_wall"},
+        {"slip.cluster", "slip.pinned_region", "slip.stays=slip_stays"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<std::string> sentences;
             for (const Friction& friction : {smooth, rough}) {
-                sentences.push_back(first_and_last("slip of the pinned in the wall layer", friction,
-                                                   "slip", "pinned_at_wall", points, results));
+                sentences.push_back(first_and_last("slip of discs on a stay at the wall", friction,
+                                                   "slip", "stays", points, results));
                 sentences.push_back(first_and_last("slip of all pinned, by the SI's criterion",
                                                    friction, "slip", "pinned_region", points,
                                                    results));
@@ -138,15 +138,20 @@ static FigurePlan plan_figure_4a(const PaperSettings& settings) {
 static FigurePlan plan_figure_4b(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4b", {high_friction},
-        {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.spin_correlation",
-         "frustration.pinned_correlation", "frustration.correlation_by_impulse",
-         "frustration.triangles", "frustration.coordination", "frustration.disc_sticking",
-         "frustration.wall_sticking", "order.all=psi6", "order.pinned=psi6_pinned",
-         "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
+        {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.stay_spin",
+         "frustration.spin_correlation", "frustration.pinned_correlation",
+         "frustration.stay_correlation", "frustration.along_wall",
+         "frustration.correlation_by_impulse", "frustration.triangles", "frustration.coordination",
+         "frustration.disc_sticking", "frustration.wall_sticking", "order.all=psi6",
+         "order.pinned=psi6_pinned", "order.stays=psi6_stays", "collisions.disc_disc_rate",
+         "collisions.disc_wall_rate"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             return std::vector<std::string>{
-                first_and_last("spin of the pinned discs at the wall, in Ω", high_friction,
-                               "frustration", "pinned_wall_spin", points, results),
+                first_and_last("spin of the discs on a stay at the wall, in Ω", high_friction,
+                               "frustration", "stay_spin", points, results),
+                first_and_last(
+                    "the same of discs at the wall that are pinned by the SI's criterion",
+                    high_friction, "frustration", "pinned_wall_spin", points, results),
                 first_and_last("spin correlation of neighbours", high_friction, "frustration",
                                "spin_correlation", points, results),
                 first_and_last("the same, each collision counted with its impulse", high_friction,
@@ -198,12 +203,12 @@ static FigurePlan plan_figure_4c(const PaperSettings& settings) {
 
 namespace {
 
-/// A table of the stays in the wall layer, for all N.
-fs::path write_stays(const std::string& part, const std::vector<std::int64_t>& numbers,
-                     const std::vector<Json>& results, const fs::path& out) {
+/// What becomes of the stays in the wall layer with other thresholds, for all N.
+fs::path write_sensitivity(const std::vector<std::int64_t>& numbers,
+                           const std::vector<Json>& results, const fs::path& out) {
     std::optional<Table> table;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const Json& rows = at(results[k], {"measured", "stays", part});
+        const Json& rows = at(results[k], {"measured", "stays", "sensitivity"});
         if (!rows.is_object()) continue;
         std::vector<std::string> columns;
         for (const auto& [name, values] : rows.items()) columns.push_back(name);
@@ -215,7 +220,7 @@ fs::path write_stays(const std::string& part, const std::vector<std::int64_t>& n
         }
     }
     if (!table) table.emplace(std::vector<std::string>{"discs"});
-    const fs::path file = out / ("figure_3a_" + part + ".csv");
+    const fs::path file = out / "figure_3a_sensitivity.csv";
     table->write(file);
     return file;
 }
@@ -281,9 +286,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
-        if (name == "3a")
-            for (const char* part : {"sensitivity", "places"})
-                outcome.files.push_back(write_stays(part, numbers, results, out));
+        if (name == "3a") outcome.files.push_back(write_sensitivity(numbers, results, out));
         return outcome;
     };
     return plan;
@@ -298,10 +301,52 @@ static FigurePlan plan_figure_3b(const PaperSettings& settings) {
     return plan_profiles(settings, "3b");
 }
 
+/// Where discs become pinned and free, by the SI's criterion and by stays in the wall layer: how
+/// these places are distributed, which their mean directions do not say.
+static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_pinning.py";
+    const std::vector<std::int64_t> numbers = numbers_of_the_experiment(settings);
+    for (const std::int64_t n : numbers)
+        plan.points.push_back(measured_point(settings, high_friction, n));
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        const std::vector<std::string> criteria{"pinned", "stays"};
+        std::vector<std::string> columns{"discs", "point", "steady_state", "theta"};
+        for (const char* what : {"si_pinned", "si_free", "stay_begins", "stay_ends"})
+            columns = joined(std::move(columns), {what, fmt::format("{}_mean", what),
+                                                  fmt::format("{}_mean_error", what),
+                                                  fmt::format("{}_resultant", what)});
+        Table table(columns);
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            if (failed(results[k])) continue;
+            const Json& measured = results[k]["measured"];
+            const Json& theta = measured["stays"]["places"]["theta"];
+            for (std::size_t r = 0; r < theta.size(); ++r) {
+                std::vector<Table::Cell> row{numbers[k], name_of_point(results[k]),
+                                             steadiness(results[k]), number(theta[r])};
+                for (const std::string& criterion : criteria)
+                    for (const std::string which : {"pinned", "free"}) {
+                        const Json& mean = measured[criterion]["becoming_" + which];
+                        row.emplace_back(number(measured[criterion]["places"][which][r]));
+                        for (const char* part : {"mean", "error", "concentration"})
+                            row.emplace_back(number(at(mean, {part})));
+                    }
+                table.add(std::move(row));
+            }
+        }
+        FigureOutcome outcome;
+        outcome.files.push_back(out / "figure_pinning.csv");
+        table.write(outcome.files.back());
+        return outcome;
+    };
+    return plan;
+}
+
 std::vector<PaperFigure> figures_of_the_cluster() {
     return {{"1b", "rotation against N, and the pancake line", plan_figure_1b},
             {"3a", "angular velocity against the angular position", plan_figure_3a},
             {"3b", "the same, divided by that of the wall", plan_figure_3b},
+            {"pinning", "where discs become pinned and free, by two criteria", plan_figure_pinning},
             {"4a", "slip parameter of the pinned discs, smooth and rough", plan_figure_4a},
             {"4b", "spin of the pinned discs at the wall, and frustration", plan_figure_4b},
             {"4c", "rotation against N, smooth and rough", plan_figure_4c},

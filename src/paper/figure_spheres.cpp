@@ -130,7 +130,7 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
                 changes.add({variants[v].name, variants[v].mu, c.discs, c.error, c.before, c.after,
                              std::string(c.to_counterrotation ? "counterrotation" : "rotation")});
             outcome.findings.push_back(
-                fmt::format("spheres, {}: {}.", variants[v].words, sign_changes_sentence(curve)));
+                fmt::format("{}: {}.", variants[v].words, sign_changes_sentence(curve)));
             named.push_back({variants[v].name, curve});
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
@@ -175,12 +175,13 @@ FigureOutcome frictions_of_the_experiment(const PaperSettings& settings,
 struct Seen {
     const char *measurement, *quantity, *column = quantity;
 };
-constexpr std::array<Seen, 16> seen{{
+constexpr std::array<Seen, 17> seen{{
     {"slip", "pinned_region"},
-    {"slip", "pinned_at_wall"},
+    {"slip", "stays", "slip_stays"},
     {"slip", "cluster"},
     {"frustration", "wall_spin"},
     {"frustration", "pinned_wall_spin"},
+    {"frustration", "stay_spin"},
     {"frustration", "spin_correlation"},
     {"frustration", "triangles"},
     {"stays", "becoming_pinned", "stay_begins"},
@@ -242,10 +243,11 @@ static FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
     return plan;
 }
 
-static FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
-    const double mu = experiment_friction;
-    const std::vector<Variant> variants{
-        friction(mu),
+namespace {
+
+/// All ingredients of the model, and each switched off alone.
+std::vector<Variant> ingredients(double mu, const std::string& ending) {
+    std::vector<Variant> variants{
         {"no-vertical", "no vertical friction", mu,
          [](RunConfig& c) { c.vertical_disc = c.vertical_wall = 0.0; }},
         {"no-vertical-disc", "no vertical friction between spheres", mu,
@@ -257,13 +259,39 @@ static FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings)
         {"shell", "hollow spheres (I = 2/3)", mu,
          [](RunConfig& c) { c.inertia = shell_inertia(c.mass, c.radius); }},
     };
-    return plan_variants(settings, "spheres_ingredients", variants, fewer_numbers(settings));
+    for (Variant& variant : variants) {
+        variant.name += ending;
+        variant.words += fmt::format(", μ = {}", mu);
+        variant.change = [mu, change = variant.change](RunConfig& c) {
+            c.mu_disc = c.mu_wall = mu;
+            change(c);
+        };
+    }
+    variants.insert(variants.begin(), friction(mu));
+    return variants;
+}
+
+}  // namespace
+
+static FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
+    return plan_variants(settings, "spheres_ingredients", ingredients(experiment_friction, ""),
+                         fewer_numbers(settings));
+}
+
+/// At a friction that is half as high again, where it decides: does the answer depend on it?
+static FigurePlan plan_figure_spheres_ingredients_rough(const PaperSettings& settings) {
+    const std::vector<std::int64_t> numbers = settings.quick
+                                                  ? std::vector<std::int64_t>{44, 48}
+                                                  : std::vector<std::int64_t>{30, 36, 44, 48};
+    return plan_variants(settings, "spheres_ingredients_rough", ingredients(0.3, "-rough"),
+                         numbers);
 }
 
 static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_spheres_pinned.py";
     std::vector<std::int64_t> numbers;
+    if (settings.quick) numbers.push_back(24);  // where the experiment's slip begins
     for (const std::int64_t n : fewer_numbers(settings))
         if (n >= 24) numbers.push_back(n);
     const std::vector<Variant> variants{friction(0.15), friction(0.5)};
@@ -297,8 +325,8 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
         for (std::size_t v = 0; v < variants.size(); ++v)
             outcome.findings.push_back(
                 fmt::format("spheres, {}: {}.", variants[v].words,
-                            at_both_ends(points, results, v, "slip", "pinned_region",
-                                         "slip parameter of the pinned")));
+                            at_both_ends(points, results, v, "slip", "stays",
+                                         "slip parameter of those on a stay at the wall")));
         outcome.files.push_back(out / "figure_spheres_pinned.csv");
         table.write(outcome.files.back());
         return outcome;
@@ -390,6 +418,8 @@ std::vector<PaperFigure> figures_of_spheres() {
              plan_figure_spheres_sense},
             {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
              plan_figure_spheres_ingredients},
+            {"spheres_ingredients_rough", "spheres that roll: the same with more friction, μ = 0.3",
+             plan_figure_spheres_ingredients_rough},
             {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
              plan_figure_spheres_pinned},
             {"spheres_restitution", "spheres that roll: rotation against N, restitutions",

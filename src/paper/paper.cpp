@@ -198,19 +198,25 @@ std::string first_of(const std::vector<std::string>& names) {
 /// Those that failed; why is mostly the same, so the first says it for all.
 std::optional<std::string> remark_on_failures(const FigurePlan& plan,
                                               const std::map<std::string, Json>& runs) {
-    std::vector<std::string> names;
+    std::vector<std::string> places;
     std::string why;
-    for (const PaperPoint& point : plan.points)
+    std::size_t failures = 0;
+    for (const PaperPoint& point : plan.points) {
+        std::size_t here = 0;
         for (const PaperTask& task : point.runs)
             if (const Json& run = runs.at(task.key)["result"]; failed(run)) {
-                if (names.empty()) why = run["failed"].get<std::string>();
-                names.push_back(task.key);
+                if (failures + here++ == 0) why = run["failed"].get<std::string>();
             }
-    if (names.empty()) return {};
-    if (names.size() == 1)
-        return fmt::format("The run '{}' failed, and its place is empty: {}", names.front(), why);
-    return fmt::format("{} runs failed, and their places are empty: {}. Of the first: {}",
-                       names.size(), first_of(names), why);
+        if (here == 0) continue;
+        failures += here;
+        const std::string& name = point.name.empty() ? point.runs.front().key : point.name;
+        places.push_back(fmt::format("{} of {} at {}{}", here, point.runs.size(), name,
+                                     here == point.runs.size() ? " (an empty place)" : ""));
+    }
+    if (failures == 0) return {};
+    return fmt::format("{} run{} failed and {} left out: {}. {}: {}", failures,
+                       failures == 1 ? "" : "s", failures == 1 ? "is" : "are", first_of(places),
+                       failures == 1 ? "Why" : "Of the first", why);
 }
 
 /// What a reader must know of the runs of a figure: which of them failed, how many drift, where
@@ -218,7 +224,7 @@ std::optional<std::string> remark_on_failures(const FigurePlan& plan,
 std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results,
                                     const std::map<std::string, Json>& runs) {
     std::vector<std::string> remarks;
-    std::int64_t drifting = 0, too_short = 0, in_warmup = 0, judged = 0;
+    std::int64_t drifting = 0, too_short = 0, unaveraged = 0, judged = 0;
     std::vector<std::string> disagreeing;
     if (auto failures = remark_on_failures(plan, runs)) remarks.push_back(*failures);
     for (std::size_t k = 0; k < results.size(); ++k) {
@@ -227,7 +233,7 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
         judged += seeds["runs"].get<std::int64_t>();
         drifting += seeds["drifting"].get<std::int64_t>();
         too_short += seeds["too_short"].get<std::int64_t>();
-        in_warmup += seeds["ended_in_warmup"].get<std::int64_t>();
+        unaveraged += seeds["too_short_to_average"].get<std::int64_t>();
         if (at(seeds, {"disagree"}) == true) disagreeing.push_back(plan.points[k].name);
     }
     if (drifting + too_short > 0)
@@ -235,9 +241,10 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
             "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
             "tell). They are marked in the figure and in the column steady_state.",
             drifting + too_short, judged, drifting, too_short));
-    if (in_warmup > 0)
+    if (unaveraged > 0)
         remarks.push_back(fmt::format(
-            "{} of them ended before their warm-up did and are not averaged.", in_warmup));
+            "{} of them have fewer than {} swirls after their warm-up and are not averaged.",
+            unaveraged, least_swirls_of_an_average));
     if (!disagreeing.empty())
         remarks.push_back(fmt::format(
             "At {} of {} points the seeds scatter more than the errors within their runs can "

@@ -26,10 +26,25 @@ std::string name_of(const Friction& friction, std::int64_t discs) {
     return fmt::format("{}_N{}", friction.name, discs);
 }
 
-std::string key_of(const PaperSettings& settings, const Friction& friction, std::int64_t discs,
-                   std::uint64_t seed) {
-    return fmt::format("{}_{}events_seed{}", name_of(friction, discs), settings.events_of_a_run(),
-                       seed);
+/// Without friction at the wall collisions are so many that the events of a quick run are over
+/// after some swirls: there it goes by swirls, so that there is something to average.
+RunConfig config_of_a_point(const PaperSettings& settings, const Friction& friction,
+                            std::int64_t discs) {
+    constexpr std::int64_t warmup = 10, swirls = 25;
+    RunConfig config = paper_config(settings, friction, discs);
+    if (!settings.quick || settings.events || friction.mu_wall > 0.0) return config;
+    if (expected_events_per_swirl(config) * double(swirls) < static_cast<double>(config.events))
+        return config;
+    config.warmup = warmup;
+    config.periods = swirls;
+    return config;
+}
+
+std::string key_of(const RunConfig& config, const Friction& friction, std::uint64_t seed) {
+    const std::string length = config.periods
+                                   ? fmt::format("{}of{}periods", *config.warmup, *config.periods)
+                                   : fmt::format("{}events", config.events);
+    return fmt::format("{}_{}_seed{}", name_of(friction, config.discs), length, seed);
 }
 
 }  // namespace
@@ -78,10 +93,10 @@ RunConfig paper_config(const PaperSettings& settings, const Friction& friction,
 }
 
 PaperPoint point(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
-    RunConfig config = paper_config(settings, friction, discs);
+    RunConfig config = config_of_a_point(settings, friction, discs);
     return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
                 config.seed = seed;
-                const std::string key = key_of(settings, friction, discs, seed);
+                const std::string key = key_of(config, friction, seed);
                 PaperTask task = run_task("run_" + key, config);
                 task.served_by = "measured_" + key;
                 return task;
@@ -90,10 +105,10 @@ PaperPoint point(const PaperSettings& settings, const Friction& friction, std::i
 
 PaperPoint measured_point(const PaperSettings& settings, const Friction& friction,
                           std::int64_t discs) {
-    RunConfig config = paper_config(settings, friction, discs);
+    RunConfig config = config_of_a_point(settings, friction, discs);
     return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
                 config.seed = seed;
-                return run_task("measured_" + key_of(settings, friction, discs, seed), config,
+                return run_task("measured_" + key_of(config, friction, seed), config,
                                 measurements_of_the_paper(discs));
             }};
 }
@@ -187,7 +202,7 @@ std::vector<std::string> rotation_columns() {
             "seeds",
             "steady_runs",
             "drifting_runs",
-            "ended_in_warmup",
+            "too_short_to_average",
             "scatter",
             "seeds_disagree",
             "seed",
@@ -210,7 +225,7 @@ void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     row.push_back(whole(at(r, {"warmup", "periods"})));
     row.emplace_back(steadiness(r));
     row.emplace_back(name_of_point(r));
-    for (const char* count : {"runs", "steady", "drifting", "ended_in_warmup"})
+    for (const char* count : {"runs", "steady", "drifting", "too_short_to_average"})
         row.push_back(whole(at(r, {"seeds", count})));
     row.emplace_back(number(at(r, {"seeds", "scatter"})));
     row.emplace_back(std::int64_t{at(r, {"seeds", "disagree"}) == true});

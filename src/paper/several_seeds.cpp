@@ -29,12 +29,13 @@ Places inside(const Places& places, const std::string& name) {
 
 bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 
-/// Over before its warm-up was, or before a whole swirl after it: what was seen of it is the
-/// beginning, and it has no average.
-bool ended_in_warmup(const Json& run) {
+/// Over before its warm-up was, or soon after: what was seen of it is the beginning, and it has no
+/// average.
+bool too_short_to_average(const Json& run) {
     const Json& asked = at(run, {"config", "warmup"});
+    const Json& swirls = at(run, {"rotation", "by_event", "blocks"});
     return (number(at(run, {"warmup", "periods"})) == 0.0 && asked != 0) ||
-           number(at(run, {"rotation", "by_event", "blocks"})) == 0.0;
+           number(swirls) < least_swirls_of_an_average;
 }
 
 bool is_average(const Json& json) {
@@ -143,13 +144,13 @@ std::string verdict_of(const Json& seeds) {
 }
 
 Json counted(const std::vector<Json>& results) {
-    std::int64_t failures = 0, inside_warmup = 0, steady = 0, drifting = 0, too_short = 0;
+    std::int64_t failures = 0, unaveraged = 0, steady = 0, drifting = 0, too_short = 0;
     for (const Json& r : results) {
         const std::string verdict = steadiness(r);
         if (failed(r)) {
             ++failures;
-        } else if (ended_in_warmup(r)) {
-            ++inside_warmup;
+        } else if (too_short_to_average(r)) {
+            ++unaveraged;
             ++too_short;
         } else {
             steady += verdict == "steady" ? 1 : 0;
@@ -158,9 +159,9 @@ Json counted(const std::vector<Json>& results) {
         }
     }
     const auto runs = static_cast<std::int64_t>(results.size());
-    return {{"runs", runs},           {"averaged", runs - failures - inside_warmup},
+    return {{"runs", runs},           {"averaged", runs - failures - unaveraged},
             {"steady", steady},       {"drifting", drifting},
-            {"too_short", too_short}, {"ended_in_warmup", inside_warmup},
+            {"too_short", too_short}, {"too_short_to_average", unaveraged},
             {"failed", failures}};
 }
 
@@ -182,12 +183,14 @@ Json several_seeds(const std::vector<Json>& results) {
     const Json seeds = counted(results);
     Places runs;
     for (const Json& r : results)
-        if (!failed(r) && !ended_in_warmup(r)) runs.push_back(&r);
+        if (!failed(r) && !too_short_to_average(r)) runs.push_back(&r);
     if (runs.empty()) {
         // Nothing to average: the first that says why.
         const auto why = std::find_if(results.begin(), results.end(), failed);
         if (why != results.end()) return *why;
-        return {{"failed", "no run had a whole swirl after its warm-up, so nothing is averaged."},
+        return {{"failed",
+                 fmt::format("no run had {} swirls after its warm-up, so nothing is averaged.",
+                             least_swirls_of_an_average)},
                 {"seeds", seeds}};
     }
     std::vector<double> swirls;

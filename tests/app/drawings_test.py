@@ -70,10 +70,15 @@ TABLES = {
            *cells(20, map="flow", discs=48, steady_state="drifting")],
     "3a": list(profile()),
     "3b": list(profile()),
-    "4a": [with_errors(row, pinned_at_wall=0.9, pinned_region=0.95, cluster=0.5)
+    "4a": [with_errors(row, slip_stays=0.9, pinned_region=0.95, cluster=0.5)
            for row in curves("setting", ("high", "low"), range(24, 49))],
-    "4b": [with_errors(row, pinned_wall_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
-                       triangles=0.3, disc_sticking=0.9, wall_sticking=0.9, pinned_correlation=-0.1)
+    "pinning": [{"discs": n, "theta": 10 * k + 5, "steady_state": "drifting"} |
+                {name + end: value for name in ("si_pinned", "si_free", "stay_begins", "stay_ends")
+                 for end, value in (("", k / 630), ("_mean", 359.0), ("_resultant", 0.9))}
+                for n in (28, 48) for k in range(36)],
+    "4b": [with_errors(row, pinned_wall_spin=0.4, stay_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
+                       triangles=0.3, disc_sticking=0.9, wall_sticking=0.9, pinned_correlation=-0.1,
+                       stay_correlation=-0.2, along_wall=0.1, correlation_by_impulse=-0.3, psi6_stays=0.7, psi6_pinned=0.6)
            for row in rotation(range(24, 49))],
     "4c": curves("setting", ("high", "low"), range(24, 49)),
     "5b": curves("setting", FRICTIONS) + list(rotation(range(40, 56), low=-0.4, setting="high")),
@@ -95,10 +100,12 @@ TABLES = {
     "spheres_coins": curves("curve", ("coins_f0", "coins_f0.01", "coins_f0.02", "coins_f0.03")),
     "spheres_ingredients": curves("curve", ("0.2", "no-damping", "shell", "no-vertical-wall",
                                             "no-vertical-disc", "no-vertical", "no-floor")),
+    "spheres_ingredients_rough": curves("curve", ("0.3", *(f"{name}-rough" for name in (
+        "no-damping", "shell", "no-vertical-wall", "no-vertical-disc", "no-vertical", "no-floor")))),
     "spheres_map": [row for a in STEPS[1:8] for b in STEPS[1:6]
                     for row in rotation([36], high=a - b, mu=a, floor_friction=b)],
-    "spheres_pinned": [with_errors(row, pinned_region=0.9, pinned_wall_spin=0.3, rolling_share=0.7,
-                                   contact_correlation=0.9)
+    "spheres_pinned": [with_errors(row, slip_stays=0.9, pinned_region=0.9, stay_spin=0.3,
+                                   pinned_wall_spin=0.3, rolling_share=0.7, contact_correlation=0.9)
                        for row in curves("mu", (0.15, 0.5))],
     "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
     "spheres_sense": [{"mu": mu, "crossing": 20 + 20 * mu, "crossing_error": 9.0, "sense": sense}

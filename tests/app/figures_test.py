@@ -9,15 +9,18 @@ import unittest
 
 from program import SOURCE, InFolder, swirl
 
-# Those that share their runs or need none; with 3000 events each it takes seconds.
+# Those that share their runs or need none; with 30,000 events each, some swirls of the densest, it takes
+# seconds.
 FIGURES = {
     "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error", "centre_x", "centre_theta", "left"},
     "2b": {"map", "x", "y", "density", "density_error", "u_x", "u_y", "visits"},
     "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free",
            "stay_begins", "stay_ends", "stay_share", "stay_ends_resultant", "distance", "speed"},
     "3b": {"discs", "theta", "normalised", "normalised_error", "wall"},
-    "4a": {"setting", "discs", "pinned_at_wall", "pinned_at_wall_error", "pinned_region", "cluster"},
-    "4b": {"discs", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
+    "4a": {"setting", "discs", "slip_stays", "slip_stays_error", "pinned_region", "cluster"},
+    "pinning": {"discs", "theta", "si_pinned", "si_free", "stay_begins", "stay_ends", "si_free_resultant",
+                "stay_ends_resultant", "stay_ends_mean", "stay_ends_mean_error"},
+    "4b": {"discs", "stay_spin", "stay_correlation", "psi6_stays", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
            "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "disc_disc_rate"},
     "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},
     "5c": {"discs", "x", "y", "by_event", "by_event_error", "by_time"},
@@ -30,7 +33,7 @@ FIGURES = {
 class Figures(InFolder):
     def test_tables_and_drawings(self):
         out = self.path("out")
-        done = swirl("paper", "--figure", *FIGURES, "--quick", "--events", 3000, "--out", out)
+        done = swirl("paper", "--figure", *FIGURES, "--quick", "--events", 30_000, "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         for name, columns in FIGURES.items():
             with open(os.path.join(out, f"figure_{name}.csv"), newline="") as file:

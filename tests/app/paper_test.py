@@ -34,7 +34,7 @@ class Figure5b(InFolder):
         for row in rows:
             self.assertEqual(row["seeds"], "3")
             self.assertEqual(row["point"], f"{row['setting']}_N{row['discs']}")
-            if row["ended_in_warmup"] == "3":
+            if row["too_short_to_average"] == "3":
                 # 3000 events of many discs are no swirl: there is nothing to average.
                 self.assertGreater(int(row["discs"]), 24)
                 self.assertEqual((row["by_event"], row["steady_state"]), ("", "failed"))

@@ -70,7 +70,8 @@ TEST_F(Paper, ARunThatFailsLeavesAHoleAndIsNamed) {
     EXPECT_EQ(made.failed, 1u);
     EXPECT_THAT(made.figures.front().outcome.findings,
                 ElementsAre("steady", "failed", "steady",
-                            HasSubstr("'b' failed, and its place is empty: Time stands still.")));
+                            HasSubstr("1 run failed and is left out: 1 of 1 at b (an empty place). "
+                                      "Why: Time stands still.")));
     EXPECT_EQ(made.figures.front().problem, "");
 }
 
@@ -84,8 +85,8 @@ TEST_F(Paper, RunsThatFailAreNamedInOneSentence) {
     const PaperResult made = make_figures({{"x", "of three runs", two_fail}}, settings, {});
     EXPECT_THAT(
         made.figures.front().outcome.findings,
-        ElementsAre(HasSubstr(
-            "2 runs failed, and their places are empty: b, d. Of the first: Time stands still.")));
+        ElementsAre(HasSubstr("2 runs failed and are left out: 1 of 1 at b (an empty place), 1 of "
+                              "1 at d (an empty place). Of the first: Time stands still.")));
 }
 
 TEST_F(Paper, ARunThatFailedIsTriedAgainAndTheOthersAreNot) {

@@ -77,7 +77,7 @@ TEST(SeveralSeeds, WhatEndedInItsWarmupIsNotAveragedAndCounted) {
     short_run["warmup"]["periods"] = 0;
     const Json all = several_seeds({run_of(0.1), short_run, run_of(0.3), {{"failed", "why"}}});
     EXPECT_NEAR(number(at(all, {"rotation", "by_event", "mean"})), 0.2, 1e-12);
-    EXPECT_EQ(all["seeds"]["ended_in_warmup"], 1);
+    EXPECT_EQ(all["seeds"]["too_short_to_average"], 1);
     EXPECT_EQ(all["seeds"]["failed"], 1);
     EXPECT_EQ(all["seeds"]["averaged"], 2);
     EXPECT_TRUE(failed(several_seeds({short_run, short_run})));
@@ -85,6 +85,20 @@ TEST(SeveralSeeds, WhatEndedInItsWarmupIsNotAveragedAndCounted) {
     short_run["config"]["warmup"] = 0;
     EXPECT_FALSE(failed(several_seeds({short_run, short_run})));
     EXPECT_EQ(several_seeds({{{"failed", "why"}}})["failed"], "why");
+}
+
+TEST(SeveralSeeds, FourSwirlsAfterTheWarmupAreNoAverageAndFiveAre) {
+    const auto lasting = [](int swirls) {
+        Json run = run_of(1.04, "too short to tell", 20.0 + swirls);
+        run["rotation"]["by_event"]["blocks"] = swirls;
+        return run;
+    };
+    const Json all = several_seeds({run_of(1.0), lasting(4), run_of(1.0)});
+    EXPECT_EQ(number(at(all, {"rotation", "by_event", "mean"})), 1.0);
+    EXPECT_EQ(all["seeds"]["too_short_to_average"], 1);
+    EXPECT_EQ(several_seeds({run_of(1.0), lasting(5)})["seeds"]["averaged"], 2);
+    const Json none = several_seeds({lasting(4), lasting(4)});
+    EXPECT_EQ(none["failed"], "no run had 5 swirls after its warm-up, so nothing is averaged.");
 }
 
 TEST(SeveralSeeds, MeasuredRowsTablesCountsAndDirections) {

@@ -1,0 +1,14 @@
+"""Spheres that roll: what each ingredient of the model does at a higher friction.
+
+    /usr/bin/python3 figures/figure_spheres_ingredients_rough.py out/figure_spheres_ingredients_rough.csv
+"""
+
+import figure_spheres_ingredients
+
+
+def main():
+    figure_spheres_ingredients.main("figure_spheres_ingredients_rough", "0.3", "-rough")
+
+
+if __name__ == "__main__":
+    main()
