@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,7 +29,7 @@ class Dish {
         : config_(config),
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
-          run_(with_warmup(config), begin, measured_.empty() ? nullptr : &observation_),
+          run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
           seen_(run_.kept_snapshot()),
           pinned_times_(samples_per_period, config.period) {
         run_.follow_orientations();
@@ -140,8 +141,10 @@ class Dish {
     double time_of(const Event& event) const {
         return static_cast<double>(event.swirls) * config_.period + event.clock;
     }
-    /// A page's dish has no length of which the warm-up could be a part.
-    static RunConfig with_warmup(RunConfig config) {
+    /// A page's dish goes on for ever, and has no length of which the warm-up could be a part.
+    static RunConfig endless(RunConfig config) {
+        config.events = std::numeric_limits<std::int64_t>::max();
+        config.periods.reset();
         config.warmup = config.warmup.value_or(default_warmup);
         config.warmup_found = false;
         return config;

@@ -24,8 +24,18 @@ class SampleTimes {
         : per_period_(per_period), period_(period), interval_(interval) {}
 
     /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
-    /// period; false if there is none left.
-    bool next(Snapshot& s, const ContainerPath& path, double clock) {
+    /// period; false if there is none left. Asked before every event, and mostly there is none.
+    SWIRL_INLINE bool next(Snapshot& s, const ContainerPath& path, double clock) {
+        if (s.swirls == swirls_ && due_ > clock) return false;
+        return take_next(s, path, clock);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(index_, swirls_);
+    }
+
+  private:
+    bool take_next(Snapshot& s, const ContainerPath& path, double clock) {
         if (s.swirls != swirls_) begin_period(s.swirls);
         if (due_ == not_asked) due_ = next_in(s.swirls);
         if (!(due_ <= clock)) return false;
@@ -37,13 +47,6 @@ class SampleTimes {
         due_ = next_in(s.swirls);
         return true;
     }
-
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        visit(index_, swirls_);
-    }
-
-  private:
     void begin_period(std::int64_t swirls) {
         if (interval_ == 0.0) index_ = 0;
         swirls_ = swirls;

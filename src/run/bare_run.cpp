@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/budget.hpp"
@@ -29,7 +30,7 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
       event_(),
       rotation_times_(rotation_samples, config.period),
       observation_times_(samples_per_period, config.period),
-      events_to_look_(events_between_looks(simulation_.size())),
+      events_to_look_(events_until_look()),
       watch_(simulation_.size(), mark()),
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0) {
@@ -54,7 +55,8 @@ double BareRun::fraction() const {
 
 /// The snapshot is sampled at all times that are due until the event.
 void BareRun::find_event() {
-    event_ = simulation_.step();
+    // Written where it is kept: what is copied waits until it has been written.
+    new (&event_) Event(simulation_.step());
     sample_by_event();
     while (next_sample(rotation_times_)) {
         rotation().sample_by_time(snapshot_);
@@ -74,10 +76,13 @@ void BareRun::pass_event() {
         begin_period();
 }
 
-bool BareRun::is_time_to_look() {
-    if (events_to_look_-- > 0) return false;
-    events_to_look_ = events_between_looks(simulation_.size()) - 1;
-    return true;
+/// The end of the run comes with an event or with a swirl.
+int BareRun::events_until_look() const {
+    const int at_most = complete() ? 0 : events_between_looks(simulation_.size());
+    if (config_.periods) return at_most;
+    const std::int64_t left =
+        config_.events - static_cast<std::int64_t>(simulation_.events().total());
+    return static_cast<int>(std::clamp<std::int64_t>(left, 0, at_most));
 }
 
 std::optional<std::string> BareRun::trouble() {
@@ -133,7 +138,7 @@ void BareRun::sample_by_event() {
     rotation_is_sampled_ = true;
 }
 
-/// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up.
+/// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up, or the run.
 void BareRun::begin_period() {
     sample_by_event();
     rotation().close_block();
@@ -144,6 +149,7 @@ void BareRun::begin_period() {
         result_.warmup = simulation_.swirls();
         result_.warmup_events = simulation_.events();
     }
+    if (complete()) events_to_look_ = 0;
 }
 
 /// At the end of a swirl: is the warm-up over?

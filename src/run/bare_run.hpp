@@ -3,6 +3,7 @@
 // browser, which has none of them, builds its dish on this (bindings/wasm).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,8 +25,8 @@ class Observation;
 
 /// Event by event:
 ///
-///     while (!run.complete()) {
-///         if (run.is_time_to_look() && run.trouble()) break;
+///     for (;;) {
+///         if (run.is_time_to_look() && (run.complete() || run.trouble())) break;
 ///         run.find_event();
 ///         run.pass_event();
 ///     }
@@ -68,9 +69,17 @@ class BareRun {
     std::int64_t warmup() const { return result_.warmup; }
     const EventCounts& warmup_events() const { return result_.warmup_events; }
 
-    /// Between two events, once for each: whether it is time to ask for trouble, and for whatever
-    /// else is asked now and then.
-    bool is_time_to_look();
+    /// Between two events, once for each: whether it is time to ask whether the run is complete,
+    /// for trouble, and for whatever else is asked now and then. It always is when the run is
+    /// complete.
+    bool is_time_to_look() {
+        if (events_to_look_ > 0) {
+            --events_to_look_;
+            return false;
+        }
+        events_to_look_ = std::max(events_until_look() - 1, 0);
+        return true;
+    }
     /// Why it cannot go on, as a full sentence: rounding errors have grown too large, or time all
     /// but stands still.
     std::optional<std::string> trouble();
@@ -105,6 +114,7 @@ class BareRun {
   private:
     bool observes() const { return warm_ && observation_; }
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
+    int events_until_look() const;
     std::optional<std::string> overlap_trouble() const;
     std::string collapse_sentence(const Collapse& collapse) const;
     std::string reason_for_collapse() const;

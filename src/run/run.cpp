@@ -113,18 +113,15 @@ double Run::seconds() const {
 }
 
 bool Run::next_event() {
-    if (complete()) {
-        refuse(run_.trouble_at_the_end());
-        return false;
-    }
     if (run_.is_time_to_look() && !look_up()) return false;
     run_.find_event();
     return true;
 }
 
-/// Between two events, now and then: false if the run is to stop.
+/// Between two events, now and then: false if the run is complete, or is to stop.
 bool Run::look_up() {
-    if (control_.stop && control_.stop->load(std::memory_order_relaxed)) {
+    const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
+    if (complete() || stopped) {
         refuse(run_.trouble_at_the_end());
         return false;
     }
