@@ -7,17 +7,59 @@
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/container_path.hpp"
 #include "swirl/simulation/internal_check.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// Rounding errors of positions are 10⁻¹³ and of what follows from them not much larger; what is
-/// wrong is wrong by far more.
+/// Rounding errors of velocities and impulses are 10⁻¹³ and of what follows from them not much
+/// larger; what is wrong is wrong by far more. Of a length it is what is left for bodies that are
+/// pressed together for long: one rounding is handed on to the next contact.
 inline constexpr double allowed_rounding = 1e-10;
 
 SWIRL_INLINE bool is_rounding(double error, double scale) {
     return magnitude(error) <= allowed_rounding * scale;
+}
+
+// How far from touching two bodies may be at their contact, with nothing wrong but the rounding of
+// doubles, each by ε = 2⁻⁵³ of itself. What they hold, places, velocities and times, is exact by
+// definition. Let L be the largest coordinate on their ways, s how far apart they are at the later
+// of the times held, from where the contact is predicted (contact_time.hpp), v how fast that
+// changes, σ the distance of contact, and t its time.
+//
+// 1. A place at a time is x + u (t − t₀), where u (t − t₀) leads from one coordinate to another and
+//    is no longer than 2L: the difference, the product and the sum are rounded by 2εL, 2εL and εL.
+//    With two bodies, two coordinates, at the prediction and at the contact: 28 εL at most.
+// 2. At the time τ that is found, |s + vτ|² − σ² is not zero, since c, 2bτ and aτ² are rounded by
+//    3εs², 6εs|vτ| and 3ε|vτ|², and the way |vτ| is no longer than s + σ ≤ 2s: 27 εs². A
+//    discriminant D that is wrong by δ adds cδ/(√D − b)²; δ is 8εb² at most and (√D − b)² no less
+//    than b², so 8 εs², also of discs that graze, whose τ has lost half of its digits, and of those
+//    that are said to miss each other. As |x|² − σ² = (|x| + σ)(|x| − σ), the distance is off by
+//    18 εs²/σ. That grows with the square of the way: in a dish of 10⁷ radii it is 0.1 of them.
+// 3. The sum now + τ is rounded by εt, in which they come nearer by εt|v|.
+//
+// For disc and wall s and σ are the clearance R − r at most, and so is s²/σ.
+inline constexpr double roundings = 32.0 * 0x1p-53;
+
+SWIRL_INLINE double size_of(const Vec2& x) { return larger(magnitude(x.x), magnitude(x.y)); }
+
+SWIRL_INLINE double rounding_of_contact(const Flight<double>& i, const Flight<double>& j,
+                                        double sum_of_radii, double t) {
+    const double now = larger(i.time, j.time);
+    const Vec2 s = j.position_at(now) - i.position_at(now), v = j.velocity - i.velocity;
+    const double L = larger(larger(size_of(i.position), size_of(j.position)),
+                            larger(size_of(i.position_at(t)), size_of(j.position_at(t))));
+    return roundings * (L + dot(s, s) / sum_of_radii + t * square_root(dot(v, v)));
+}
+/// The container's centre turns, or begins where its leg does.
+SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const Leg& leg,
+                                             double clearance, double t) {
+    const Flight<double> centre = leg.flight_at(t);
+    const Vec2 v = disc.velocity - centre.velocity;
+    const double L = larger(larger(size_of(disc.position), size_of(disc.position_at(t))),
+                            larger(size_of(leg.start), size_of(centre.position)));
+    return roundings * (L + clearance + t * square_root(dot(v, v)));
 }
 
 /// A body before and after a collision, seen from a frame that moves with a velocity of its own.
@@ -80,11 +122,12 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
         magnitude(after - before - work_of(J, i.before, j.before, normal)) <= allowed);
 }
 
-/// `separation` points from i to j; `contact` is how long it is when they touch. Angular momentum
-/// is taken about the centre of i, where i gains spin alone.
+/// `separation` points from i to j; `contact` is how long it is when they touch, but for
+/// `rounding`. Angular momentum is taken about the centre of i, where i gains spin alone.
 [[maybe_unused]] static void check_disc_collision(const Collided& i, const Collided& j,
                                                   const Vec2& separation, const Surface& surface,
-                                                  const Impulse& J, bool overlapped_at_start) {
+                                                  const Impulse& J, double rounding,
+                                                  bool overlapped_at_start) {
     const double distance = square_root(dot(separation, separation));
     const double contact = i.before.radius + j.before.radius;
     check_energy(i, j, (1.0 / distance) * separation, surface, J);
@@ -97,24 +140,29 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
     promise::momentum_is_conserved(is_rounding(gain.x, scale) && is_rounding(gain.y, scale));
 
     if (overlapped_at_start) return;
-    promise::discs_touch_at_contact(is_rounding(distance - contact, contact));
+    promise::discs_touch_at_contact(magnitude(distance - contact) <=
+                                    allowed_rounding * contact + rounding);
     const double angular =
         cross(separation, j.gain_of_momentum()) + i.gain_of_spin() + j.gain_of_spin();
     const double spins = magnitude(i.before.spin / i.before.inverse_inertia) +
                          magnitude(j.before.spin / j.before.inverse_inertia);
-    promise::angular_momentum_is_conserved(is_rounding(angular, contact * scale + spins));
+    // The impulse along the tangent has the radii for its levers, which the rounding leaves out.
+    promise::angular_momentum_is_conserved(magnitude(angular) <=
+                                           allowed_rounding * (contact * scale + spins) +
+                                               rounding * magnitude(J.tangential));
 }
 
 /// `from_centre` points from the centre of the container to the disc; `contact` is how long it is
-/// when the disc touches the wall.
+/// when the disc touches the wall, but for `rounding`.
 [[maybe_unused]] static void check_wall_collision(const Collided& disc, const Collided& wall,
                                                   const Vec2& from_centre, double contact,
                                                   const Surface& surface, const Impulse& J,
-                                                  bool overlapped_at_start) {
+                                                  double rounding, bool overlapped_at_start) {
     const double distance = square_root(dot(from_centre, from_centre));
     check_energy(disc, wall, (1.0 / distance) * from_centre, surface, J);
     if (overlapped_at_start) return;
-    promise::discs_touch_at_contact(is_rounding(distance - contact, contact + disc.before.radius));
+    promise::discs_touch_at_contact(magnitude(distance - contact) <=
+                                    allowed_rounding * (contact + disc.before.radius) + rounding);
 }
 
 }  // namespace SWIRL_TARGET

@@ -157,10 +157,14 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
     const Surface surface = Bodies::at_contact(state, state.disc_surface, since_last, s,
                                                body_j.velocity - body_i.velocity);
     const Impulse impulse = collide(body_i, body_j, s, surface);
-    if constexpr (internal_checks && !Bodies::have_floor)
+    if constexpr (internal_checks && !Bodies::have_floor) {
+        const double rounding = rounding_of_contact(
+            state.discs[i].flight(), state.discs[j].flight(), body_i.radius + body_j.radius, t);
+        state.largest_rounding = larger(state.largest_rounding, rounding);
         check_disc_collision({before_i, body_i, before_i.velocity},
                              {before_j, body_j, before_i.velocity}, s, state.disc_surface, impulse,
-                             state.overlapped_at_start);
+                             state.largest_rounding, state.overlapped_at_start);
+    }
     Bodies::write_back(state, i, at_i, t, body_i);
     Bodies::write_back(state, j, at_j, t, body_j);
     ++state.disc_disc;
@@ -188,10 +192,15 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
     const Surface surface =
         Bodies::at_contact(state, state.wall_surface, since_last, s, wall.velocity - body.velocity);
     const Impulse impulse = collide(body, wall, s, surface);
-    if constexpr (internal_checks && !Bodies::have_floor)
+    if constexpr (internal_checks && !Bodies::have_floor) {
+        const double clearance = state.container_radius - body.radius;
+        const double rounding =
+            rounding_of_wall_contact(state.discs[i].flight(), state.legs[state.leg], clearance, t);
+        state.largest_rounding = larger(state.largest_rounding, rounding);
         check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
-                             state.container_radius - body.radius, state.wall_surface, impulse,
+                             clearance, state.wall_surface, impulse, state.largest_rounding,
                              state.overlapped_at_start);
+    }
     Bodies::write_back(state, i, at, t, body);
     ++state.disc_wall;
     const double distance = square_root(dot(s, s));

@@ -130,14 +130,14 @@ TEST_F(BrokenPromise, ADiscOutsideIsFound) {
 TEST_F(BrokenPromise, ACollisionAtADistanceIsFound) {
     const Body before{{0.0, 0.0}, 0.0, 1.0, 1.0, 1.0};
     const Collided still{before, before, {0.0, 0.0}};
-    EXPECT_DEATH(check_disc_collision(still, still, {2.1, 0.0}, {}, {}, false),
+    EXPECT_DEATH(check_disc_collision(still, still, {2.1, 0.0}, {}, {}, 0.0, false),
                  "discs_touch_at_contact");
 }
 TEST_F(BrokenPromise, MomentumFromNowhereIsFound) {
     const Body before{{1.0, 0.0}, 0.0, 1.0, 1.0, 1.0}, after{{0.5, 0.0}, 0.0, 1.0, 1.0, 1.0};
     // A force on one of two: energy as if its work had been done.
     EXPECT_DEATH(check_disc_collision({before, after, {0.0, 0.0}}, {before, before, {0.0, 0.0}},
-                                      {2.0, 0.0}, {}, {}, false),
+                                      {2.0, 0.0}, {}, {}, 0.0, false),
                  "energy_changes_by_the_work_of_the_impulses");
 }
 

@@ -213,6 +213,10 @@ struct EngineState {
     Floor floor;
     std::uint64_t begun_to_roll;
 
+    // Of contacts so far, the most that rounding can have put two bodies into each other, where
+    // they stay until they part (collision_checks.hpp); asked where invariants are checked.
+    double largest_rounding;
+
     SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);

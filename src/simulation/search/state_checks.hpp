@@ -47,24 +47,32 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
                                                 next.second() == first.second());
 }
 
-/// Whether at time t two discs overlap by more than rounding errors.
-[[maybe_unused]] static bool overlap(const HotDisc& i, const HotDisc& k, double t) {
+/// Whether at time t two discs overlap by more than rounding errors: those that an earlier contact
+/// left behind, and those of a contact that was said not to come.
+[[maybe_unused]] static bool overlap(const EngineState& state, const HotDisc& i, const HotDisc& k,
+                                     double t) {
     const Vec2 s = k.flight().position_at(t) - i.flight().position_at(t);
-    const double contact = (i.radius + k.radius) * (1.0 - allowed_rounding);
-    return dot(s, s) < contact * contact;
+    const double contact = i.radius + k.radius;
+    const double rounding =
+        larger(state.largest_rounding, rounding_of_contact(i.flight(), k.flight(), contact, t));
+    return square_root(dot(s, s)) < contact * (1.0 - allowed_rounding) - rounding;
 }
 /// Whether at time t a disc reaches beyond the wall by more than rounding errors.
 [[maybe_unused]] static bool is_outside(const EngineState& state, const HotDisc& disc, double t) {
-    const Vec2 s = disc.flight().position_at(t) - state.legs[state.leg].position_at(t);
+    const Leg& leg = state.legs[state.leg];
+    const Vec2 s = disc.flight().position_at(t) - leg.position_at(t);
     const double distance = square_root(dot(s, s));
-    return distance + disc.radius > state.container_radius * (1.0 + allowed_rounding);
+    const double rounding =
+        larger(state.largest_rounding,
+               rounding_of_wall_contact(disc.flight(), leg, state.container_radius, t));
+    return distance + disc.radius > state.container_radius * (1.0 + allowed_rounding) + rounding;
 }
 
 [[maybe_unused]] static bool all_discs_are_apart(const EngineState& state, double t) {
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (is_outside(state, state.discs[i], t)) return false;
         for (std::uint32_t k = i + 1; k < state.size; ++k)
-            if (overlap(state.discs[i], state.discs[k], t)) return false;
+            if (overlap(state, state.discs[i], state.discs[k], t)) return false;
     }
     return true;
 }
@@ -74,7 +82,7 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
     for (std::uint32_t i = 0; i < state.size; ++i) {
         promise::no_disc_is_outside_the_container(!is_outside(state, state.discs[i], t));
         for (std::uint32_t k = i + 1; k < state.size; ++k)
-            promise::no_two_discs_overlap(!overlap(state.discs[i], state.discs[k], t));
+            promise::no_two_discs_overlap(!overlap(state, state.discs[i], state.discs[k], t));
     }
 }
 
