@@ -149,6 +149,7 @@ class Recorder {
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
         const InitialState scene = make_initial_state(config_, stop);
         const Snapshot first = Simulation(scene, {}, stopped_by(stop)).snapshot();
+        if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
         if (!files_.trajectory.empty())
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
         if (!files_.event_log.empty())

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -28,9 +29,12 @@ const EventLoops& event_loops(Width width) {
     return event_loops_baseline;
 }
 
-/// Memory for columns, aligned to cache lines; large ones to huge pages.
+/// Memory for columns, aligned to cache lines; large ones to huge pages. Gigabytes of it take
+/// seconds, so it asks between two pieces whether anybody still wants them; if not, what it gives
+/// holds anything.
 class AlignedMemory {
   public:
+    explicit AlignedMemory(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
     template <class T>
     T* add(std::size_t count) {
         const std::size_t bytes = (count * sizeof(T) + 63) / 64 * 64;
@@ -42,7 +46,7 @@ class AlignedMemory {
         // the addresses of, unless pages are large. A wish: refused, all goes on as before.
         if (bytes >= huge_page) madvise(block, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
-        std::memset(block, 0, bytes);
+        clear(block, bytes);
         bytes_ += bytes;
         return reinterpret_cast<T*>(block);
     }
@@ -50,10 +54,18 @@ class AlignedMemory {
 
   private:
     static constexpr std::size_t huge_page = std::size_t{1} << 21;
+    void clear(unsigned char* block, std::size_t bytes) const {
+        constexpr std::size_t piece = 32 * huge_page;
+        for (std::size_t at = 0; at < bytes; at += piece) {
+            if (bytes > piece && is_stopped_ && is_stopped_()) return;
+            std::memset(block + at, 0, std::min(piece, bytes - at));
+        }
+    }
     struct Free {
         std::align_val_t alignment;
         void operator()(unsigned char* p) const { ::operator delete(p, alignment); }
     };
+    const std::function<bool()>& is_stopped_;
     std::vector<std::unique_ptr<unsigned char, Free>> blocks_;
     std::uint64_t bytes_ = 0;
 };
@@ -171,6 +183,9 @@ struct Simulation::Storage {
     EngineState state{};
 
     Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
+    bool prepare(const InitialState& scene, NeighbourSearch neighbours, const Radii& radii,
+                 int cells_per_side);
+    bool stopped() const { return state.stops_at(0); }
     void allocate(const InitialState& scene, NeighbourSearch neighbours);
     void lay_grids(const InitialState& scene, const Radii& radii, int cells_per_side);
     double lay_grid(Grid& grid, double least_width, double side);
@@ -183,7 +198,7 @@ struct Simulation::Storage {
 
 Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
                              const Tuning& tuning)
-    : legs(scene.path.legs) {
+    : legs(scene.path.legs), memory(tuning.is_stopped) {
     const EventLoops& loops = event_loops(tuning.width);
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
@@ -216,25 +231,36 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
         state.capacity = most_capacity;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
     state.prefetches = state.size > 4000 && !are_spheres(scene);
-    allocate(scene, neighbours);
-    place(scene);
-    if (are_spheres(scene)) {
-        place_spheres(scene);
-        if (neighbours == NeighbourSearch::cells) lay_cells_of_spheres(scene, radii);
-    } else if (neighbours == NeighbourSearch::lists) {
-        lay_grids(scene, radii, tuning.cells_per_side);
-        lay_lists(scene, radii);
-    } else if (neighbours == NeighbourSearch::cells) {
-        lay_cells(scene);
-    }
     if (tuning.is_stopped) {
         state.caller = &tuning.is_stopped;
         state.is_stopped = [](const void* caller) {
             return (*static_cast<const std::function<bool()>*>(caller))();
         };
     }
-    loop->start(state);
+    if (prepare(scene, neighbours, radii, tuning.cells_per_side)) loop->start(state);
+    if (stopped()) {
+        state.size = 0;
+        state.discs_overlap = false;
+    }
     state.is_stopped = nullptr;
+}
+
+/// All that is there before the first prediction; false if it was stopped on the way.
+bool Simulation::Storage::prepare(const InitialState& scene, NeighbourSearch neighbours,
+                                  const Radii& radii, int cells_per_side) {
+    allocate(scene, neighbours);
+    if (stopped()) return false;
+    place(scene);
+    if (are_spheres(scene)) {
+        place_spheres(scene);
+        if (neighbours == NeighbourSearch::cells) lay_cells_of_spheres(scene, radii);
+    } else if (neighbours == NeighbourSearch::lists) {
+        lay_grids(scene, radii, cells_per_side);
+        lay_lists(scene, radii);
+    } else if (neighbours == NeighbourSearch::cells) {
+        lay_cells(scene);
+    }
+    return !stopped();
 }
 
 void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch neighbours) {
@@ -281,7 +307,8 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
 
     std::array<double, most_grids> largest{};
     std::array<std::size_t, most_grids> discs{};
-    for (const Disc& d : scene.discs) {
+    for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
+        const Disc& d = scene.discs[i];
         const std::uint32_t size = size_class(d.radius, radii.smallest);
         largest[size] = larger(largest[size], d.radius);
         ++discs[size];
@@ -320,13 +347,15 @@ double Simulation::Storage::lay_grid(Grid& grid, double least_width, double side
 
 /// Room for the lists of discs that are much larger than others: for all that may lie around them.
 void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radii) {
-    std::vector<double> sorted;
-    for (const Disc& d : scene.discs) sorted.push_back(d.radius);
-    std::sort(sorted.begin(), sorted.end());
+    std::map<double, std::uint32_t> smaller_than;  // each radius that there is: how many discs are
+    for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i)
+        ++smaller_than[scene.discs[i].radius];
+    std::uint32_t counted = 0;
+    for (auto& [radius, count] : smaller_than) count = std::exchange(counted, counted + count);
     const auto list_room = [&](double radius) {
-        const auto smaller_ones = static_cast<std::uint32_t>(
-            std::lower_bound(sorted.begin(), sorted.end(), radius / ratio_without_tail) -
-            sorted.begin());
+        const auto larger_one = smaller_than.lower_bound(radius / ratio_without_tail);
+        const std::uint32_t smaller_ones =
+            larger_one == smaller_than.end() ? state.size : larger_one->second;
         return std::min(list_capacity(radius / radii.smallest),
                         list_capacity(ratio_without_tail) + smaller_ones);
     };
@@ -352,12 +381,13 @@ void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radi
     constexpr std::uint32_t entries = sizeof(ListTail) / sizeof(std::uint32_t);
     state.tail_places = memory.add<std::uint32_t>(state.size);
     std::uint32_t end = 1;
-    for (std::uint32_t i = 0; i < state.size; ++i) {
+    for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         if (tail_room(i) == 0) continue;
         state.tail_places[i] = end;
         end += 1 + tail_room(i) / entries;
     }
     state.tails = memory.add<ListTail>(end);
+    if (stopped()) return;
     for (std::uint32_t i = 0; i < state.size; ++i)
         if (state.tail_places[i] != 0) state.tail(i).room = tail_room(i);
 }
@@ -385,7 +415,7 @@ void Simulation::Storage::lay_cells_of_spheres(const InitialState& scene, const 
 
 void Simulation::Storage::place(const InitialState& scene) {
     std::map<std::array<double, 3>, std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < state.size; ++i) {
+    for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         const auto [row, is_new] = rows.try_emplace({d.radius, d.mass, d.inertia},
                                                     static_cast<std::uint32_t>(kinds.size()));
@@ -411,7 +441,7 @@ void Simulation::Storage::place(const InitialState& scene) {
 
 void Simulation::Storage::place_spheres(const InitialState& scene) {
     const Vec2 floor_velocity = legs[state.leg].velocity;
-    for (std::uint32_t i = 0; i < state.size; ++i) {
+    for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         state.spheres[i] = {floor_motion(d, scene.floor, floor_velocity), d.rolling_spin,
                             d.last_collision};

@@ -44,8 +44,8 @@ struct Tuning {
     /// on a turning path) gives way to lists; of spheres, to cells.
     NeighbourSearch neighbours = NeighbourSearch::best;
     /// Asked now and then while a simulation is made, which takes seconds where there are millions
-    /// of discs. Once it has said yes, the simulation knows where its discs are and no more: no
-    /// event may be asked of it.
+    /// of discs. Once it has said yes it must go on saying so; the simulation is left without
+    /// discs, and no event may be asked of it.
     std::function<bool()> is_stopped = {};
 };
 

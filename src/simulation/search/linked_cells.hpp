@@ -158,6 +158,7 @@ static void start(EngineState& state) {
     for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         state.cells[c].count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
         const Vec2 at = state.discs[i].flight().position_at(state.clock) -
                         state.comoving_frame.position_at(state.clock);
         enter(state, i, cell_number(state, grid, at.x, at.y));

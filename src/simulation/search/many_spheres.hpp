@@ -153,6 +153,7 @@ static void begin_stretch(EngineState& state, double t) {
     for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         grid.heads[c] = state.size;
     for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
         find_place(state, i, t);
         enter_cell(state, i);
     }

@@ -461,6 +461,7 @@ static void rebuild_all_lists(EngineState& state, double t, const SkinRadiusRang
             grid.heads[c] = state.size;
     }
     for (std::uint32_t i = 0; i < state.size; ++i) {
+        if (state.stops_at(i)) return;
         for (std::uint32_t slot = 0; slot < state.capacity; ++slot)
             state.cold(i).neighbours()[slot] = state.size;
         state.discs[i].neighbours = 0;
