@@ -47,6 +47,11 @@ esac
 [ "$port" -ge 1 ] && [ "$port" -le 65535 ] ||
     wrong_call "--port is '$port', but it must be a whole number from 1 to 65535."
 
+# What takes the place of a device is a file for good, and in a folder it would have another name.
+if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
+    wrong_call "--out is '$out', which is there and is no file; another name would be right."
+fi
+
 page=$home/build/lab/index.html
 build_page() {
     mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to $home/build, where the page is built."
@@ -79,8 +84,11 @@ exec 9>&-
 
 if [ -n "$out" ]; then
     aside=$out.$$.partial
+    trap 'rm -f "$aside"' EXIT
+    trap 'exit 130' INT
+    trap 'exit 143' HUP TERM
     cp "$page" "$aside" 2>/dev/null && mv "$aside" "$out" ||
-        { rm -f "$aside"; give_up "'$out' cannot be written."; }
+        give_up "'$out' cannot be written."
     [ -n "$quiet" ] || say "wrote $out"
     exit 0
 fi

@@ -47,7 +47,7 @@ fi
 aside=$out.$$.partial
 trap 'rm -rf "$aside"' EXIT
 trap 'exit 130' INT
-trap 'exit 143' TERM
+trap 'exit 143' HUP TERM
 mkdir -p "$aside/.help" 2>/dev/null || give_up "'$out' cannot be written."
 "$home/web/lab.sh" --quiet --out "$aside/lab.html"
 program=${SWIRL-$home/swirl}

@@ -73,9 +73,7 @@ void export_file(const ExportCall& call) {
     const std::filesystem::path out =
         call.out.empty() ? std::filesystem::path(call.file).replace_extension(format->ending)
                          : std::filesystem::path(call.out);
-    if (out == call.file)
-        throw WrongCall(
-            fmt::format("'{}' would be written over itself; name another --out.", call.file));
+    refuse_same_files({call.file, out});
     refuse_unwritable(out);
     const SnapshotSeries series = series_of(reader);
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));

@@ -70,6 +70,7 @@ void measure_file(const MeasureCall& call) {
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
+    refuse_same_files({call.file, camera_file(call.file), call.json});
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
     const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;

@@ -1,6 +1,7 @@
 // swirl sweep: many runs, on all cores or on a cluster. swirl collect: the table of what they
 // found.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <map>
@@ -235,6 +236,11 @@ std::string remarks_on(const CollectedSweep& collected) {
         text += fmt::format(
             "In {} of {} rows a run was not shown to be steady (column steady_state).\n",
             collected.not_steady, collected.rows.size());
+    if (collected.versions.size() > 1)
+        text += fmt::format(
+            "The runs were made by different versions of swirl ({}), which may differ in a "
+            "trajectory; CHANGELOG.md says whether they do.\n",
+            fmt::join(collected.versions, ", "));
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -34,6 +35,20 @@ void refuse_unwritable(const std::filesystem::path& file) {
                                   folder.string()));
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
+}
+
+void refuse_same_files(const std::vector<std::filesystem::path>& files) {
+    std::vector<std::filesystem::path> seen;
+    for (const auto& file : files) {
+        if (file.empty() || file == "-") continue;
+        std::error_code unknown;
+        auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
+        if (unknown) whole = std::filesystem::absolute(file).lexically_normal();
+        if (std::find(seen.begin(), seen.end(), whole) != seen.end())
+            throw WrongCall(fmt::format(
+                "'{}' is the name of two files; each needs a name of its own.", file.string()));
+        seen.push_back(std::move(whole));
+    }
 }
 
 void write_output(const std::filesystem::path& file, const std::string& text) {

@@ -3,11 +3,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace swirl {
 
 /// Throws Failure or WrongCall, before any work is done, if no file could be written there.
 void refuse_unwritable(const std::filesystem::path& file);
+
+/// Throws WrongCall if two of these are one file, however they are written; empty names and "-" are
+/// none.
+void refuse_same_files(const std::vector<std::filesystem::path>& files);
 
 /// Writes a file whole or not at all (files/whole_file.hpp); a pipe or a device gets the text as it
 /// is. Throws FileError or Failure.

@@ -8,6 +8,7 @@
 
 #include "swirl/app/output.hpp"
 #include "swirl/files/checksum.hpp"
+#include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 
@@ -104,20 +105,10 @@ std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
                        static_cast<std::uint32_t>(checksum(config_text(config))));
 }
 
-void refuse_same_names(const RunFiles& files, const std::string& json) {
-    std::vector<std::string> names{files.trajectory.string(), files.event_log.string(),
-                                   files.checkpoint.string(), json};
-    std::erase(names, "");
-    std::sort(names.begin(), names.end());
-    const auto twice = std::adjacent_find(names.begin(), names.end());
-    if (twice != names.end())
-        throw WrongCall(
-            fmt::format("'{}' is the name of two files; each needs a name of its own.", *twice));
-}
-
-/// A bare number as it is, anything else in quotes.
+/// A bare number as it is, anything else in quotes; so is a seed that TOML has no number for.
 std::string toml_value(const std::string& text) {
-    if (read_whole_number(text) || read_number(text)) return text;
+    const bool is_whole = text.find_first_not_of("0123456789") == text.npos;
+    if (read_whole_number(text) || (read_number(text) && !is_whole)) return text;
     std::string quoted = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') quoted += '\\';
@@ -198,7 +189,7 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
     // The checkpoint of a run that was to leave nothing behind is set aside without a question.
     files.overwrite = call.overwrite || (nothing_named && !call.resume);
     if (files.checkpoint.empty()) files.checkpoint = default_checkpoint(files, config, json);
-    refuse_same_names(files, json);
+    refuse_same_files({files.trajectory, files.event_log, files.checkpoint, json});
     if (files.checkpoint_every == 0.0) {
         if (call.resume)
             throw WrongCall("--resume needs a checkpoint, but --checkpoint-every 0 asks for none.");
@@ -208,7 +199,10 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
         files.checkpoint.clear();
     }
     for (const auto& file : {files.trajectory, files.event_log})
-        if (!file.empty()) refuse_unwritable(file);
+        if (!file.empty()) {
+            refuse_unwritable(file);
+            refuse_to_replace(file);
+        }
     if (files.checkpoint_needed && !files.checkpoint.empty()) refuse_unwritable(files.checkpoint);
     return files;
 }

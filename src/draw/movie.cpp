@@ -7,14 +7,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 namespace swirl {
 
 namespace {
+
+/// Why a movie lacks its end, in the words of the system.
+constexpr const char* trouble_with_disks[] = {"No space left", "Disk quota exceeded",
+                                              "File too large", "Input/output error"};
 
 bool ends_with(const std::string& text, const char* ending) {
     const std::size_t length = std::strlen(ending);
@@ -178,8 +184,13 @@ void MovieWriter::finish() {
     const int status = ffmpeg_->end();
     const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     // ffmpeg has been seen to end with code 0 after it could not write everything.
-    const bool complained = ffmpeg_->said().find("No space left") != std::string::npos;
-    if (!well || complained) fail(status);
+    const std::string said = ffmpeg_->said();
+    const bool complained =
+        std::any_of(std::begin(trouble_with_disks), std::end(trouble_with_disks),
+                    [&](const char* trouble) { return said.find(trouble) != std::string::npos; });
+    struct stat about {};
+    const bool empty = ::fstat(lock_, &about) != 0 || about.st_size == 0;
+    if (!well || complained || empty) fail(status);
     finished_ = true;
     // Only now is it known that all of it arrived.
     if (::fsync(lock_) == 0 && std::rename(aside_.c_str(), path_.c_str()) == 0) return;

@@ -305,6 +305,10 @@ void Replay::bring_to(std::size_t i, double t) {
 void Replay::pass_vertex(const Event& event) {
     const bool is_last = event.clock == swirl_end_;
     if (floor_) leg_ = is_last ? 0 : leg_ + 1;
+    if (floor_ && leg_ >= floor_->velocity.size())
+        throw FileError(
+            "An event log contradicts itself: it has more path vertices in a swirl than "
+            "its floor has legs.");
     if (!is_last && !(floor_ && floor_->floor.deceleration != 0.0)) return;
     for (std::size_t i = 0; i < discs_.size(); ++i) {
         bring_to(i, event.clock);

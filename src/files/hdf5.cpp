@@ -73,6 +73,7 @@ const H5FD_class_t& driver_class() {
         c.maxaddr = haddr_t(1) << 62;
         c.fc_degree = H5F_CLOSE_STRONG;
         c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
+            if (opening.file == nullptr) return nullptr;
             auto* d = static_cast<StagedDriver*>(std::calloc(1, sizeof(StagedDriver)));
             if (d == nullptr) return nullptr;
             d->file = opening.file;
@@ -208,9 +209,18 @@ struct Hdf5File::State {
         return fmt::format("'{}': {} failed ({}).", path, what, library_reason());
     }
     [[noreturn]] void fail(std::string_view what) {
+        refuse_overtaken();
         if (failure.empty()) failure = sentence(what);
         staged.abandon();
         throw FileError(failure);
+    }
+    /// The library knows what was where when the file was opened.
+    void refuse_overtaken() const {
+        if (staged.is_overtaken())
+            throw FileError(
+                fmt::format("'{}' is being recorded by a run, which has added to it while it was "
+                            "read; it can be read when that run has ended or was interrupted.",
+                            path));
     }
     /// A failure that the library did not pass on counts too.
     hid_t check(hid_t result, std::string_view what) {
@@ -220,6 +230,15 @@ struct Hdf5File::State {
     /// For destructors, which cannot throw: the next check() does.
     void note(herr_t result, std::string_view what) {
         if (result < 0 && failure.empty()) failure = sentence(what);
+    }
+    /// A file that promises more than it can hold lies, and memory for that must not even be asked
+    /// for. Deflate makes at best a byte of a thousand; what is not packed is there as it is.
+    void refuse_more_than_it_holds(const std::string& name, double bytes,
+                                   double most_packed = 2048.0) const {
+        if (bytes > most_packed * double(staged.size()))
+            throw FileError(fmt::format(
+                "'{}' is damaged: its {} is said to hold more than such a small file can.", path,
+                name));
     }
     void commit() {
         try {
@@ -338,21 +357,16 @@ std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
     if (first > rows_ || count > rows_ - first)
         throw FileError(fmt::format("'{}' has {} entries in {}, entries {} to {} were asked for.",
                                     handle_->file->path, rows_, name_, first, first + count));
-    // Deflate makes at best a byte of a thousand, so a small file that promises a large column
-    // lies, and the memory for it must not even be asked for.
-    constexpr double most_packed = 2048.0;
     double bytes = double(count) * sizeof(T);
     for (const std::uint64_t d : row_shape_) bytes *= double(d);
-    if (bytes > most_packed * double(handle_->file->staged.size()))
-        throw FileError(
-            fmt::format("'{}' is damaged: its {} is said to hold more than such a small file can.",
-                        handle_->file->path, name_));
+    handle_->file->refuse_more_than_it_holds(name_, bytes);
     std::vector<T> values(count * product(row_shape_));
     if (values.empty()) return values;
     const Selection rows(*this, first, count, {});
     handle_->file->check(
         H5Dread(handle_->id, memory_type<T>(), rows.here, rows.there, H5P_DEFAULT, values.data()),
         "reading " + name_);
+    handle_->file->refuse_overtaken();
     return values;
 }
 
@@ -364,6 +378,10 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
     H5Pset_driver(access, driver, nullptr);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     opening = {&state_->staged, &state_->failure};
+    // A link or a virtual dataset in it that leads to another file leads nowhere.
+    struct OpensOnlyThis {
+        ~OpensOnlyThis() { opening = {}; }
+    } const opens_only_this;
     if (mode == StagedFile::Mode::create) {
         // Without access times two runs with the same data write the same bytes.
         state_->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -372,6 +390,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
     }
     const unsigned how = mode == StagedFile::Mode::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
     state_->id = H5Fopen(path.c_str(), how, access);
+    if (state_->id < 0) state_->refuse_overtaken();
     if (state_->id < 0)
         throw FileError(fmt::format("'{}' is not an HDF5 file, or is damaged ({}).", path.string(),
                                     library_reason()));
@@ -516,6 +535,7 @@ std::string Hdf5File::read_text(const std::string& name) const {
         H5Sget_simple_extent_npoints(space) != 1)
         throw FileError(
             fmt::format("{} in '{}' is not one text of fixed length.", name, state_->path));
+    state_->refuse_more_than_it_holds(name, double(H5Tget_size(type)));
     std::string text(H5Tget_size(type), '\0');
     state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
                   "reading " + name);
@@ -602,6 +622,8 @@ void Hdf5File::read_attribute(const std::string& object, const std::string& name
     if (!has_attribute(object, name))
         throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
     const Attribute attribute(state_->id, object, name);
+    state_->refuse_more_than_it_holds(
+        "attribute " + name, double(attribute.count) * double(H5Tget_size(attribute.type)), 1.0);
     if (!read(attribute))
         throw FileError(fmt::format("Attribute {} at {} in '{}' is not {}.", name, object,
                                     state_->path, wanted));

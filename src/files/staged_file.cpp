@@ -65,7 +65,19 @@ void StagedFile::open(Mode mode) {
     if (mode == Mode::create) return begin_anew();
     committed_ = size_ = static_cast<std::uint64_t>(about.st_size);
     new_ = size_ == 0;
+    if (mode == Mode::read) first_page_when_opened_ = first_page();
     if (load_journal() && mode == Mode::change) commit();
+}
+
+StagedFile::Page StagedFile::first_page() const {
+    Page page(page_size);
+    const ssize_t got = ::pread(file_, page.data(), page_size, 0);
+    page.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
+    return page;
+}
+
+bool StagedFile::is_overtaken() const {
+    return !first_page_when_opened_.empty() && first_page() != first_page_when_opened_;
 }
 
 void StagedFile::begin_anew() {

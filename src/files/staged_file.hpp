@@ -52,6 +52,10 @@ class StagedFile {
     void read(std::uint64_t offset, void* bytes, std::size_t size);
     void write(std::uint64_t offset, const void* bytes, std::size_t size);
     std::uint64_t size() const { return size_; }
+    /// Of a file that is only read: whether somebody has committed to it since. Then what was read
+    /// of it may be half of one state and half of the next. Each commit that makes a file larger
+    /// changes its first page, and before all others.
+    bool is_overtaken() const;
     /// Cuts the file off, or extends it with zeros, at the next commit.
     void resize(std::uint64_t size);
 
@@ -82,7 +86,10 @@ class StagedFile {
     void copy_pages();
     bool waits(std::uint64_t offset) const;
 
+    Page first_page() const;
+
     std::filesystem::path path_, journal_path_;
+    Page first_page_when_opened_;  // of a file that is only read
     int file_ = -1, journal_ = -1;
     std::uint64_t committed_ = 0, size_ = 0;
     std::map<std::uint64_t, Page> waiting_;  // by page number; all below `committed_`

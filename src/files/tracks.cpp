@@ -33,10 +33,15 @@ class Lines {
     bool next(std::string_view& line) {
         if (rest_.empty()) return false;
         const std::size_t end = rest_.find('\n');
-        line = rest_.substr(0, end);
-        rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         ++number_;
+        // Cut in the middle of a number, the last line would hold another.
+        if (end == rest_.npos)
+            wrong(
+                "the line does not end, as if the file had been cut here; if it is whole, a line "
+                "break behind it would be right");
+        line = rest_.substr(0, end);
+        rest_.remove_prefix(end + 1);
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         return true;
     }
     std::string_view expect(std::string_view what) {

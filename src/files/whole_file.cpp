@@ -74,7 +74,20 @@ void sync_folder_of(const std::filesystem::path& path) {
         throw FileError(fmt::format("'{}' could not be written to: {}.", folder.string(), reason));
 }
 
+void refuse_to_replace(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const auto kind = std::filesystem::status(path, unknown).type();
+    if (kind == std::filesystem::file_type::regular ||
+        kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none)
+        return;
+    throw FileError(fmt::format("'{}' is {}, and no file can take its place.", path.string(),
+                                kind == std::filesystem::file_type::directory
+                                    ? "a folder"
+                                    : "a device, a pipe or a socket"));
+}
+
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
+    refuse_to_replace(path);
     if (::rename(partial.c_str(), path.c_str()) != 0)
         throw FileError(fmt::format("'{}' could not be renamed to '{}': {}.", partial.string(),
                                     path.string(), system_reason()));
@@ -82,6 +95,7 @@ void give_final_name(const std::filesystem::path& partial, const std::filesystem
 }
 
 WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
+    refuse_to_replace(path);
     // Again if the name is taken, or if somebody took the file for a leftover before it was locked.
     for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
         aside_ = path.string() + "." + random_name() + std::string(partial_suffix);

@@ -58,6 +58,11 @@ void remove_leftovers(const std::filesystem::path& folder, std::string_view name
 /// The end of the name under which a file is written until it is complete.
 inline constexpr std::string_view partial_suffix = ".partial";
 
+/// Throws FileError if something stands there that no file may take the place of: who is allowed to
+/// would lose a device or a pipe for good. The writers here ask it; who computes for long before he
+/// writes asks it at once.
+void refuse_to_replace(const std::filesystem::path& path);
+
 /// Gives a finished file its final name, on the disk too. Throws FileError.
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
 

@@ -361,7 +361,7 @@ struct PointResult {
     /// The four estimators of the rotation, then the numbers that were measured.
     std::vector<MeasuredNumber> quantities;
     double energy = 0.0, periods = 0.0;
-    std::string state_hash, steadiness;
+    std::string state_hash, steadiness, version;
 
     /// The quantity of this name; nearly always it is the one in this place.
     Estimate quantity(std::size_t place, const std::string& name) const {
@@ -432,6 +432,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
         result.state_hash = json.at("state_hash").get<std::string>();
+        result.version = json.at("version").get<std::string>();
         result.steadiness = json.at("steady_state").at("verdict").get<std::string>();
     } catch (const nlohmann::json::exception&) {
         throw FileError(
@@ -766,8 +767,11 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     }
     columns.push_back("state_hash");
     CollectedSweep collected{.table = Table(columns)};
-    for (const PointResult& result : results)
-        if (result.there && !result.has_whole_swirl) ++collected.without_swirl;
+    for (const PointResult& result : results) {
+        if (!result.there) continue;
+        if (!result.has_whole_swirl) ++collected.without_swirl;
+        collected.versions.insert(result.version);
+    }
 
     const auto replicas = static_cast<std::size_t>(plan.replicas);
     for (const std::size_t of : rows_of(plan)) {

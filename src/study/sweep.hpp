@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,7 @@ struct CollectedSweep {
     std::size_t not_steady = 0;   // with a replica that drifts or is too short to tell
     /// Runs without a whole swirl after the warm-up: there is nothing to average of them.
     std::size_t without_swirl = 0;
+    std::set<std::string> versions = {};  // of the programs that made the runs
 };
 
 /// One row for each combination of parameters: mean over the replicas that are done, and its

@@ -184,6 +184,39 @@ class WrongCalls(InFolder):
             self.assertEqual(done.stderr, f"swirl: '{self.folder}' is a folder, but it must be the name of a "
                              "file to read.\n")
 
+    def test_tracks_that_were_cut_in_the_middle_of_a_number(self):
+        for name, whole in (("a.csv", "frame,particle,x,y\n0,0,1,2.5\n1,0,1,2.75\n"),
+                            ("a.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\n"
+                                       "ITEM: ATOMS id x y\n0 1 2.75\n")):
+            for cut in (1, 2):
+                with open(self.path(name), "w") as opened:
+                    opened.write(whole[:-cut])
+                done = swirl("measure", self.path(name), "--omega", 1, "--container-radius", 10)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn("the line does not end, as if the file had been cut here", done.stderr)
+
+    def test_a_seed_that_is_no_number_of_toml(self):
+        seed = "18446744073709551615"
+        plan = swirl("run", "--events", 100, "--seed", seed, "--dry-run")
+        self.assertIn(f'seed = "{seed}"', plan.stdout)
+        with open(self.path("a.toml"), "w") as opened:
+            opened.write(plan.stdout)
+        done = swirl("run", self.path("a.toml"), "--json", "-", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["config"]["seed"], int(seed))
+
+    def test_runs_of_different_versions_are_said_to_be(self):
+        self.assertEqual(swirl("sweep", "--discs", "2,3", "--events", 2000, "--out", self.path("s"),
+                               "--quiet").returncode, 0)
+        self.assertNotIn("versions", swirl("collect", self.path("s")).stdout)
+        result = self.path("s/results/000000.json")
+        with open(result) as opened:
+            changed = json.load(opened)
+        changed["version"] = "0.0.1"
+        with open(result, "w") as opened:
+            json.dump(changed, opened)
+        self.assertIn("made by different versions of swirl (0.0.1, ", swirl("collect", self.path("s")).stdout)
+
     def test_frames_that_a_recording_does_not_have(self):
         recording = self.path("t.h5")
         done = swirl("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")

@@ -3,11 +3,12 @@
 import json
 import os
 import shutil
+import stat
 import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, swirl, without_time
+from program import SOURCE, SWIRL, InFolder, swirl, without_time
 
 
 class Overwriting(InFolder):
@@ -147,6 +148,57 @@ if what == 'quarter': cut('events', 0.25)
             with open(self.path("changed.json"), "w") as opened:
                 json.dump(result, opened)
             self.refused("verify", self.path("changed.json"), says=part + " is")
+
+
+class Names(InFolder):
+    """What is to be written takes the place of nothing that is needed: not of another file of the same call,
+    however it is written, not of what is being read, and not of a device or a pipe."""
+
+    in_memory = True
+
+    def recorded(self):
+        done = swirl("run", "--discs", 5, "--events", 2000, "--trajectory", self.path("t.h5"), "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.path("t.h5")
+
+    def refused(self, *call, code=2, says="is the name of two files"):
+        done = swirl(*call, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertRegex(done.stderr, r"\Aswirl: [^\n]+\.\n\Z")
+        self.assertIn(says, done.stderr)
+
+    def test_one_file_for_two_things_of_a_run(self):
+        for other in ("x", "./x", "../" + os.path.basename(self.folder) + "/x", self.path("x")):
+            self.refused("run", "--events", 100, "--trajectory", "x", "--json", other)
+            self.refused("run", "--events", 100, "--log-events", "x", "--trajectory", other)
+        self.assertEqual(self.left_behind(), [])
+
+    def test_a_result_over_what_it_is_made_of(self):
+        recording = self.recorded()
+        with open(recording, "rb") as opened:
+            before = opened.read()
+        for name in (recording, "t.h5", "./t.h5"):
+            self.refused("measure", recording, "--json", name)
+            self.refused("export", recording, "--to", "xyz", "--out", name)
+        with open(recording, "rb") as opened:
+            self.assertEqual(opened.read(), before)
+        # And over what stands beside a camera's tracks.
+        self.refused("measure", "tracks.csv", "--json", "tracks.camera.json")
+
+    def test_a_pipe_or_a_device_is_not_replaced(self):
+        recording = self.recorded()
+        os.mkfifo(self.path("pipe"))
+        for call in (["export", recording, "--to", "xyz", "--out", "pipe"],
+                     ["run", "--events", 100, "--trajectory", "pipe"],
+                     ["run", "--events", 100, "--log-events", "pipe"]):
+            self.refused(*call, code=1, says="is a device, a pipe or a socket, and no file can take its place")
+            self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
+        laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
+        for place in (self.path("pipe"), self.folder):
+            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("is there and is no file", done.stderr)
+        self.assertEqual(self.left_behind(), ["pipe", "t.h5"])
 
 
 if __name__ == "__main__":

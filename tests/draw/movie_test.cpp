@@ -170,11 +170,18 @@ TEST_F(Movie, AnFfmpegThatIsKilledIsAClearError) {
     EXPECT_FALSE(fs::exists(path("x.mp4")));
 }
 
+// It wrote something in the name that is given last, file:NAME, or nothing.
 TEST_F(Movie, AnFfmpegThatFailsAtTheEndIsAClearError) {
-    replace_ffmpeg("cat >/dev/null; echo 'No space left on device' >&2; exit 0");
-    EXPECT_THROW(make(path("x.mp4"), {64, 48}, 30, 3), DrawFailure);
-    EXPECT_FALSE(fs::exists(path("x.mp4")));
-    EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
+    const std::string some = "cat >/dev/null; for last; do :; done; echo some >\"${last#file:}\"; ";
+    for (const std::string& how :
+         {some + "echo 'No space left on device' >&2; exit 0",
+          some + "echo 'Disk quota exceeded' >&2; exit 0",
+          some + "echo 'Input/output error' >&2; exit 0", std::string("cat >/dev/null; exit 0")}) {
+        replace_ffmpeg(how.c_str());
+        EXPECT_THROW(make(path("x.mp4"), {64, 48}, 30, 3), DrawFailure) << how;
+        EXPECT_FALSE(fs::exists(path("x.mp4")));
+        EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
+    }
 }
 
 TEST_F(Movie, AFullDiskIsAClearErrorAndLeavesNoFile) {

@@ -64,6 +64,31 @@ TEST(Trajectory, IsWrittenByteForByteTheSameTwice) {
     EXPECT_EQ(read_whole_file(known_trajectory(a)), read_whole_file(known_trajectory(b)));
 }
 
+// A run that goes on moves what a reader has looked up; he is told so, and given no frame of
+// another place.
+TEST(Trajectory, ThatGrowsWhileItIsReadIsNotReadOn) {
+    const Scratch scratch;
+    TrajectoryWriter writer(scratch / "t.h5", known_frame(discs, 0), {});
+    std::uint64_t written = 0;
+    const auto grow = [&](std::uint64_t count) {
+        for (; count > 0; --count, ++written) writer.write(known_frame(discs, written % frames), 0);
+        writer.flush();
+    };
+    grow(frames);
+    TrajectoryReader reader(scratch / "t.h5.partial");
+    expect_same(reader.frame(3), known_frame(discs, 3));
+    grow(5000);
+    std::string refusal;
+    try {
+        TrajectoryReader late = std::move(reader);
+        late.contradicted();
+    } catch (const FileError& error) {
+        refusal = error.what();
+    }
+    EXPECT_NE(refusal.find("has added to it while it was read"), std::string::npos) << refusal;
+    expect_same(TrajectoryReader(scratch / "t.h5.partial").frame(7), known_frame(discs, 7));
+}
+
 TEST(Trajectory, HasItsNameOnlyWhenComplete) {
     const Scratch scratch;
     const auto path = scratch / "t.h5";
