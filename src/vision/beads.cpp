@@ -16,7 +16,7 @@ namespace {
 constexpr double sure_support = 0.45, any_support = 0.16;
 /// Centres of hard discs are the sum of their radii apart; what is nearer than this share of it is
 /// the same disc twice.
-constexpr double least_distance = 0.8;
+constexpr double least_distance = 0.8, same_distance = 0.25;
 /// By the mean ball: the score of a ball, and how near two of them may seem.
 constexpr double like_a_ball = 0.5, free_distance = 0.86;
 
@@ -423,7 +423,6 @@ class MeanSearch {
         Vec2 by_edge;
         double score;
     };
-    static constexpr double same_distance = 0.25;
 
     double sum_of_radii(const Bead& a, const Bead& b) const {
         return look_.kinds[a.kind].radius + look_.kinds[b.kind].radius;
@@ -556,6 +555,32 @@ std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
     return best;
 }
 
+namespace {
+
+/// Patches of the texture lead votes astray, and a fit that begins there ends on the patch: where a
+/// circle has little of an edge it is tried from all around.
+Bead started_elsewhere(const Bead& bead, const Picture& picture, const BeadLook& look) {
+    constexpr double far = 0.2;  // radii
+    constexpr int starts = 8;
+    const double radius = look.steepest * look.kinds[bead.kind].radius;
+    RaySettings rays = rays_for(picture, radius);
+    Bead best = bead;
+    for (int k = 0; k < starts; ++k) {
+        const Vec2 seed = bead.centre + far * radius * unit_circle(double(k) / starts);
+        const CircleFit fit = fit_circle(picture.sharp, seed, look.lens.seen_radius(seed, radius),
+                                         look.polarity, rays);
+        if (!fit.good || fit.support <= best.support ||
+            length(fit.centre - bead.centre) > 2.0 * far * radius)
+            continue;
+        best.centre = fit.centre;
+        best.support = fit.support;
+        best.error = fit.error;
+    }
+    return best;
+}
+
+}  // namespace
+
 std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look) {
     const std::vector<EdgePixel> edges = edges_inside(picture, rim);
     std::vector<Bead> all;
@@ -580,15 +605,20 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
     std::stable_sort(all.begin(), all.end(),
                      [](const Bead& a, const Bead& b) { return a.support > b.support; });
     std::vector<Bead> kept;
+    const auto meets = [&](const Bead& bead, bool sure_ones, double distance) {
+        return std::any_of(kept.begin(), kept.end(), [&](const Bead& k) {
+            return (k.sure || !sure_ones) &&
+                   length(k.centre - bead.centre) <
+                       distance * (look.kinds[k.kind].radius + look.kinds[bead.kind].radius);
+        });
+    };
     for (Bead bead : all) {
-        bool same = false, overlaps = false;
-        for (const Bead& k : kept) {
-            const double distance = length(k.centre - bead.centre);
-            const double sum = look.kinds[k.kind].radius + look.kinds[bead.kind].radius;
-            same = same || distance < 0.25 * sum;
-            overlaps = overlaps || (k.sure && distance < least_distance * sum);
+        if (meets(bead, false, same_distance)) continue;
+        bool overlaps = meets(bead, true, least_distance);
+        if (!overlaps && bead.support < look.sure) {
+            bead = started_elsewhere(bead, picture, look);
+            overlaps = meets(bead, true, least_distance);
         }
-        if (same) continue;
         bead.sure = !overlaps && bead.support >= look.sure;
         kept.push_back(bead);
     }
