@@ -63,7 +63,8 @@ def found_rows(found):
             (f"period, {unit}", value(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
             ("sense", "clockwise in the picture" if path["clockwise"] else "counter-clockwise"),
             ("path", path["shape"]),
-            ("lens, distortion", value(lens["distortion"], lens["distortion_error"]))]
+            ("lens, distortion", value(lens["distortion"], lens["distortion_error"])),
+            ("camera", lens["camera"])]
     if found["millimetres_per_pixel"]:
         rows.append(("scale", f"{found['millimetres_per_pixel']:.5f} mm a pixel"))
     return rows

@@ -21,13 +21,16 @@
 namespace swirl {
 namespace {
 
+/// A telephone's, whose picture is cropped to the dish a little; who tilts a camera is near.
+constexpr double tilted_view_angle = 30.0;
+
 struct FilmTestCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::string out, preset = "laboratory";
     double periods = 3.0, from = 20.0;
     std::optional<std::int64_t> frames, frames_per_period;
     std::optional<double> scale, noise, blur, exposure, distortion, glare, texture, gloss, disc,
-        floor, rim, table, flicker;
+        floor, rim, table, flicker, tilt, towards, view_angle, rim_height;
     std::optional<int> width, height;
     int fps = 60, quality = 18;
     bool rolls = false, mirrored = false, still = false, overwrite = false, quiet = false;
@@ -51,6 +54,11 @@ CameraSettings settings_of(const FilmTestCall& call, const RunConfig& config) {
     take("blur", call.blur, camera.blur, 0.0, 20.0);
     take("exposure", call.exposure, camera.exposure, 0.0, 1.0);
     take("distortion", call.distortion, camera.distortion, -0.2, 0.5);
+    take("tilt", call.tilt, camera.tilt, 0.0, 30.0);
+    take("tilt-towards", call.towards, camera.towards, -360.0, 360.0);
+    take("view-angle", call.view_angle, camera.view_angle, 0.0, 120.0);
+    take("rim-height", call.rim_height, camera.rim_height, -5.0, 20.0);
+    if (!call.view_angle && camera.tilt > 0.0) camera.view_angle = tilted_view_angle;
     take("glare", call.glare, camera.glare, 0.0, 255.0);
     take("texture", call.texture, camera.texture, 0.0, 1.0);
     take("gloss", call.gloss, camera.gloss, 0.0, 255.0);
@@ -155,6 +163,9 @@ void film(const FilmTestCall& call) {
                                 {"phase", phase},
                                 {"clockwise", camera.mirrored},
                                 {"distortion", camera.distortion},
+                                {"tilt", camera.tilt},
+                                {"tilt_towards", camera.towards},
+                                {"view_angle", camera.view_angle},
                                 {"camera", call.preset},
                                 {"run", config_json(config)},
                                 {"version", version()}};
@@ -197,6 +208,14 @@ void add_film_test_command(Subcommand& subcommand) {
     add("--blur", call->blur, "PIXELS", "of the lens, standard deviation", lens);
     add("--exposure", call->exposure, "SHARE", "of the time between two pictures", lens);
     add("--distortion", call->distortion, "NUMBER", "of the lens; above 0: a barrel", lens);
+    add("--tilt", call->tilt, "DEGREES", "of the camera, about the middle of the picture [0]",
+        lens);
+    add("--tilt-towards", call->towards, "DEGREES",
+        "the side where a tilted camera stands, counter-clockwise from the right [0]", lens);
+    add("--view-angle", call->view_angle, "DEGREES",
+        "over the picture's height; 0: from very far away [0, with a tilt 30]", lens);
+    add("--rim-height", call->rim_height, "NUMBER",
+        "of the rim's edge above the discs' centres, in disc radii [0]", lens);
     add("--glare", call->glare, "LEVELS", "a lamp's reflection in front of the dish", lens);
     add("--gloss", call->gloss, "LEVELS", "the lamp's reflection in every disc", lens);
     add("--texture", call->texture, "SHARE", "by which discs vary in brightness", lens);

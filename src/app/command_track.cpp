@@ -14,6 +14,7 @@
 #include "swirl/app/tracked_film.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #ifdef SWIRL_CAMERA
 #include "swirl/draw/label.hpp"
@@ -31,6 +32,8 @@ struct TrackCall {
     std::string out, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
+    std::string tilt;
+    std::optional<double> view_angle;
     bool spin = false, quiet = false, overwrite = false;
 };
 
@@ -39,6 +42,32 @@ struct TrackCall {
 void track(const TrackCall&) { throw_no_eyes(); }
 
 #else
+
+/// What is said of the camera. Throws WrongCall.
+KnownCamera camera_of(const TrackCall& call) {
+    constexpr double radians = pi / 180.0;
+    KnownCamera camera;
+    if (call.view_angle) {
+        if (!(*call.view_angle >= 0.0 && *call.view_angle <= 150.0))
+            throw WrongCall(fmt::format("--view-angle is {}, but it must be from 0 to 150 degrees.",
+                                        *call.view_angle));
+        camera.view_angle = radians * *call.view_angle;
+    }
+    if (call.tilt.empty()) return camera;
+    const std::size_t comma = call.tilt.find(',');
+    const auto angle = read_number(call.tilt.substr(0, comma));
+    const auto towards =
+        comma == call.tilt.npos ? std::optional(0.0) : read_number(call.tilt.substr(comma + 1));
+    if (!angle || !towards || !(*angle >= 0.0 && *angle <= 45.0) ||
+        (comma == call.tilt.npos && *angle > 0.0))
+        throw WrongCall(fmt::format(
+            "--tilt is '{}', but it must be 0, or two angles in degrees: up to 45, and the side "
+            "where the camera stands, as in 5,270.",
+            call.tilt));
+    camera.tilt = radians * *angle;
+    camera.towards = radians * *towards;
+    return camera;
+}
 
 std::string text_of(const TrackedFilm& film, const TrackCall& call) {
     const std::string unit = film.fps > 0.0 ? "s" : "picture";
@@ -59,6 +88,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
         "  phase       {} degrees at the first picture\n"
         "  lens        distortion {}{}\n"
+        "  camera      {}\n"
         "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
         "  error       {:.3f} pixels of a place, from {}\n",
         call.source.film, film.number, film.pictures, film.width, film.height, sizes,
@@ -72,7 +102,7 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         with_error(film.path.omega, film.path.omega_error), unit,
         with_error(phase_of(film), film.path.phase_error * 180.0 / pi),
         with_error(film.lens.k, film.lens.k_error), film.lens.k != 0.0 ? ", corrected" : "",
-        100.0 * film.complete, film.filled, film.position_error,
+        tilt_text(film), 100.0 * film.complete, film.filled, film.position_error,
         film.position_error > film.overlap_error ? "the edges" : "overlaps that cannot be");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
@@ -122,6 +152,7 @@ void track(const TrackCall& call) {
                                       std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
             throw WrongCall(fmt::format("--{} is {}, but it must be above 0.", name, *given));
+    const KnownCamera camera = camera_of(call);
     refuse_unwritable(call.out);
     if (!call.overlay.empty()) {
         if (!movie_format(call.overlay))
@@ -139,6 +170,7 @@ void track(const TrackCall& call) {
     ProgressLine line(call.source.film, call.quiet);
     TrackingSettings settings = tracking_settings(call.source.film, call.fps, call.frames, line);
     settings.discs = call.discs;
+    settings.camera = camera;
     TrackedFilm film = track_film(settings);
     std::optional<FilmSpins> spins;
     if (call.spin) spins = spins_of(film, settings);
@@ -189,6 +221,12 @@ void add_track_command(Subcommand& subcommand) {
     add("--dish-diameter", call->source.dish_diameter, "MM", "of the dish inside, in millimetres");
     add("--disc-diameter", call->source.disc_diameter, "MM", "of a disc, in millimetres");
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
+    add("--tilt", call->tilt, "DEGREES,TOWARDS",
+        "of the camera, and the side where it stands, counter-clockwise from the right; 0: looks "
+        "straight down [found from the rim]");
+    add("--view-angle", call->view_angle, "DEGREES",
+        "that the camera sees over the height of a picture; balls far from the middle look longer "
+        "by it [found if the camera is tilted]");
     add("--frames", call->frames, "NUMBER", "only the first so many pictures");
     add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
     add("--report", call->report, "DIR",

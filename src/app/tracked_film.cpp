@@ -18,6 +18,7 @@
 #include "swirl/film/picture.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/paper/python_script.hpp"
+#include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/vision/spin.hpp"
 #include "swirl/vision/tracking.hpp"
@@ -46,8 +47,29 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double degrees(double radians) { return radians * 180.0 / pi; }
+double whole_turn(double angle) { return angle - 360.0 * std::floor(angle / 360.0); }
 
 Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
+
+Json lens_json(const TrackedFilm& film) {
+    const Tilt& tilt = film.tilt;
+    Json json{{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}};
+    const bool seen = tilt.angle > 0.0 && tilt.angle_error > 0.0;
+    json["tilt"] = degrees(tilt.angle);
+    json["tilt_error"] = seen ? Json(degrees(tilt.angle_error)) : Json(nullptr);
+    json["tilt_below"] = degrees(tilt.below);
+    json["tilt_towards"] =
+        film.lens.tilted() ? Json(whole_turn(degrees(tilt.towards))) : Json(nullptr);
+    json["tilt_towards_error"] =
+        film.lens.tilted() ? Json(degrees(tilt.towards_error)) : Json(nullptr);
+    json["rim_shift"] = vector_json(film.rim_shift);
+    json["view_angle"] = tilt.view_angle > 0.0 ? Json(degrees(tilt.view_angle)) : Json(nullptr);
+    json["squeeze"] = vector_json(film.lens.squeeze);
+    json["squeeze_error"] = tilt.squeeze_error;
+    json["perspective"] = vector_json(film.lens.perspective);
+    json["perspective_error"] = tilt.perspective_error;
+    return json;
+}
 
 Json json_of(const TrackedFilm& film, const FilmSource& source) {
     Json kinds = Json::array();
@@ -83,7 +105,7 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"sides", film.polygon.sides > 0 ? Json(film.polygon.sides) : Json(nullptr)},
               {"sides_up_to_which_would_be_seen", film.polygon.most_sides},
               {"corners", film.polygon.sides > 0 ? Json(film.polygon.corners) : Json(nullptr)}}},
-            {"lens", {{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}}},
+            {"lens", lens_json(film)},
             {"quality",
              {{"touching_discs_are_apart", film.touching},
               {"pictures_with_all_discs", film.complete},
@@ -255,6 +277,7 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
     Json about = found;
     about["command"] = command_line();
     about["path"]["shape"] = shape_text(film);
+    about["lens"]["camera"] = tilt_text(film);
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(film, source.film, std::filesystem::path(source.film).filename().string(),
                folder / "film.png");
@@ -271,9 +294,30 @@ std::string shape_text(const TrackedFilm& film) {
     return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
 }
 
+std::string tilt_text(const TrackedFilm& film) {
+    const Tilt& tilt = film.tilt;
+    if (!film.lens.tilted())
+        return tilt.squeeze_error > 0.0
+                   ? fmt::format("no tilt, which would be below {:.1f} degrees",
+                                 degrees(tilt.below))
+                   : "no tilt";
+    if (tilt.angle > 0.0 && tilt.angle_error == 0.0)
+        return fmt::format("tilt {:g} degrees, from the side of {:g} degrees, as given; corrected",
+                           degrees(tilt.angle), whole_turn(degrees(tilt.towards)));
+    std::string text =
+        tilt.angle > 0.0
+            ? "tilt " + with_error(degrees(tilt.angle), degrees(tilt.angle_error)) + " degrees"
+            : fmt::format("tilt below {:.1f} degrees", degrees(tilt.below));
+    text += ", from the side of " +
+            with_error(whole_turn(degrees(tilt.towards)), degrees(tilt.towards_error)) + " degrees";
+    if (tilt.view_angle > 0.0)
+        text +=
+            "; view angle " + with_error(degrees(tilt.view_angle), degrees(tilt.view_angle_error));
+    return text + "; corrected";
+}
+
 double phase_of(const TrackedFilm& film) {
-    const double phase = degrees(film.path.angle(film.times.front()));
-    return phase - 360.0 * std::floor(phase / 360.0);
+    return whole_turn(degrees(film.path.angle(film.times.front())));
 }
 
 Json write_tracks(const TrackedFilm& film, const FilmSource& source,

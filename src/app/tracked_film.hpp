@@ -45,6 +45,9 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
 /// Circle or polygon, as far as can be told.
 std::string shape_text(const TrackedFilm& film);
 
+/// How the camera leans, as far as can be told.
+std::string tilt_text(const TrackedFilm& film);
+
 /// The dish at the first picture, as one reads it off: from 0 to 360 degrees.
 double phase_of(const TrackedFilm& film);
 

@@ -99,6 +99,9 @@ CameraView::CameraView(const CameraSettings& settings)
       middle_{0.5 * (settings.size.width - 1), 0.5 * (settings.size.height - 1)},
       random_(settings.seed) {
     centre_ = settings.centre.value_or(middle_);
+    const Vec2 side = unit_circle(settings.towards / 360.0);
+    side_ = {side.x, -side.y};
+    nearness_ = std::tan(settings.view_angle * pi / 360.0) / (0.5 * settings.size.height);
     const std::size_t pixels = static_cast<std::size_t>(settings.size.width) *
                                static_cast<std::size_t>(settings.size.height);
     grain_.resize(pixels);
@@ -110,19 +113,33 @@ CameraView::CameraView(const CameraSettings& settings)
     std::size_t at = 0;
     for (int row = 0; row < settings.size.height; ++row)
         for (int column = 0; column < settings.size.width; ++column)
-            places_[at++] = undistorted(column, row);
+            places_[at++] = middle_ + in_plane(undistorted({double(column), double(row)}));
     picture_.resize(pixels);
 }
 
-Vec2 CameraView::undistorted(double column, double row) const {
-    const Vec2 q = Vec2{column, row} - middle_;
+Vec2 CameraView::undistorted(const Vec2& seen) const {
+    const Vec2 q = seen - middle_;
     const double half = 0.5 * settings_.size.height;
-    return middle_ + (1.0 + settings_.distortion * dot(q, q) / (half * half)) * q;
+    return (1.0 + settings_.distortion * dot(q, q) / (half * half)) * q;
+}
+
+Vec2 CameraView::in_plane(const Vec2& undistorted) const {
+    if (settings_.tilt == 0.0) return undistorted;
+    const double angle = settings_.tilt * pi / 180.0;
+    const Vec2 across = perpendicular(side_);
+    const double a = dot(undistorted, side_), b = dot(undistorted, across);
+    const double u = a / (std::cos(angle) + a * std::sin(angle) * nearness_);
+    return u * side_ + (b * (1.0 - u * std::sin(angle) * nearness_)) * across;
+}
+
+Vec2 CameraView::lean(const Vec2& ideal) const {
+    const double angle = settings_.tilt * pi / 180.0;
+    return std::tan(angle) * side_ - (nearness_ / std::cos(angle)) * (ideal - middle_);
 }
 
 Vec2 CameraView::seen(const Vec2& ideal) const {
     Vec2 p = ideal;
-    for (int k = 0; k < 30; ++k) p = p + (ideal - undistorted(p.x, p.y));
+    for (int k = 0; k < 60; ++k) p = p + (ideal - middle_ - in_plane(undistorted(p)));
     return p;
 }
 
@@ -166,8 +183,9 @@ void CameraView::turn_discs(const Snapshot& s) {
 void CameraView::draw_background(const Vec2& container, double radius,
                                  std::vector<float>& light) const {
     const double inner = radius * settings_.scale, outer = inner + rim_width * settings_.scale;
+    const double height = settings_.rim_height * settings_.scale;
     for (std::size_t k = 0; k < light.size(); ++k) {
-        const Vec2 d = places_[k] - container;
+        const Vec2 d = places_[k] + height * lean(places_[k]) - container;
         const double distance = std::sqrt(dot(d, d));
         double level = settings_.floor;
         if (distance > inner - 1.0) {
@@ -185,14 +203,19 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
                            std::size_t i, std::vector<float>& light) const {
     const double a = radius * settings_.scale;
     const Vec2 around = seen(centre);
-    const int reach = static_cast<int>(std::ceil(a * 1.15)) + 2;
+    const int reach = static_cast<int>(std::ceil(a * 1.4)) + 2;
     const int left = std::max(0, static_cast<int>(around.x) - reach);
     const int right = std::min(settings_.size.width - 1, static_cast<int>(around.x) + reach);
     const int top = std::max(0, static_cast<int>(around.y) - reach);
     const int bottom = std::min(settings_.size.height - 1, static_cast<int>(around.y) + reach);
     // The lamp stands to the upper left; in the picture's axes y is down, here it is up.
     constexpr double lx = -0.35, ly = 0.35, lz = 0.869;
-    const double half = std::sqrt(lx * lx + ly * ly + (lz + 1.0) * (lz + 1.0));
+    const Vec2 leaning = lean(centre);
+    const double upright = 1.0 / std::sqrt(1.0 + dot(leaning, leaning));
+    const double ex = upright * leaning.x, ey = -upright * leaning.y,
+                 ez = upright;  // to the camera
+    const double half =
+        std::sqrt((lx + ex) * (lx + ex) + (ly + ey) * (ly + ey) + (lz + ez) * (lz + ez));
     const double side = settings_.mirrored ? -1.0 : 1.0;
     for (int row = top; row <= bottom; ++row)
         for (int column = left; column <= right; ++column) {
@@ -200,11 +223,13 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(settings_.size.width) +
                 static_cast<std::size_t>(column);
             const Vec2 d = places_[k] - centre;
-            const double distance = std::sqrt(dot(d, d));
+            // The line of sight passes the centre at that distance.
+            const double along = d.x * ex - d.y * ey;
+            const double distance = std::sqrt(std::max(0.0, dot(d, d) - along * along));
             const double cover = std::clamp(a - distance + 0.5, 0.0, 1.0);
             if (cover <= 0.0) continue;
-            const double nx = d.x / a, ny = -d.y / a;
-            const double nz = std::sqrt(std::max(0.0, 1.0 - nx * nx - ny * ny));
+            const double up = std::sqrt(std::max(0.0, a * a - distance * distance)) - along;
+            const double nx = (d.x + up * ex) / a, ny = (up * ey - d.y) / a, nz = up * ez / a;
             // Back to the disc's own axes: the transpose of its orientation.
             const double mx = side * nx;
             const double ox = orientation[0] * mx + orientation[3] * ny + orientation[6] * nz;
@@ -220,12 +245,26 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
             const double albedo = settings_.disc * (1.0 + settings_.texture * 0.6 * pattern);
             const double lit =
                 settings_.ambient + settings_.diffuse * std::max(0.0, nx * lx + ny * ly + nz * lz);
-            const double mirror = std::max(0.0, (nx * lx + ny * ly + nz * (lz + 1.0)) / half);
+            const double mirror =
+                std::max(0.0, (nx * (lx + ex) + ny * (ly + ey) + nz * (lz + ez)) / half);
             double level = albedo * lit;
             if (mirror > 0.7)
                 level += settings_.gloss * std::pow(mirror, 4.0 * settings_.shininess);
             light[k] = static_cast<float>((1.0 - cover) * light[k] + cover * level);
         }
+}
+
+/// Seen at an angle, discs hide those behind them.
+void CameraView::sort_by_distance(const Snapshot& s) {
+    order_.resize(s.size());
+    for (std::size_t i = 0; i < s.size(); ++i) order_[i] = i;
+    if (settings_.tilt == 0.0 && settings_.view_angle == 0.0) return;
+    const auto distance = [&](std::size_t i) {
+        const Vec2 leaning = lean(ideal(s.position(i)));
+        return dot(leaning, leaning);
+    };
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a) > distance(b); });
 }
 
 /// With a Gaussian, first along rows, then along columns.
@@ -262,6 +301,7 @@ void CameraView::blur(std::vector<float>& light) const {
 
 const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
     turn_discs(s);
+    sort_by_distance(s);
     // While the shutter is open discs move in straight lines; one exposure for each pixel of that.
     const double open =
         settings_.exposure * s.period / static_cast<double>(settings_.frames_per_period);
@@ -276,7 +316,7 @@ const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
         const double after = open * ((e + 0.5) / exposures - 0.5);
         draw_background(ideal(s.container_centre + after * s.container_velocity),
                         s.container_radius, light_);
-        for (std::size_t i = 0; i < s.size(); ++i)
+        for (const std::size_t i : order_)
             draw_disc(ideal(s.position(i) + after * s.velocity(i)), s.radius[i], orientations_[i],
                       i, light_);
         for (std::size_t k = 0; k < light_.size(); ++k)

@@ -2,17 +2,26 @@
 // tracker's life hard, and the truth beside them. For tests of `swirl track`, and for whoever wants
 // to know the error of a set-up before building it.
 //
-// The camera looks straight down; x goes right and y down, and the middle of the pixel in column i
-// and row j lies at (i, j). Discs are drawn as spheres of their radius:
+// x goes right and y down, and the middle of the pixel in column i and row j lies at (i, j). Discs
+// are drawn as spheres of their radius:
 //
 //     brightness = albedo(turned point of the surface) · (ambient + diffuse n·l) + gloss (n·h)^p
 //
-// with l the lamp's direction and h half way between lamp and camera. The texture is a sum of
-// plane waves on the unit sphere, so it has no seam, turns with the disc, and rolls if it is asked
-// to: a sphere that rolls on the floor at velocity v relative to it turns with ω = ẑ × v / a.
+// with l the lamp's direction and h half way between lamp and line of sight. The texture is a sum
+// of plane waves on the unit sphere, so it has no seam, turns with the disc, and rolls if it is
+// asked to: a sphere that rolls on the floor at velocity v relative to it turns with ω = ẑ × v / a.
 //
 // Lens: with q the place of a pixel relative to the middle of the picture in half heights, what is
 // seen there lies at q (1 + k |q|²) in an ideal picture: k > 0 is a barrel.
+//
+// Camera: straight above and very far away, unless a tilt θ or a view angle is given. Its axis goes
+// through the middle of the picture; in pixels, with u the way in the plane of the discs' centres
+// towards the side where it stands, v across and F the distance (½ height / tan ½ view angle),
+//
+//     q = (u cos θ, v) / (1 − u sin θ / F)
+//
+// Spheres are what their lines of sight meet, so they look longer away from the axis and hide each
+// other; the rim is a circle `rim_height` above the discs' centres.
 #pragma once
 
 #include <array>
@@ -45,6 +54,10 @@ struct CameraSettings {
     double blur = 0.7;        // standard deviation of the lens's spot, in pixels
     double exposure = 0.1;    // share of the time between two pictures
     double distortion = 0.0;  // k
+    double tilt = 0.0;        // of the camera's axis, degrees
+    double towards = 0.0;     // the side where it stands, degrees in the picture
+    double view_angle = 0.0;  // of the picture's height, degrees; 0: from very far away
+    double rim_height = 0.0;  // disc radii
     double clutter = 4.0;     // grain of table and floor
     bool rolls = false;
     bool mirrored = false;  // as seen in a mirror, or from below
@@ -75,7 +88,12 @@ class CameraView {
         double phase;
     };
 
-    Vec2 undistorted(double column, double row) const;
+    /// Where a picture without distortion has it, relative to the middle, and what lies there.
+    Vec2 undistorted(const Vec2& seen) const;
+    Vec2 in_plane(const Vec2& undistorted) const;
+    /// Of the line of sight through there: how far it leans for a unit of height.
+    Vec2 lean(const Vec2& ideal) const;
+    void sort_by_distance(const Snapshot& s);
     void turn_discs(const Snapshot& s);
     void draw_background(const Vec2& container, double radius, std::vector<float>& light) const;
     void draw_disc(const Vec2& centre, double radius, const Rotation& orientation, std::size_t i,
@@ -84,6 +102,9 @@ class CameraView {
 
     CameraSettings settings_;
     Vec2 centre_, middle_;
+    Vec2 side_;                       // where the camera stands, a unit vector
+    double nearness_;                 // 1/F
+    std::vector<std::size_t> order_;  // of drawing: whom others may hide first
     Random random_;
     std::vector<float> grain_;
     std::vector<Vec2> places_;  // of every pixel, in ideal pixels

@@ -9,6 +9,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/vision/outline.hpp"
 
 namespace swirl {
 
@@ -204,21 +205,36 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
     return rim;
 }
 
+namespace {
+
+CircleFit fit_rim(const Picture& picture, const Rim& rim, const Vec2& centre, double radius) {
+    const double window = std::max(3.0, 1.5 / picture.shrink), least = 3.0 * picture.noise;
+    if (rim.lens) {
+        const Lens::Circle circle{rim.lens->ideal(Lens::Circle{centre, radius}).centre, rim.radius};
+        return fit_outline(picture.sharp, *rim.lens, circle, {rim.polarity, window, least});
+    }
+    RaySettings rays;
+    rays.rays = 360;
+    rays.window = window;
+    rays.least = least;
+    rays.tolerance = 1.5;
+    return fit_circle(picture.sharp, centre, radius, rim.polarity, rays);
+}
+
+}  // namespace
+
 CircleFit find_rim(const Picture& picture, const Rim& rim) {
-    const auto candidates = vote(picture.edges, picture.small.size(), rim.radius * picture.shrink,
-                                 rim.polarity, 0.08, 6);
-    CircleFit best{rim.swirl_centre, rim.radius};
+    double radius = rim.radius;
+    if (rim.lens) radius = rim.lens->image({rim.lens->ideal(rim.swirl_centre), rim.radius}).radius;
+    const auto candidates =
+        vote(picture.edges, picture.small.size(), radius * picture.shrink, rim.polarity, 0.08, 6);
+    CircleFit best{rim.swirl_centre, radius};
     for (const CircleCandidate& c : candidates) {
         const Vec2 centre = picture.to_sharp(c.centre);
         const double off = length(centre - rim.swirl_centre) - rim.amplitude;
         if (rim.amplitude > 0.0 && std::abs(off) > 6.0 / picture.shrink + 0.35 * rim.amplitude)
             continue;
-        RaySettings rays;
-        rays.rays = 360;
-        rays.window = std::max(3.0, 1.5 / picture.shrink);
-        rays.least = 3.0 * picture.noise;
-        rays.tolerance = 1.5;
-        const CircleFit fit = fit_circle(picture.sharp, centre, rim.radius, rim.polarity, rays);
+        const CircleFit fit = fit_rim(picture, rim, centre, radius);
         if (fit.good && fit.support > best.support) best = fit;
     }
     if (best.support < 0.5 * least_rim) best.good = false;

@@ -17,6 +17,7 @@
 
 #include "swirl/vision/circles.hpp"
 #include "swirl/vision/dish_path.hpp"
+#include "swirl/vision/lens.hpp"
 
 namespace swirl {
 
@@ -35,12 +36,13 @@ struct Picture {
 
 /// What the rim looks like, and about where it goes.
 struct Rim {
-    double radius = 0.0;
+    double radius = 0.0;  // with a lens: without it
     Polarity polarity = 1;
     double support = 0.0;
     Vec2 swirl_centre{0.0, 0.0};
     double amplitude = 0.0;
     bool second_dish = false;  // another circle of that size moves as well
+    std::optional<Lens> lens;  // where what it does to the rim is worth knowing
 };
 
 /// From pictures spread over the film; throws Failure with the likely cause.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "swirl/math/unit_circle.hpp"
 
@@ -11,15 +12,58 @@ namespace {
 
 constexpr int points = 24;
 
-/// The circle that edge points of the image of a circle are fitted by.
-Lens::Circle image_of(const Lens& lens, const Lens::Circle& ideal) {
+/// S = 1 less e along its direction.
+struct Squeeze {
+    double xx, xy, yy;
+    explicit Squeeze(const Vec2& w) {
+        const double half = 0.5 * std::sqrt(dot(w, w));
+        xx = 1.0 - half - 0.5 * w.x, yy = 1.0 - half + 0.5 * w.x, xy = -0.5 * w.y;
+    }
+    Vec2 of(const Vec2& p) const { return {xx * p.x + xy * p.y, xy * p.x + yy * p.y}; }
+    Vec2 undone(const Vec2& q) const {
+        const double area = xx * yy - xy * xy;
+        return {(yy * q.x - xy * q.y) / area, (xx * q.y - xy * q.x) / area};
+    }
+};
+
+}  // namespace
+
+Vec2 Lens::ideal(const Vec2& seen) const {
+    const Vec2 q = seen - middle;
+    const Vec2 straight = (1.0 + k * dot(q, q) / (half * half)) * q;
+    if (!tilted()) return middle + straight;
+    const Vec2 p = Squeeze(squeeze).undone(straight);
+    return middle + (1.0 / (1.0 - dot(perspective, p))) * p;
+}
+
+Vec2 Lens::seen(const Vec2& ideal) const {
+    if (k == 0.0 && !tilted()) return ideal;
+    Vec2 p = ideal - middle;
+    if (tilted()) p = (1.0 / (1.0 + dot(perspective, p))) * Squeeze(squeeze).of(p);
+    Vec2 q = p;
+    // Newton on |q| (1 + k |q|²/h²) = |p|, along the same direction.
+    const double length = std::sqrt(dot(p, p));
+    if (!(length > 0.0)) return middle;
+    double r = length;
+    for (int n = 0; n < 8; ++n) {
+        const double s = k * r * r / (half * half), slope = 1.0 + 3.0 * s;
+        if (!(slope > 0.2)) break;
+        const double step = (r * (1.0 + s) - length) / slope;
+        r -= step;
+        if (std::abs(step) < 1e-9 * length) break;
+    }
+    q = (r / length) * p;
+    return middle + q;
+}
+
+Lens::Circle Lens::image(const Circle& ideal) const {
     Vec2 at[points], mean{0.0, 0.0};
     for (int k = 0; k < points; ++k) {
-        at[k] = lens.seen(ideal.centre + ideal.radius * unit_circle(double(k) / points));
+        at[k] = seen(ideal.centre + ideal.radius * unit_circle(double(k) / points));
         mean = mean + (1.0 / points) * at[k];
     }
     // Distances from a guess: r(θ) = a + d·u to first order, as the fit has it.
-    Lens::Circle image{mean, 0.0};
+    Circle image{mean, 0.0};
     for (int pass = 0; pass < 3; ++pass) {
         double a = 0.0;
         for (const Vec2& p : at) a += std::sqrt(dot(p - image.centre, p - image.centre)) / points;
@@ -35,86 +79,78 @@ Lens::Circle image_of(const Lens& lens, const Lens::Circle& ideal) {
     return image;
 }
 
-}  // namespace
-
-Vec2 Lens::ideal(const Vec2& seen) const {
-    const Vec2 q = seen - middle;
-    return middle + (1.0 + k * dot(q, q) / (half * half)) * q;
-}
-
-Vec2 Lens::seen(const Vec2& ideal) const {
-    if (k == 0.0) return ideal;
-    const Vec2 p = ideal - middle;
-    Vec2 q = p;
-    // Newton on |q| (1 + k |q|²/h²) = |p|, along the same direction.
-    const double length = std::sqrt(dot(p, p));
-    if (!(length > 0.0)) return ideal;
-    double r = length;
-    for (int n = 0; n < 8; ++n) {
-        const double s = k * r * r / (half * half), slope = 1.0 + 3.0 * s;
-        if (!(slope > 0.2)) break;
-        const double step = (r * (1.0 + s) - length) / slope;
-        r -= step;
-        if (std::abs(step) < 1e-9 * length) break;
-    }
-    q = (r / length) * p;
-    return middle + q;
-}
-
 double Lens::seen_radius(const Vec2& seen, double radius) const {
     const Vec2 q = seen - middle;
     const double s = k * dot(q, q) / (half * half);
-    return 0.5 * radius * (1.0 / (1.0 + s) + 1.0 / (1.0 + 3.0 * s));
+    // Nearer balls are larger, and so are those away from the axis.
+    const double size = tilted() ? 1.0 / (1.0 + dot(perspective, ideal(seen) - middle)) : 1.0;
+    const double longer = 1.0 + 0.25 * nearness * nearness * dot(q, q);
+    return 0.5 * size * longer * radius * (1.0 / (1.0 + s) + 1.0 / (1.0 + 3.0 * s));
 }
 
 Lens::Circle Lens::ideal(const Circle& seen_circle) const {
-    if (k == 0.0) return seen_circle;
+    if (k == 0.0 && !tilted()) return seen_circle;
     Circle c{ideal(seen_circle.centre), seen_circle.radius};
     for (int n = 0; n < 6; ++n) {
-        const Circle image = image_of(*this, c);
-        c.centre = c.centre + (seen_circle.centre - image.centre);
-        c.radius += seen_circle.radius - image.radius;
+        const Circle seen_now = image(c);
+        c.centre = c.centre + (seen_circle.centre - seen_now.centre);
+        c.radius += seen_circle.radius - seen_now.radius;
     }
     return c;
+}
+
+void Lens::settle_distortion() {
+    const double hidden = nearness * half * nearness * half / 8.0, whole = apparent_k + hidden;
+    const bool seen = std::abs(whole) > 4.0 * k_error && std::abs(whole) > 0.002;
+    k = seen && std::abs(whole) < 0.3 ? whole : 0.0;
 }
 
 Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half) {
     Lens lens{middle, half};
     if (sizes.size() < 60) return lens;
-    // size = α + β q², reweighted; k = −β/2α.
+    // size = α + β q² + γ·q, reweighted; k = −β/2α, and γ is that of a tilt.
     std::vector<double> weights(sizes.size(), 1.0), rests(sizes.size());
-    double alpha = 1.0, beta = 0.0, error = 0.0;
+    cv::Vec4d fit;
+    double error = 0.0, slope_error = 0.0;
+    const auto row_of = [&](const SeenSize& seen) {
+        const Vec2 q = (1.0 / half) * (seen.centre - middle);
+        return cv::Vec4d(1.0, dot(q, q), q.x, q.y);
+    };
     for (int pass = 0; pass < 12; ++pass) {
-        double s = 0, sx = 0, sxx = 0, sy = 0, sxy = 0;
+        cv::Matx44d normal = cv::Matx44d::zeros();
+        cv::Vec4d right(0.0, 0.0, 0.0, 0.0);
+        double sum = 0.0;
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            const Vec2 q = sizes[i].centre - middle;
-            const double x = dot(q, q) / (half * half), w = weights[i];
-            s += w, sx += w * x, sxx += w * x * x, sy += w * sizes[i].size;
-            sxy += w * x * sizes[i].size;
+            const cv::Vec4d row = row_of(sizes[i]);
+            normal += weights[i] * (row * row.t());
+            right += weights[i] * sizes[i].size * row;
+            sum += weights[i];
         }
-        const double det = s * sxx - sx * sx;
-        if (!(det > 1e-9 * s * sxx)) return lens;
-        alpha = (sxx * sy - sx * sxy) / det;
-        beta = (s * sxy - sx * sy) / det;
+        bool solved = false;
+        const cv::Matx44d inverse = normal.inv(cv::DECOMP_CHOLESKY, &solved);
+        if (!solved) return lens;
+        fit = inverse * right;
         std::vector<double> off;
         double square = 0.0;
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            const Vec2 q = sizes[i].centre - middle;
-            rests[i] = sizes[i].size - alpha - beta * dot(q, q) / (half * half);
+            rests[i] = sizes[i].size - row_of(sizes[i]).dot(fit);
             off.push_back(std::abs(rests[i]));
             square += weights[i] * rests[i] * rests[i];
         }
         std::nth_element(off.begin(), off.begin() + std::ptrdiff_t(off.size() / 2), off.end());
         const double scale = std::max(4.7 * 1.48 * off[off.size() / 2], 1e-6);
-        error = std::sqrt(square / s * s / det);
+        error = std::sqrt(square / sum * std::max(0.0, inverse(1, 1)));
+        slope_error = std::sqrt(square / sum * std::max({0.0, inverse(2, 2), inverse(3, 3)}));
         for (std::size_t i = 0; i < sizes.size(); ++i) {
             const double u = rests[i] / scale;
             weights[i] = std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
         }
     }
-    lens.k_error = 0.5 * error / alpha;
-    const double k = -0.5 * beta / alpha;
-    if (std::abs(k) > 4.0 * lens.k_error && std::abs(k) > 0.002 && std::abs(k) < 0.3) lens.k = k;
+    lens.k_error = 0.5 * error / fit[0];
+    lens.apparent_perspective = (-1.0 / fit[0] / half) * Vec2{fit[2], fit[3]};
+    lens.apparent_error = slope_error / fit[0] / half;
+    lens.apparent_k = -0.5 * fit[1] / fit[0];
+    lens.settle_distortion();
     return lens;
 }
 

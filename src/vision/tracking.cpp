@@ -46,6 +46,7 @@ struct Seen {
 struct Survey {
     Rim rim;
     BeadLook look;
+    Tilt tilt;
     cv::Size size;
 };
 
@@ -91,6 +92,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
     found.look = survey_beads(fewer, rims, threads);
+    found.tilt = find_tilt(small, settings.camera, found.rim, found.look.lens);
     // What discs look like on the mean, for films with poor edges.
     const double shrink = std::min(1.0, votes_radius / found.look.radius());
     std::vector<std::optional<MeanBall::Example>> seen(kept.size());
@@ -407,6 +409,63 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
     for (std::size_t k = 0; k < film.kinds.size(); ++k) film.kinds[k].number = kinds[k];
 }
 
+/// Seen at an angle the rim is shifted against the discs, which lie lower than its edge, and being
+/// nearer it is larger, with its way: the wall is where discs are stopped, r = reach + shift·n −
+/// more C·n for those at it, with C the direction of the path's way out.
+void move_to_wall(TrackedFilm& film) {
+    constexpr double stands_out = 4.0;  // standard errors
+    constexpr double at_wall = 0.15;    // radii
+    constexpr std::size_t fewest = 400;
+    std::vector<cv::Vec4d> rows;
+    std::vector<double> outer;
+    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+        const TrackFrame& f = film.tracks.frames[k];
+        const Vec2 c = film.path.at(film.times[k]);
+        const Vec2 out = (1.0 / film.path.amplitude) * (c - film.path.centre);
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            const Vec2 d = f.position[i] - c;
+            const double far = length(d);
+            if (!film.seen[k][i] || !(far > 0.0)) continue;
+            const Vec2 n = (1.0 / far) * d;
+            rows.emplace_back(1.0, n.x, n.y, -dot(out, n));
+            outer.push_back(far + f.radius[i]);
+        }
+    }
+    // The outermost disc of every picture is at the wall, and with a better wall more are.
+    cv::Vec4d fit(quantile(outer, 1.0 - 0.5 / double(std::max<std::size_t>(film.number, 1))), 0.0,
+                  0.0, 0.0);
+    cv::Vec4d error = cv::Vec4d::all(0.0);
+    double near = 0.5 * film.radius;
+    for (int pass = 0; pass < 20; ++pass, near = std::max(0.8 * near, at_wall * film.radius)) {
+        cv::Matx44d normal = cv::Matx44d::zeros();
+        cv::Vec4d right = cv::Vec4d::all(0.0);
+        double square = 0.0;
+        std::size_t used = 0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const double rest = outer[k] - rows[k].dot(fit);
+            if (std::abs(rest) > near) continue;
+            normal += rows[k] * rows[k].t();
+            right += rest * rows[k];
+            square += rest * rest;
+            ++used;
+        }
+        if (used < fewest) return;
+        const cv::Matx44d inverse = normal.inv(cv::DECOMP_SVD);
+        fit += inverse * right;
+        // A disc stays at the wall for many pictures, which is one place of it.
+        const double scatter = std::sqrt(square / double(used) * double(film.number));
+        for (int a = 0; a < 4; ++a) error[a] = scatter * std::sqrt(std::max(0.0, inverse(a, a)));
+    }
+    if (std::hypot(fit[1], fit[2]) < stands_out * std::max(error[1], error[2])) return;
+    film.rim_shift = {fit[1], fit[2]};
+    film.path.centre = film.path.centre + film.rim_shift;
+    film.path.centre_error = std::hypot(film.path.centre_error, std::max(error[1], error[2]));
+    if (std::abs(fit[3]) < stands_out * error[3]) return;
+    film.polygon.corners *= 1.0 - fit[3] / film.path.amplitude;
+    film.path.amplitude -= fit[3];
+    film.path.amplitude_error = std::hypot(film.path.amplitude_error, error[3]);
+}
+
 void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     std::size_t complete = 0, count = 0;
     double square = 0.0;
@@ -514,6 +573,17 @@ void warn(TrackedFilm& film) {
             "Discs come {:.2f} pixels farther out than the rim that is seen, of {:.2f} pixels "
             "radius; where they are stopped is taken for the dish.",
             film.reach - film.rim_radius, film.rim_radius));
+    if (length(film.rim_shift) > 0.0)
+        say(fmt::format(
+            "Discs are stopped about a circle that lies {:.2f} pixels beside the rim's: seen at an "
+            "angle, an edge that is higher or lower than they are is shifted. The former is taken, "
+            "and "
+            "their way for the dish's.",
+            length(film.rim_shift)));
+    if (film.tilt.oval)
+        say("The dish looks longest in another direction than a tilted camera would make it: it is "
+            "not round, or its rim not flat. Distances in the two directions cannot be compared to "
+            "better than that.");
     const Covered hand = covered(film);
     const bool hidden = hand.end - hand.begin >= 4;
     if (hidden)
@@ -589,6 +659,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     film.bright = found.look.polarity > 0;
     std::vector<Seen> all = look_at_all(settings, found, expected, film);
     film.lens = found.look.lens;
+    film.tilt = found.tilt;
     if (found.rim.second_dish) film.warnings.emplace_back(second_dish);
     std::vector<double> rims;
     for (Seen& seen : all) {
@@ -654,6 +725,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     film.radius = film.kinds[commonest].radius;
     track(settings, found, all, film);
     if (film.number == 0) throw Failure("No disc could be followed through the film.");
+    if (film.lens.tilted()) move_to_wall(film);
     judge(all, film);
     believe_overlaps(film);
     // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or

@@ -20,6 +20,7 @@
 #include "swirl/files/tracks.hpp"
 #include "swirl/vision/dish_path.hpp"
 #include "swirl/vision/lens.hpp"
+#include "swirl/vision/tilt.hpp"
 
 namespace swirl {
 
@@ -27,6 +28,7 @@ struct TrackingSettings {
     std::string film;
     std::optional<double> fps;  // otherwise as the film says
     std::optional<std::int64_t> discs;
+    KnownCamera camera;
     std::int64_t most_pictures = 0;  // 0: all
     unsigned threads = 0;            // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
@@ -44,11 +46,13 @@ struct TrackedFilm {
     double fps = 0.0;  // pictures per second; 0: not known, and times are in pictures
     std::vector<double> times;
 
-    Lens lens;      // all places and radii are those of an ideal lens
+    Lens lens;  // all places and radii are those of an ideal lens that looks straight down
+    Tilt tilt;
     DishPath path;  // per second, or per picture
     PathPolygon polygon;
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     std::size_t rims_missed = 0;
+    Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
     double rim_support = 0.0;
     /// How far from the path the rim's centre was in each picture; below 0 where it was not seen.
     std::vector<double> rim_off;

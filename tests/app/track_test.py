@@ -18,6 +18,9 @@ from program import InFolder, swirl
 # Twenty discs of twelve pixels in a dish of 6.5 radii, 64 pictures a swirl.
 SMALL = ["--discs", 20, "--container-radius", 6.5, "--scale", 12, "--width", 240, "--height", 240,
          "--frames-per-period", 64, "--noise", 2, "--quality", 14, "--seed", 3]
+# Of sixteen pixels.
+LARGER = ["--discs", 20, "--container-radius", 6.5, "--scale", 16, "--width", 340, "--height", 340,
+          "--frames-per-period", 64, "--noise", 2, "--quality", 14, "--seed", 3]
 
 
 def rows(path):
@@ -124,9 +127,9 @@ class SpinComparison:
 
 
 class FilmTest(InFolder):
-    def film(self, *more, name="film.mp4", length=1.15):
+    def film(self, *more, name="film.mp4", length=1.15, of=tuple(SMALL)):
         path = self.path(name)
-        done = swirl("film-test", *SMALL, "--length", length, "--out", path, "--quiet", *more)
+        done = swirl("film-test", *of, "--length", length, "--out", path, "--quiet", *more)
         self.assertEqual(done.returncode, 0, done.stderr)
         return path
 
@@ -145,6 +148,54 @@ class FilmTest(InFolder):
         for word in words:
             self.assertIn(word, call.stderr)
         self.assertFalse(os.path.exists(self.path("tracks.csv")))
+
+    def assert_rotation_of_the_truth(self, film, tracks, truth):
+        """The same measurement on the truth's own places."""
+        with open(self.path("truth.csv"), "w", encoding="utf-8") as table:
+            table.write("frame,particle,x,y\n")
+            for row in rows(film[:-4] + ".truth.csv"):
+                table.write(f"{row['frame']},{row['particle']},{row['x_ideal']},{row['y_ideal']}\n")
+        of_truth = swirl("measure", self.path("truth.csv"), "--camera-fps", 1, "--scale",
+                         truth["scale"], "--omega", truth["omega"], "--centre",
+                         "%r,%r" % tuple(truth["centre"]), "--phase", truth["phase"], "--amplitude",
+                         truth["amplitude"] / truth["scale"], "--container-radius",
+                         truth["container_radius"] / truth["scale"], "--json", "-")
+        of_film = swirl("measure", tracks, "--json", "-")  # no option: it lies beside the tracks
+        values = []
+        for done in (of_truth, of_film):
+            self.assertEqual(done.returncode, 0, done.stderr)
+            values.append(json.loads(done.stdout)["rotation"]["rigid_by_time"]["mean"])
+        self.assertLess(abs(values[0] - values[1]), 0.02)  # of Ω, in little more than one swirl
+
+    def test_a_tilted_camera(self):
+        for degrees in (0, 3, 8):
+            with self.subTest(degrees=degrees):
+                film = self.film("--tilt", degrees, "--tilt-towards", 250, length=1.1, of=LARGER,
+                                 name=f"tilt{degrees}.mp4")
+                tracks, said = self.track(film, name=f"tilt{degrees}.csv")
+                result = Comparison(film, tracks)
+                lens = result.found["lens"]
+                if degrees == 0:
+                    self.assertEqual(lens["tilt"], 0.0)
+                    self.assertIn("no tilt, which would be below", said)
+                else:
+                    self.assertLess(abs(lens["tilt"] - degrees), 3.0 * lens["tilt_error"])
+                    self.assertLess(lens["tilt_error"], 0.6)
+                    self.assertLess(abs(lens["tilt_towards"] - 250.0),
+                                    3.0 * lens["tilt_towards_error"])
+                # As good as the film that is seen from above.
+                self.assertEqual(result.complete, 1.0)
+                self.assertLess(result.rms, 0.2)
+                self.assertLess(result.centre, 0.2)
+                self.assertLess(abs(result.amplitude), 0.3)
+                self.assertLess(abs(result.omega), 5e-4)
+                self.assert_rotation_of_the_truth(film, tracks, result.truth)
+        # What is given is taken, and nothing where none is.
+        film = self.path("tilt8.mp4")
+        given, _ = self.track(film, "--tilt", "8,250", "--quiet", name="given.csv")
+        self.assertLess(Comparison(film, given).rms, 0.2)
+        none, _ = self.track(film, "--tilt", 0, "--quiet", name="none.csv")
+        self.assertGreater(Comparison(film, none).rms, 0.5)
 
     def test_from_a_film_to_the_rotation(self):
         film = self.film()
@@ -172,23 +223,7 @@ class FilmTest(InFolder):
         self.assertLess(result.centre, 0.3)
         self.assertLess(abs(result.amplitude), 0.3)
         self.assertLess(abs(result.radius), 0.04)
-        # The same measurement on the truth's own places.
-        with open(self.path("truth.csv"), "w", encoding="utf-8") as table:
-            table.write("frame,particle,x,y\n")
-            for row in rows(film[:-4] + ".truth.csv"):
-                table.write(f"{row['frame']},{row['particle']},{row['x_ideal']},{row['y_ideal']}\n")
-        truth = result.truth
-        of_truth = swirl("measure", self.path("truth.csv"), "--camera-fps", 1, "--scale",
-                         truth["scale"], "--omega", truth["omega"], "--centre",
-                         "%r,%r" % tuple(truth["centre"]), "--phase", truth["phase"], "--amplitude",
-                         truth["amplitude"] / truth["scale"], "--container-radius",
-                         truth["container_radius"] / truth["scale"], "--json", "-")
-        of_film = swirl("measure", tracks, "--json", "-")  # no option: it lies beside the tracks
-        values = []
-        for done in (of_truth, of_film):
-            self.assertEqual(done.returncode, 0, done.stderr)
-            values.append(json.loads(done.stdout)["rotation"]["rigid_by_time"]["mean"])
-        self.assertLess(abs(values[0] - values[1]), 0.02)  # of Ω, in little more than one swirl
+        self.assert_rotation_of_the_truth(film, tracks, result.truth)
 
     def test_tracks_as_hdf5_say_what_the_table_says(self):
         film = self.film(length=1.05)
@@ -318,7 +353,10 @@ class FilmTest(InFolder):
     def test_wrong_calls(self):
         for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
                                  (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
-                                 (["--discs"], ["--out", self.path("x.csv"), "--discs", 0])):
+                                 (["--discs"], ["--out", self.path("x.csv"), "--discs", 0]),
+                                 (["--tilt"], ["--out", self.path("x.csv"), "--tilt", "5"]),
+                                 (["--view-angle"], ["--out", self.path("x.csv"), "--view-angle",
+                                                     200])):
             call = swirl("track", "film.mp4", *arguments)
             self.refused(2, *words, call=call)
         self.refused(2, "one of laboratory", call=swirl("film-test", "--camera", "x", "--out",

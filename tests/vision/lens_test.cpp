@@ -25,6 +25,21 @@ TEST(Lens, SeenAndIdealUndoEachOther) {
     }
 }
 
+TEST(Lens, OfATiltedCameraSeenAndIdealUndoEachOther) {
+    Lens lens{middle, 240.0, 0.03};
+    lens.squeeze = {0.006, -0.008};
+    lens.perspective = {1e-4, 6e-5};
+    for (double x = 0.0; x <= 639.0; x += 71.0)
+        for (double y = 0.0; y <= 479.0; y += 53.0) {
+            const Vec2 p = lens.seen(lens.ideal(Vec2{x, y}));
+            EXPECT_LT(length(p - Vec2{x, y}), 1e-7);
+        }
+    const Lens::Circle dish{{300.0, 250.0}, 180.0};
+    const Lens::Circle back = lens.ideal(lens.image(dish));
+    EXPECT_LT(length(back.centre - dish.centre), 1e-6);
+    EXPECT_NEAR(back.radius, dish.radius, 1e-6);
+}
+
 TEST(Lens, TheMiddleOfACirclesImageIsNotTheImageOfItsMiddle) {
     const Lens lens{middle, 240.0, 0.03};
     const Lens::Circle dish{{middle.x + 40.0, middle.y - 10.0}, 180.0};
