@@ -315,8 +315,8 @@ def no_disc_drop(folder):
         pass
     # The way there takes longer than a short run, and ϖ is the farther from Ω the less of it is seen.
     if rows[-1].get("events", EVENTS) < EVENTS:
-        return Part(UNDECIDED), (f"{text} Runs of {rows[-1]['events']:.0f} events see less of the way to the "
-                                 f"steady state than the paper's of {EVENTS:.0f}, and decide nothing.")
+        return Part(UNDECIDED), (f"{text} Runs of {rows[-1]['events']:,.0f} events see less of the way to the "
+                                 f"steady state than the paper's of {EVENTS:,.0f}, and decide nothing.")
     return above(drop, SLIGHT_DROP), text
 
 
@@ -720,7 +720,8 @@ def gas(folder):
     pairs = [(rows["no-disc", n], rows["high", n]) for n in (LOW_N, LARGE_N)]
     temperatures = [[value(row, "granular") for row in pair] for pair in pairs]
     contacts = [[value(row, "coordination") for row in pair] for pair in pairs]
-    drift = [f"{row['setting']}, N = {row['discs']:.0f}" for pair in pairs for row in pair
+    words = {"high": "both frictions", "no-disc": "no disc friction"}
+    drift = [f"{words[row['setting']]}, N = {row['discs']:.0f}" for pair in pairs for row in pair
              if not is_steady(row)]
     # A state that is still changing has no temperature, and more seeds would not give it one.
     part = Part(UNDECIDED) if drift else parts(
@@ -757,7 +758,7 @@ def smallest_times(folder):
         return (f"{10 ** v.mean:.1g} (times or divided by {10 ** v.error:.1f})" if v.known
                 else "not known")
     counted = "" if events == EVENTS else (
-        f", estimated from runs of {events:.0f} events by the 1/n that the smallest of n times falls with "
+        f", estimated from runs of {events:,.0f} events by the 1/n that the smallest of n times falls with "
         "(not so without friction, where discs get faster all the time)")
     return parts(*agree), (
         f"The smallest time between two collisions of a run of a million events at N = {LARGE_N}"
@@ -879,7 +880,7 @@ def spheres_change_near(discs):
             f"; it passes {discs} between μ = {low:g} and {high:g}"
             for ((low, _), (high, _)), part in zip(steps, passed) if part.verdict == HOLDS)
         return either(near + passed), (
-            f"The last change to counterrotation is at N = … for {listed(dict(changes))}{between} "
+            f"N of the last change to counterrotation, {listed(dict(changes))}{between} "
             f"(roughly: within {ROUGHLY:.0f} of {discs}; the friction of the spheres is not "
             "known).")
     return judge
@@ -888,7 +889,7 @@ def spheres_change_near(discs):
 def spheres_friction_order(folder):
     changes = sorted(last_changes(folder).items())
     steps = [below(b, a) for (_, a), (_, b) in zip(changes, changes[1:])]
-    return every(steps), f"The last change to counterrotation: {listed(dict(changes))}."
+    return every(steps), f"N of the last change to counterrotation, {listed(dict(changes))}."
 
 
 def spheres_minimum(folder):
@@ -912,11 +913,11 @@ def frustrated(folder, name, full, ending):
         for words, found in zip(("all ingredients", "without vertical friction",
                                  "without it between spheres alone", "without it at the wall alone"),
                                 pairs))
-    alone = every([above(v, 0) for v in pairs[1]])
-    said = "is undecided" if alone.verdict == UNDECIDED else alone.verdict
+    alone = every([above(v, 0) for v in pairs[1]]).verdict
+    said = {HOLDS: "certainly rotate", FAILS: "do not all rotate"}.get(alone, "perhaps rotate")
     return parts(every([below(v, 0) for v in pairs[0]]),
                  every([above(without, v) for v, without in zip(pairs[0], pairs[1])])), (
-        f"ϖ/Ω with {told}; that without vertical friction they rotate {said}")
+        f"ϖ/Ω with {told}; without vertical friction they {said}")
 
 
 def spheres_frustration(folder):
@@ -929,7 +930,7 @@ def spheres_frustration(folder):
         pass  # it was not asked for
     told = ". ".join(f"μ = {mu}: {words}" for mu, _, words in found)
     return either([part for _, part, _ in found]), (
-        f"{told}. That last part is no claim of the paper's.")
+        f"{told}. That they rotate without it is no claim of the paper's.")
 
 
 def spheres_elastic(folder):
@@ -1042,7 +1043,7 @@ CLAIMS = [
     Claim("main text", "Without wall friction the discs have very little internal movement in the "
           "M-frame.", "states", rim),
     Claim("main text", "Without disc friction the cluster is loose and gas-like.", "states", gas),
-    Claim("SI", "The smallest time between collisions is around 1e-11 with friction and 1e-9 "
+    Claim("SI", "The smallest time between collisions is around 10⁻¹¹ with friction and 10⁻⁹ "
           "without.", "times", smallest_times),
     Claim("main text, Fig. 4c", "Rough discs change the sense at a lower N than smooth ones.",
           "4c", rough_earlier),

@@ -32,15 +32,15 @@ PANELS = (
 def main():
     table = style.table_from_arguments("figure_4b")
     rows = style.read(table)
-    drawing, places = style.figure(height=6.2, nrows=len(PANELS), sharex=True)
+    drawing, places = style.figure(width=style.PAGE, height=3.0, ncols=len(PANELS))
     for axes, (label, curves) in zip(places, PANELS):
         for name, words, color, marker, look in curves:
             style.curve(axes, rows, "discs", name, color=color, marker=marker, label=words, **look)
         axes.set_ylabel(label)
-        style.legend(axes)
+        axes.set_xlabel(r"number of discs $N$")
+        style.legend(axes, ncol=1)
     places[0].set_ylim(bottom=0)
     style.zero_line(places[1])
-    places[-1].set_xlabel(r"number of discs $N$")
     style.save(drawing, table)
 
 

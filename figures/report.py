@@ -127,9 +127,9 @@ CAPTIONS = {
           "wall layer (full), of all that the SI's criterion calls pinned (dashed), and of the whole cluster "
           "(dotted); for a rough wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
     "4b": "How discs at the wall are kept from spinning; full red symbols are discs on a stay in the wall layer, "
-          "open ones those that the SI's criterion calls pinned. Above: mean magnitude of the spin, in Ω; 0 is "
+          "open ones those that the SI's criterion calls pinned. Left: mean magnitude of the spin, in Ω; 0 is "
           "a disc that sticks to the wall. Middle: correlation of the spins of neighbours, one or both "
-          "of which are on a stay, and, weighted by impulse, of colliding discs; gears would have −1. Below: share of the contacts that close a triangle, "
+          "of which are on a stay, and, weighted by impulse, of colliding discs; gears would have −1. Right: share of the contacts that close a triangle, "
           "which cannot all roll, share of the collisions in which friction stops the slip altogether, and the "
           "hexatic order ψ6 of the packing.",
     "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) "
@@ -183,7 +183,7 @@ h3 { font-size: 1rem; margin: 0 0 .3rem; }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th, td { text-align: left; vertical-align: top; padding: .45rem .8rem .45rem 0;
          border-bottom: 1px solid #ddd; }
-td.verdict { font-weight: 600; }
+.verdict { font-weight: 600; }
 .holds { color: #00694e; } .part { color: #8a5a00; } .fails { color: #a63c00; }
 .other { color: #666; }
 code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
@@ -204,9 +204,8 @@ figcaption li { margin-bottom: .25rem; }
 .small { color: #555; font-size: .92em; }
 table.claims { table-layout: fixed; }
 .claims th:nth-child(1) { width: 2.2em; }
-.claims th:nth-child(2) { width: 27%; }
-.claims th:nth-child(4) { width: 12%; }
-.claims th:nth-child(5) { width: 16%; }
+.claims th:nth-child(2) { width: 26%; }
+.claims th:nth-child(4) { width: 18%; }
 .question { color: #333; font-style: italic; margin: 0 0 .3rem; }
 @media screen and (max-width: 50rem) { .figures, figure.beside { grid-template-columns: 1fr; } }
 @page { size: A4; margin: 16mm 15mm; }
@@ -235,7 +234,8 @@ def duration(seconds):
 
 
 def judge(folder):
-    return [(claim, *claim.verdict(folder)) for claim in claims.CLAIMS]
+    judged = [(claim, *claim.verdict(folder)) for claim in claims.CLAIMS]
+    return [(claim, verdict, powers(found)) for claim, verdict, found in judged]
 
 
 def counts(judged):
@@ -507,6 +507,19 @@ SYMBOLS = {"inertia": "I", "restitution": "e", "tangential_restitution": "β"}
 PARAMETER = re.compile(rf"^({'|'.join(SYMBOLS)}) (?=[\d.])")
 
 
+POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?)0*(\d+)\b")
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def powers(text):
+    """2e-09 as 2·10⁻⁹, and 1e-11 as 10⁻¹¹."""
+    def power(match):
+        digits, sign, exponent = match.groups()
+        ten = "10" + (sign.replace("+", "") + exponent).translate(SUPERSCRIPTS)
+        return ten if digits == "1" else f"{digits}·{ten}"
+    return POWER.sub(power, text)
+
+
 def in_words(finding):
     """A finding without the names that only the program gives its points."""
     def point(match):
@@ -515,7 +528,9 @@ def in_words(finding):
                                       curve.replace("_f", ", μ_f = ").replace("-", " "))
         return f"{curve} with N = {discs}" + (f" (seed {seed})" if seed else "")
     finding = re.sub(r"^Figure \S+: (drawn; )?", "", finding)
-    return PARAMETER.sub(lambda match: f"{SYMBOLS[match.group(1)]} = ", POINT.sub(point, finding))
+    finding = re.sub(r" Another --seed than \d+ may not meet it\.|; docs/physics\.md", "", finding)
+    finding = PARAMETER.sub(lambda match: f"{SYMBOLS[match.group(1)]} = ", POINT.sub(point, finding))
+    return powers(finding)
 
 
 # What is said of the runs, not of what they show.
@@ -765,8 +780,8 @@ def grid(figures):
 def page(folder, about, judged):
     rows = [(td(k), f"<td>{rich(claim.says)} <span class=small>({html.escape(claim.where)})"
              "</span></td>", td(found),
-             td(f"{MARK[verdict]} {verdict}", "verdict " + CLASS.get(verdict, "other")),
-             f"<td><code>{html.escape(claim.command)}</code></td>" if claim.command else "<td></td>")
+             f"<td><span class='verdict {CLASS.get(verdict, 'other')}'>{MARK[verdict]} {verdict}</span>"
+             + (f"<br><code>{html.escape(claim.command)}</code>" if claim.command else "") + "</td>")
             for k, (claim, verdict, found) in enumerate(judged, 1)]
     parts = [opening(TITLE), f"<h1>{TITLE}</h1>\n",
              "<p class=small>The claims of a paper, one by one, against a simulation</p>\n",
@@ -783,7 +798,7 @@ def page(folder, about, judged):
                         for says, found in which)
         parts += [f"<p>{heading}:</p><ul>{items}</ul>\n"]
     parts += ["<h2>Claim by claim</h2>\n",
-             table(["", "the paper says", "found", "verdict", "command"], rows, "claims")]
+             table(["", "the paper says", "found", "verdict, and how to see it"], rows, "claims")]
     texts = figure_texts(about)
     for heading, figures in split(about["figures"]):
         parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]

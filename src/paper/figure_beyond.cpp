@@ -399,7 +399,7 @@ static FigurePlan plan_figure_energy(const PaperSettings& settings) {
                 table.add({std::int64_t{sides[k]}, discs, static_cast<std::int64_t>(t),
                            number(energy[t]), number(invariant[t])});
             outcome.findings.push_back(fmt::format(
-                "No friction at all, {}: in {} swirls the energy goes from {:.3g} to {:.3g}, and "
+                "No friction at all, {}: in {} swirls the energy goes from {:.0f} to {:.0f}, and "
                 "K − ΩL changes by {}.",
                 sides[k] > 0 ? fmt::format("{} sides", sides[k]) : "the true circle", swirls,
                 number(energy.front()), number(energy.back()),

@@ -239,7 +239,7 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     if (drifting + too_short > 0)
         remarks.push_back(fmt::format(
             "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
-            "tell). They are marked in the figure and in the column steady_state.",
+            "tell). They are marked in the figure and in its table.",
             drifting + too_short, judged, drifting, too_short));
     if (unaveraged > 0)
         remarks.push_back(fmt::format(
@@ -248,7 +248,7 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     if (!disagreeing.empty())
         remarks.push_back(fmt::format(
             "At {} of {} points the seeds scatter more than the errors within their runs can "
-            "explain (column scatter): {}. Their errors are those between the seeds; where runs "
+            "explain: {}. Their errors are those between the seeds; where runs "
             "are "
             "steady, these are mixtures of states that outlive a run.",
             disagreeing.size(), results.size(), first_of(disagreeing)));

@@ -189,16 +189,16 @@ class OnMadeUpTables(unittest.TestCase):
         verdict, found = judged(down, up)
         self.assertEqual(verdict, HOLDS)
         self.assertIn("at the wall alone: −0.0400", found)
-        self.assertIn("without vertical friction they rotate holds. That last part is no claim", found)
+        self.assertIn("without vertical friction they certainly rotate. That they rotate without it is no claim", found)
         # That they rotate without it is not what the paper says, and not judged.
         verdict, found = judged(down, less)
         self.assertEqual(verdict, HOLDS)
-        self.assertIn("they rotate does not hold", found)
+        self.assertIn("without vertical friction they do not all rotate", found)
         self.assertEqual(judged(less, down)[0], IN_PART)
         # At each of the two numbers.
         verdict, found = judged(down, [(44, 0.15), (48, -0.06)])
         self.assertEqual(verdict, IN_PART)
-        self.assertIn("they rotate does not hold", found)
+        self.assertIn("without vertical friction they do not all rotate", found)
         self.assertEqual(judged([(44, -0.04), (48, 0.02)], up)[0], IN_PART)
         self.assertEqual(judged(up, down)[0], FAILS)
         self.assertEqual(judged(down, down)[0], UNDECIDED)
@@ -850,7 +850,7 @@ class OnMadeUpTables(unittest.TestCase):
         # tell nothing, and the whole is open.
         verdict, found = judged(2e-10, 2e-9, events=1e5)
         self.assertEqual(verdict, UNDECIDED)
-        self.assertIn("from runs of 100000 events", found)
+        self.assertIn("from runs of 100,000 events", found)
         self.assertIn("is 1e-11 (", found)
         self.assertEqual(judged(2e-7, 2e-9, events=1e5)[0], UNDECIDED)
         # Between seeds such times scatter by half an order; three tell little of what is close.
@@ -911,7 +911,7 @@ class OnMadeUpTables(unittest.TestCase):
         verdict, found = judged(0.6, 1.0, drifting=8)
         self.assertEqual(verdict, UNDECIDED)
         self.assertEqual(verdict.points, frozenset())
-        self.assertIn("decide nothing: no-disc, N = 28; no-disc, N = 48", found)
+        self.assertIn("decide nothing: no disc friction, N = 28; no disc friction, N = 48", found)
         self.assertEqual(judged(0.1, 3.0, drifting=8)[0], UNDECIDED)
         self.assertEqual(judged(0.6, 1.0, drifting=1)[0], HOLDS)  # by chance one of eight drifts
 

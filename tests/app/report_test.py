@@ -193,6 +193,7 @@ class Figures(Tables):
                 ("tangential_restitution 0.5: lowest", "β = 0.5: lowest"),
                 ("inertia 10: crosses", "I = 10: crosses"),
                 ("Figure 1c: drawn; the forces", "the forces"),
+                ("between 6e-09 and 2.5e+3, 1e-11", "between 6·10⁻⁹ and 2.5·10³, 10⁻¹¹"),
                 ("the column steady_state", "the column steady_state")):
             self.assertEqual(report.in_words(name), words)
 
