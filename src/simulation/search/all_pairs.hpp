@@ -119,7 +119,7 @@ template <int G>
 [[gnu::noinline]] static void approach_wall(EngineState& state, std::uint32_t i, double time) {
     SideBySide& all = *state.side_by_side;
     const Eight then(time);
-    if (time - all.walls_asked_at > state.turning_bound.horizon * (1.0 / 16.0)) {
+    if (time - all.walls_asked_at > 0.5 * state.turning_bound.horizon) {
         all.walls_asked_at = time;
         for (int g = 0; g < G; ++g) {
             const Others<8> discs = load_eight(all, g);

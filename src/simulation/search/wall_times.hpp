@@ -59,7 +59,7 @@ SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
     bound.turning = O;
     bound.per_turning = 1.0 / O;
     bound.lasts = turn / 30.0;
-    bound.horizon = state.side_by_side ? turn / 8.0 : turn / 30.0;
+    bound.horizon = state.side_by_side ? turn / 6.0 : turn / 30.0;
     bound.L = O2 * (8.7 / 12.0) * speed2;
     bound.L_of_u2 = O2 * (2.0 / 12.0);
     bound.L_of_square = O2 * O2 * (0.5 / 12.0);
