@@ -33,6 +33,11 @@ class JsonObject {
         return *this;
     }
     JsonObject& add(std::string_view name, double value) { return add(name, number(value)); }
+    /// All of another's.
+    JsonObject& add(const JsonObject& other) {
+        text_ += (text_.empty() || other.text_.empty() ? "" : ",") + other.text_;
+        return *this;
+    }
     std::string text() const { return '{' + text_ + '}'; }
 
   private:

@@ -153,13 +153,19 @@ Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& poi
     return from + there * way;
 }
 
+/// From, to, step.
+std::string usual_json(const UsualSpan& usual) {
+    if (usual.step == 0.0) return "null";
+    return fmt::format("[{},{},{}]", usual.from, usual.to, usual.step);
+}
+
 std::string parameter_json(const Parameter& p) {
     return fmt::format(
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
-        R"("lowest":{},"highest":{},"given":{}}})",
+        R"("lowest":{},"highest":{},"usual":{},"given":{}}})",
         quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
         quoted(p.group), quoted(default_of(p)), number(p.lowest), number(p.highest),
-        p.can_be_given());
+        usual_json(p.usual), p.can_be_given());
 }
 
 }  // namespace
@@ -381,7 +387,7 @@ EXPORTED(crossing) std::uint32_t crossing() {
 EXPORTED(result) std::uint32_t result() {
     dish->settle();
     const RunResult r = dish->result();
-    JsonObject given, events, warmup, rotation, steady, measured;
+    JsonObject given, events, warmup, rotation, steady, others, measured;
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, r.config);
@@ -395,11 +401,13 @@ EXPORTED(result) std::uint32_t result() {
         .add("elastic_by_tc_model", double(r.events.elastic_by_tc));
     if (r.events.begins_to_roll > 0) events.add("begins_to_roll", double(r.events.begins_to_roll));
     warmup.add("periods", double(r.warmup)).add("events", double(r.warmup_events.total()));
-    r.rotation.report(
-        [&](const ReportRow& row) { rotation.add(row.name, estimate_json(row.estimate)); });
-    steady.add("verdict", quoted(verdict(r.steady_state())))
-        .add("drift", r.steady.drift)
-        .add("drift_of_the_spin", r.steady_spin.drift);
+    steady.add("verdict", quoted(verdict(r.steady_state())));
+    r.report([&](std::string_view group, const ReportRow& row) {
+        JsonObject& into = group == "rotation"       ? rotation
+                           : group == "steady_state" ? steady
+                                                     : others;
+        into.add(row.name, row_json(row));
+    });
     for (const auto& [name, report] : dish->observation().report())
         measured.add(name, report_json(report));
     std::string said;
@@ -413,11 +421,7 @@ EXPORTED(result) std::uint32_t result() {
                       .add("warmup", warmup.text())
                       .add("rotation", rotation.text())
                       .add("steady_state", steady.text())
-                      .add("max_overlap", r.max_overlap)
-                      .add("energy", r.energy)
-                      .add("energy_at_start", r.energy_at_start)
-                      .add("invariant", r.invariant)
-                      .add("invariant_at_start", r.invariant_at_start)
+                      .add(others)
                       .add("state_hash", quoted(fmt::format("{:016x}", r.state_hash)))
                       .add("warnings", '[' + said + ']')
                       .add("generator", quoted(random_generator))

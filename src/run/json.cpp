@@ -24,12 +24,6 @@ Json counts_json(const EventCounts& counts) {
     return json;
 }
 
-Json rotation_json(const RotationEstimates& rotation) {
-    Json json;
-    rotation.report([&](const ReportRow& row) { json[row.name] = estimate_json(row.estimate); });
-    return json;
-}
-
 /// COUNT:RADIUS:MASS, whatever stands in their places.
 std::string mixture_text(const Json& mixture) {
     const auto part = [&](const char* name) { return mixture.value(name, Json()).dump(); };
@@ -85,29 +79,32 @@ Json estimate_json(const Estimate& e) {
             {"blocks", e.blocks}};
 }
 
+Json row_json(const ReportRow& row) {
+    if (!row.has_error) return row.estimate.mean;
+    Json json = estimate_json(row.estimate);
+    for (const ReportDetail& detail : row.details) json[detail.name] = detail.value;
+    return json;
+}
+
 Json result_json(const RunResult& r) {
-    return {{"config", config_json(r.config)},
-            {"complete", r.complete},
-            {"events", counts_json(r.events)},
-            {"periods", r.periods},
-            {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
-            {"rotation", rotation_json(r.rotation)},
-            {"steady_state",
-             {{"verdict", verdict(r.steady_state())},
-              {"drift", r.steady.drift},
-              {"drift_of_the_spin", r.steady_spin.drift}}},
-            {"max_overlap", r.max_overlap},
-            {"energy", r.energy},
-            {"energy_at_start", r.energy_at_start},
-            {"invariant", r.invariant},
-            {"invariant_at_start", r.invariant_at_start},
-            {"state_hash", fmt::format("{:016x}", r.state_hash)},
-            {"seconds", r.seconds},
-            {"events_per_second", r.events_per_second()},
-            {"warnings", warnings(r)},
-            {"version", version()},
-            {"build", build_description()},
-            {"generator", random_generator}};
+    Json json = {{"config", config_json(r.config)},
+                 {"complete", r.complete},
+                 {"events", counts_json(r.events)},
+                 {"periods", r.periods},
+                 {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
+                 {"rotation", Json::object()},
+                 {"steady_state", {{"verdict", verdict(r.steady_state())}}}};
+    r.report([&](std::string_view group, const ReportRow& row) {
+        (group.empty() ? json : json[std::string(group)])[row.name] = row_json(row);
+    });
+    json["state_hash"] = fmt::format("{:016x}", r.state_hash);
+    json["seconds"] = r.seconds;
+    json["events_per_second"] = r.events_per_second();
+    json["warnings"] = warnings(r);
+    json["version"] = version();
+    json["build"] = build_description();
+    json["generator"] = random_generator;
+    return json;
 }
 
 }  // namespace swirl

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "swirl/measure/report.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/result.hpp"
 
@@ -24,6 +25,9 @@ ParameterTexts parameters_in(const std::string& config);
 
 /// {"mean", "error", "effective_samples", "blocks"}
 nlohmann::ordered_json estimate_json(const Estimate& estimate);
+
+/// That of its estimate and its details; a number alone where it has no error.
+nlohmann::ordered_json row_json(const ReportRow& row);
 
 nlohmann::ordered_json result_json(const RunResult& result);
 

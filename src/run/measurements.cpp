@@ -31,9 +31,10 @@ MeasurementReports empty_reports() {
     return Observation(1.0, 1.0, read_measurement_list("all")).report();
 }
 
-/// "slip.cluster"; "density" for a table without a name.
+/// "slip.cluster"; "density" for a table without a name, "energy" for a row without a group.
 std::string full_name(const std::string& measurement, std::string_view name) {
-    return name.empty() ? measurement : fmt::format("{}.{}", measurement, name);
+    if (measurement.empty() || name.empty()) return measurement + std::string(name);
+    return fmt::format("{}.{}", measurement, name);
 }
 
 std::string in_unit(std::string_view value, std::string_view unit) {
@@ -59,13 +60,6 @@ Json table_json(const ReportTable& table) {
         Json& column = json[table.columns[c].name] = Json::array();
         for (std::size_t r = 0; r < table.rows(); ++r) column.push_back(table.at(r, c));
     }
-    return json;
-}
-
-Json row_json(const ReportRow& row) {
-    if (!row.has_error) return row.estimate.mean;
-    Json json = estimate_json(row.estimate);
-    for (const ReportDetail& detail : row.details) json[detail.name] = detail.value;
     return json;
 }
 
@@ -122,12 +116,15 @@ std::string measurement_list_text() {
 }
 
 std::string measurement_help_text() {
-    std::string text;
+    std::string text = "every run:\n";
+    const auto line = [&](const std::string& name, const ReportRow& row) {
+        text +=
+            fmt::format("  {:<38}{:<9}{}\n", full_name(name, row.name), row.unit, row.description);
+    };
+    RunResult().report(line);
     for (const auto& [name, report] : empty_reports()) {
         text += fmt::format("{}: {}\n", name, kind_called(name).description);
-        for (const ReportRow& row : report.rows)
-            text += fmt::format("  {:<38}{:<9}{}\n", full_name(name, row.name), row.unit,
-                                row.description);
+        for (const ReportRow& row : report.rows) line(name, row);
         for (const ReportTable& table : report.tables)
             text += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
                                 columns_text(table));
@@ -141,11 +138,14 @@ std::string measurement_markdown() {
         kinds += fmt::format("| {} | {} | [{}](../src/measure/{}) |\n", kind.name, kind.description,
                              kind.header, kind.header);
     std::string rows = "| number | unit | what it is |\n|---|---|---|\n";
+    const auto line = [&](const std::string& name, const ReportRow& row) {
+        rows +=
+            fmt::format("| {} | {} | {} |\n", full_name(name, row.name), row.unit, row.description);
+    };
+    RunResult().report(line);
     std::string tables = "| table | columns (unit) | what it is |\n|---|---|---|\n";
     for (const auto& [name, report] : empty_reports()) {
-        for (const ReportRow& row : report.rows)
-            rows += fmt::format("| {} | {} | {} |\n", full_name(name, row.name), row.unit,
-                                row.description);
+        for (const ReportRow& row : report.rows) line(name, row);
         for (const ReportTable& table : report.tables)
             tables += fmt::format("| {} | {} | {} |\n", full_name(name, table.name),
                                   columns_text(table), table.description);

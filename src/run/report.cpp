@@ -57,6 +57,14 @@ std::string too_short_sentence(const RunResult& r) {
         r.rotation.by_event.blocks, least_blocks_of_a_steady_state);
 }
 
+std::string steady_text(const RunResult& r) {
+    const std::string found = verdict(r.steady_state());
+    if (std::isnan(r.steady.drift) && std::isnan(r.steady_spin.drift)) return found;
+    return fmt::format(
+        "{}; first and last part differ by {:.1f} standard errors, of the spins by {:.1f}", found,
+        std::fabs(r.steady.drift), std::fabs(r.steady_spin.drift));
+}
+
 }  // namespace
 
 std::string with_commas(std::uint64_t number) {
@@ -140,6 +148,7 @@ std::string report(const RunResult& r) {
     line("periods",
          fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
                      r.warmup, r.config.warmup_found ? " (found automatically)" : ""));
+    line("steady", steady_text(r));
     line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
     line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));

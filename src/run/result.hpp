@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/report.hpp"
 #include "swirl/measure/statistics.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/simulation/simulation.hpp"
@@ -38,6 +39,30 @@ struct RunResult {
             if (steady.verdict == v || steady_spin.verdict == v) return v;
         return Verdict::steady;
     }
+    /// The numbers that every run has, as rows: visit(group, row). JSON, the page and the documents
+    /// have them from here; a group is an object there, and what belongs to none stands beside it.
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        const auto number = [&](const char* group, const char* name, const char* unit,
+                                const char* description, double value) {
+            visit(group, ReportRow{name, unit, description, {.mean = value}, {}, false});
+        };
+        rotation.report([&](const ReportRow& row) { visit("rotation", row); });
+        number("steady_state", "drift", "1",
+               "of the rotation, from its first part to its last, in standard errors",
+               steady.drift);
+        number("steady_state", "drift_of_the_spin", "1", "the same, of the mean spin of the discs",
+               steady_spin.drift);
+        number("", "max_overlap", "r", "the largest overlap met at a contact: a rounding error",
+               max_overlap);
+        number("", "energy", "m v²", "kinetic energy in the lab frame at the end, spins included",
+               energy);
+        number("", "energy_at_start", "m v²", "the same at the beginning", energy_at_start);
+        number("", "invariant", "m v²", "K − ΩL, conserved on the circle without friction",
+               invariant);
+        number("", "invariant_at_start", "m v²", "the same at the beginning", invariant_at_start);
+    }
+
     bool has_whole_swirl() const { return rotation.by_event.blocks > 0; }
     double events_per_second() const {
         return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;

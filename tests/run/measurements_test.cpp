@@ -9,6 +9,7 @@
 
 #include "files/scratch.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 
 namespace swirl {
 namespace {
@@ -241,6 +242,26 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
             }
         }
     }
+}
+
+TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
+    const RunResult result = run(short_run());
+    const auto json = result_json(result);
+    const std::string help = measurement_help_text(), docs = measurement_markdown();
+    int rows = 0;
+    result.report([&](const std::string& group, const ReportRow& row) {
+        const std::string full = (group.empty() ? "" : group + ".") + row.name;
+        const auto& there = group.empty() ? json : json.at(group);
+        EXPECT_EQ(there.at(row.name).dump(), row_json(row).dump()) << full;
+        EXPECT_THAT(help, HasSubstr("  " + full + " "));
+        EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
+        ++rows;
+    });
+    EXPECT_EQ(rows, 11);
+    EXPECT_EQ(json.at("steady_state").at("drift_of_the_spin").dump(),
+              nlohmann::ordered_json(result.steady_spin.drift).dump());
+    EXPECT_EQ(json.at("energy").get<double>(), result.energy);
+    EXPECT_EQ(json.at("max_overlap").get<double>(), result.max_overlap);
 }
 
 TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -64,6 +65,28 @@ TEST(ParameterTable, InTheDocsIsUpToDate) {
         return;
     }
     EXPECT_EQ(docs.substr(first, to - first), table());
+}
+
+// A page has a slider for every number, and the slider has the number that holds if nothing is
+// given.
+TEST(ParameterTable, EveryNumberHasAUsualSpanInsideItsRange) {
+    for (const Parameter& p : run_parameters) {
+        const bool is_number =
+            p.can_be_given() && (p.member.index() != 0 || std::string_view(p.form) == "NUMBER");
+        const auto& [first, last, step] = p.usual;
+        ASSERT_EQ(step > 0.0, is_number) << p.name;
+        if (!is_number) continue;
+        EXPECT_LT(first, last) << p.name;
+        EXPECT_GE(first, p.lowest) << p.name;
+        EXPECT_LE(last, p.highest > 0.0 ? p.highest : last) << p.name;
+        const double steps = (last - first) / step;
+        EXPECT_NEAR(steps, std::round(steps), 1e-9) << p.name;  // roundings of a few divisions
+        char* rest = nullptr;
+        const std::string by_default = default_of(p);
+        const double value = std::strtod(by_default.c_str(), &rest);
+        if (by_default.empty() || *rest != '\0') continue;  // a word, or nothing
+        EXPECT_TRUE(first <= value && value <= last) << p.name;
+    }
 }
 
 }  // namespace

@@ -95,6 +95,8 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
     result.steady.drift = 5.0;
+    EXPECT_THAT(report(result), testing::HasSubstr("  steady      drifting; first and last part "
+                                                   "differ by 5.0 standard errors"));
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::HasSubstr("Not steady: the rotation")));
     std::swap(result.steady, result.steady_spin);

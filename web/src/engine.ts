@@ -13,6 +13,8 @@ export interface Parameter {
     default: string;
     lowest: number;
     highest: number;
+    /** What a slider offers: from, to, step. */
+    usual: [number, number, number] | null;
     given: boolean;
 }
 

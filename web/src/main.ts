@@ -15,12 +15,6 @@ import {discAt, discOf, draw, pointedAt, turnBetween, type Coloring, type View} 
 import {Study} from "./study";
 import {lesson, presets, symbols, texts} from "./texts";
 
-/** With a slider: from, to, step. The others have a field for their text alone. */
-const sliders: Record<string, [number, number, number]> = {
-    discs: [1, 55, 1], mu: [0, 2, 0.05], mu_disc: [0, 2, 0.05], mu_wall: [0, 2, 0.05],
-    container_radius: [4, 20, 0.1], amplitude: [0, 5, 0.05], restitution: [0.5, 1, 0.01],
-    sides: [3, 60, 1],
-};
 const trailLength = 45; // frames
 const settling = 350; // milliseconds after the last change before it is made
 
@@ -381,14 +375,13 @@ function parameterRow(row: Parameter): HTMLElement {
         if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || holding(row.name);
         changed();
     });
-    const range = sliders[row.name];
     fields[row.name] = {text};
-    if (!range) {
+    if (!row.usual) {
         text.className = "wide";
         return element("div", {className: "row"}, label, text, ...proposed);
     }
-    const [min, max, by] = range.map(String);
-    const slider = element("input", {type: "range", min: min!, max: max!, step: by!});
+    const [min, max, step] = row.usual.map(String) as [string, string, string];
+    const slider = element("input", {type: "range", min, max, step});
     slider.setAttribute("aria-label", describe(row));
     slider.addEventListener("input", () => {
         given[row.name] = text.value = slider.value;

@@ -125,6 +125,17 @@ const painted = await page.evaluate(() => {
 });
 assert.ok(painted > 5, `the canvas shows ${painted} shades`);
 
+// Every number has a slider, and what the slider says stands in the field.
+const withoutSlider = await page.$$eval("#parameters .row", (all) => all
+    .filter((row) => !row.querySelector("input[type=range]"))
+    .map((row) => row.querySelector("input[type=text]").id.replace("parameter-", "")));
+assert.deepEqual(withoutSlider, ["preset", "body", "mixture", "floor", "path"]);
+const ofMuWall = page.locator(".row:has(#parameter-mu_wall) input[type=range]");
+assert.deepEqual([await ofMuWall.getAttribute("max"), await ofMuWall.getAttribute("step")], ["2", "0.05"]);
+await ofMuWall.fill("0.35");
+assert.equal(await page.inputValue("#parameter-mu_wall"), "0.35");
+await page.fill("#parameter-mu_wall", "");
+
 // A slider and a field make another dish; the address follows where the page has one.
 await page.fill("#parameter-discs", "5");
 await page.waitForFunction(
