@@ -151,10 +151,10 @@ CAPTIONS = {
               "mean flow is taken off.",
     "times": "How close in time two collisions of a run come, which is what the precision of the event "
              "times must resolve.",
-    "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for six "
+    "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for several "
                "frictions μ of the spheres and the wall. Averages over time. The scale is coarser above the dotted "
-               "line. Up to 57 spheres fit; of 56 and 57 the packing that a run began with decides, not friction, and "
-               "some runs of 56 collapse: their number is told below, and the others are averaged.",
+               "line. Up to 57 spheres fit; with 56 and 57 the packing that a run began with decides, not friction. "
+               "Some runs of 56 collapse: those are counted below, and the others averaged.",
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
                            "with one of them taken away. Vertical friction is the part of the contacts' friction "
                            "that acts on the vertical slip of spheres that roll.",

@@ -7,7 +7,12 @@ namespace swirl {
 namespace {
 
 /// "5b" is one, "5b-steady" and "ball" are not.
-bool is_of_the_paper(const PaperFigure& figure) { return figure.name.size() == 2; }
+/// What the SI says of becoming pinned and free has no figure in the paper: it stands beside
+/// Figure 3.
+std::string_view place_of(const PaperFigure& figure) {
+    return figure.name == "pinning" ? "3c" : figure.name;
+}
+bool is_of_the_paper(const PaperFigure& figure) { return place_of(figure).size() == 2; }
 
 std::vector<PaperFigure> in_order() {
     std::vector<PaperFigure> all;
@@ -17,7 +22,7 @@ std::vector<PaperFigure> in_order() {
         all.insert(all.end(), of_a_file.begin(), of_a_file.end());
     const auto beyond = std::stable_partition(all.begin(), all.end(), is_of_the_paper);
     std::sort(all.begin(), beyond,
-              [](const PaperFigure& a, const PaperFigure& b) { return a.name < b.name; });
+              [](const PaperFigure& a, const PaperFigure& b) { return place_of(a) < place_of(b); });
     return all;
 }
 
