@@ -27,7 +27,7 @@ class Readme(InFolder):
                 and "--help" not in words and not any(w.endswith(".toml") for w in words):
             words += ["--events", "2000"]
         if words[0] == "paper" and "--figure" in words:
-            words += ["--quick", "--events", "300"]
+            words += ["--quick", "--events", "3000"]
         return swirl(*words, cwd=self.folder)
 
     def test_commands_work(self):
