@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/run/config.hpp"
+
 namespace swirl {
 namespace {
 

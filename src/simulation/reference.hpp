@@ -1,28 +1,23 @@
 // The paper's method (SI, "Finding the next event") as one would tell it: find the times of all
 // events that may come, take the first, apply it. One disc or sphere after the other and nothing
-// remembered; the engine must agree with it bit for bit.
+// remembered; the engine must agree with it bit for bit. When they touch, and what a collision does
+// to them, is reference_bodies.hpp.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
-#include "swirl/physics/collision_law.hpp"
-#include "swirl/physics/contact_time.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/initial_state.hpp"
 #include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/reference_bodies.hpp"
 
 namespace swirl {
 
 class Reference {
   public:
     explicit Reference(const InitialState& initial)
-        : state_(initial),
-          size_(static_cast<std::uint32_t>(initial.discs.size())),
-          motions_(size_) {
-        for (std::uint32_t i = 0; i < size_; ++i) note_motion(i);
-    }
+        : path_(initial.path), bodies_(initial), size_(bodies_.size()) {}
 
     /// Says of the event what decides it; the normal and the overlap are left empty.
     Event step() { return apply(first_of_all()); }
@@ -33,140 +28,40 @@ class Reference {
             if (precedes(event, first)) first = event;
         };
         for (std::uint32_t i = 0; i < size_; ++i) {
-            consider({wall_time(i), i, i});
-            consider({motions_[i].begins_to_roll, i, the_floor});
-            for (std::uint32_t j = i + 1; j < size_; ++j) consider({meeting_time(i, j), i, j});
+            consider({bodies_.wall_time(i, leg()), i, i});
+            consider({bodies_.begins_to_roll(i), i, the_floor});
+            for (std::uint32_t j = i + 1; j < size_; ++j)
+                consider({bodies_.meeting_time(i, j), i, j});
         }
         return leg().end <= first.time ? PendingEvent{leg().end, size_, size_} : first;
     }
 
     Event apply(const PendingEvent& event) {
-        if (event.disc == size_) return end_leg();
-        if (event.partner == the_floor) return begin_to_roll(event.disc);
-        return event.is_with_wall() ? hit_wall(event.disc, event.time)
-                                    : hit_disc(event.disc, event.partner, event.time);
+        const auto [t, i, j] = event;
+        if (i == size_) return end_leg();
+        if (j == the_floor)
+            return {swirls_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
+                    0.0};
+        if (event.is_with_wall())
+            return {swirls_, t, EventKind::disc_wall, i, i, {}, bodies_.hit_wall(i, t, leg()), 0.0};
+        return {swirls_, t, EventKind::disc_disc, i, j, {}, bodies_.hit(i, j, t), 0.0};
     }
 
-    const Disc& disc(std::size_t i) const { return state_.discs[i]; }
-    const Leg& leg() const { return state_.path.legs[leg_]; }
+    const Disc& disc(std::size_t i) const { return bodies_.disc(i); }
+    const Leg& leg() const { return path_.legs[leg_]; }
 
   private:
-    /// Or coins.
-    bool are_spheres() const { return state_.shape != Shape::disc; }
-    /// What the floor does to sphere i from now on.
-    void note_motion(std::uint32_t i) {
-        if (are_spheres()) motions_[i] = floor_motion(disc(i), state_.floor, leg().velocity);
-    }
-    double meeting_time(std::uint32_t i, std::uint32_t j) const {
-        if (!are_spheres()) return time_of_contact(disc(i), disc(j));
-        return time_of_contact(
-            Encounter<double>(parabola(disc(i), motions_[i]), parabola(disc(j), motions_[j]),
-                              motions_[i].begins_to_roll, motions_[j].begins_to_roll,
-                              disc(i).radius + disc(j).radius));
-    }
-    double wall_time(std::uint32_t i) const {
-        if (!are_spheres()) return time_of_wall_contact(disc(i), leg(), state_.container_radius);
-        return time_of_wall_contact(parabola(disc(i), motions_[i]), motions_[i].begins_to_roll,
-                                    leg(), state_.container_radius - disc(i).radius);
-    }
-
-    /// When the last collision was that the TC model asks for.
-    double last_collision(std::uint32_t i) const {
-        return are_spheres() ? disc(i).last_collision : disc(i).time;
-    }
-    void bring_to(std::uint32_t i, double t) {
-        state_.discs[i] = are_spheres() ? moved_to(disc(i), motions_[i], t) : disc(i).at(t);
-    }
-    static Body body(const Disc& d) {
-        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
-    }
-    static SphereBody sphere_body(const Disc& d) { return {body(d), d.rolling_spin}; }
-    static void move_on(Disc& d, const Body& after) {
-        d.velocity = after.velocity;
-        d.spin = after.spin;
-    }
-    static void move_on(Disc& d, const SphereBody& after) {
-        move_on(d, static_cast<const Body&>(after));
-        d.rolling_spin = after.rolling_spin;
-        d.last_collision = d.time;
-    }
-    Surface surface_at_contact(const Surface& surface, double since_last, const Vec2& separation,
-                               const Vec2& relative_velocity) const {
-        return are_spheres() ? at_contact_on_floor(surface, since_last, state_.floor, separation,
-                                                   relative_velocity)
-                             : at_contact(surface, since_last);
-    }
-    template <class AnyBody>
-    static Impulse hit(Disc& a, Disc& b, AnyBody body_a, AnyBody body_b, const Surface& surface) {
-        const Impulse J = collide(body_a, body_b, b.position - a.position, surface);
-        move_on(a, body_a);
-        move_on(b, body_b);
-        return J;
-    }
-    template <class AnyBody>
-    static Impulse hit_wall(Disc& a, AnyBody body_a, AnyBody wall, const Vec2& from_centre,
-                            const Surface& surface) {
-        const Impulse J = collide(body_a, wall, from_centre, surface);
-        move_on(a, body_a);
-        return J;
-    }
-
-    Event hit_disc(std::uint32_t i, std::uint32_t j, double t) {
-        Disc &a = state_.discs[i], &b = state_.discs[j];
-        const double since_last = t - larger(last_collision(i), last_collision(j));
-        bring_to(i, t);
-        bring_to(j, t);
-        const Surface surface = surface_at_contact(
-            state_.disc_surface, since_last, b.position - a.position, b.velocity - a.velocity);
-        const Impulse J = are_spheres() ? hit(a, b, sphere_body(a), sphere_body(b), surface)
-                                        : hit(a, b, body(a), body(b), surface);
-        note_motion(i);
-        note_motion(j);
-        return {swirls_, t, EventKind::disc_disc, i, j, {}, J, 0.0};
-    }
-
-    Event hit_wall(std::uint32_t i, double t) {
-        Disc& a = state_.discs[i];
-        const double since_last = t - last_collision(i);
-        bring_to(i, t);
-        const Vec2 from_centre = a.position - leg().position_at(t), u = leg().velocity_at(t);
-        const Surface surface =
-            surface_at_contact(state_.wall_surface, since_last, from_centre, u - a.velocity);
-        const Impulse J =
-            are_spheres() ? hit_wall(a, sphere_body(a), wall_for_spheres(u), from_centre, surface)
-                          : hit_wall(a, body(a), wall_body(u), from_centre, surface);
-        note_motion(i);
-        return {swirls_, t, EventKind::disc_wall, i, i, {}, J, 0.0};
-    }
-
-    Event begin_to_roll(std::uint32_t i) {
-        state_.discs[i] = set_rolling(disc(i), motions_[i], state_.floor, leg().velocity);
-        note_motion(i);
-        return {swirls_, disc(i).time, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
-    }
-
-    /// With the last leg of a swirl everybody is brought up to date and all clocks restart. The
-    /// floor takes another velocity at the end of each, which every sphere on it feels.
     Event end_leg() {
         const Event event{swirls_, leg().end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-        const bool is_last = ++leg_ == state_.path.legs.size();
-        if (is_last) {
-            leg_ = 0;
-            ++swirls_;
-        } else if (!are_spheres() || state_.floor.deceleration == 0.0) {
-            return event;
-        }
-        for (std::uint32_t i = 0; i < size_; ++i) {
-            bring_to(i, event.clock);
-            if (is_last) state_.discs[i].time = state_.discs[i].last_collision = 0.0;
-            note_motion(i);
-        }
+        leg_ = (leg_ + 1) % path_.legs.size();
+        if (leg_ == 0) ++swirls_;
+        bodies_.end_leg(event.clock, leg(), leg_ == 0);
         return event;
     }
 
-    InitialState state_;
+    ContainerPath path_;
+    ReferenceBodies bodies_;
     std::uint32_t size_;
-    std::vector<FloorMotion> motions_;  // of spheres
     std::size_t leg_ = 0;
     std::int64_t swirls_ = 0;
 };

@@ -26,6 +26,19 @@ def documented_calls():
                     yield words
 
 
+def commands_in_the_documents():
+    """The words of every command in the README and in docs/, a line or within backquotes."""
+    folder = os.path.join(SOURCE, "docs")
+    for path in [os.path.join(SOURCE, "README.md"),
+                 *(os.path.join(folder, name) for name in sorted(os.listdir(folder)))]:
+        if not path.endswith(".md"):
+            continue
+        with open(path, encoding="utf-8") as file:
+            text = file.read().replace("\\\n", " ")
+        for command in re.findall(r"(?:^|`)((?:(?:\./)?swirl|ffmpeg|node) [^`\n]+)", text, re.M):
+            yield shlex.split(command.replace("…", ""), comments=True)
+
+
 def swirl(*arguments, **more):
     return subprocess.run([SWIRL, "movie", *arguments], capture_output=True, text=True,
                           timeout=120, **more)
@@ -140,11 +153,33 @@ class MovieTest(unittest.TestCase):
         self.assertEqual(probe(made, entries), "gif,440,276,20/1,80")
         self.assertEqual(probe(kept, entries), probe(made, entries))
         self.assertLess(max(os.path.getsize(made), os.path.getsize(kept)), 1.5e6)
-        # Fonts and versions of cairo may differ, discs may not: the two look the same.
+        self.assert_looks_like(made, kept)
+
+    def assert_looks_like(self, made, kept):
+        """Fonts and versions of cairo may differ, discs may not."""
         seen = subprocess.run(["ffmpeg", "-v", "info", "-i", made, "-i", kept, "-lavfi", "psnr",
                                "-f", "null", "-"], capture_output=True, text=True, check=True).stderr
         found = re.search(r"PSNR.* min:(\S+)", seen)
-        self.assertGreater(float(found.group(1)), 25.0, "make docs/swirl.gif anew, as listed")
+        self.assertGreater(float(found.group(1)), 25.0, f"make {kept} anew, as listed")
+
+    def test_every_picture_of_the_documents_has_the_command_that_makes_it(self):
+        made = set()
+        for words in commands_in_the_documents():
+            made |= {os.path.basename(word) for word in words if word.startswith("docs/")}
+            if "--figure" in words:
+                made |= {f"figure_{word}.png" for word in words}
+        kept = {name for name in os.listdir(os.path.join(SOURCE, "docs"))
+                if name.endswith((".png", ".gif"))}
+        self.assertGreater(len(kept), 5)
+        self.assertEqual(kept - made, set())
+
+    def test_the_picture_of_the_spheres_comes_from_the_listed_call(self):
+        call, = {tuple(words[1:]) for words in commands_in_the_documents()
+                 if words[:2] == ["swirl", "picture"] and "docs/spheres.png" in words}
+        made = self.path("spheres.png")
+        result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_looks_like(made, os.path.join(SOURCE, "docs", "spheres.png"))
 
     def test_two_on_one_name_do_not_write_into_each_other(self):
         out = self.path("m.mp4")

@@ -109,10 +109,10 @@ class Site(unittest.TestCase):
             self.assertIn(command, text)
             src = picture[0] if picture else f"gallery/{command.split()[-1]}"
             self.assertIn(f'src="{src}"', text)
-        # Every picture of the documents is in it; that of the spheres is there as a film.
+        # Every picture of the documents is in it.
         of_documents = {f"docs/{name}" for name in os.listdir(os.path.join(SOURCE, "docs"))
                         if name.endswith((".png", ".gif"))}
-        self.assertEqual(of_documents - kept, {"docs/spheres.png"})
+        self.assertEqual(of_documents - kept, set())
 
     def test_notebooks_are_read_as_documents(self):
         path = os.path.join(self.site, "examples", "first_steps.ipynb.html")

@@ -1,0 +1,139 @@
+// What discs, coins and spheres do between two events and at each, as the reference asks it of them
+// (reference.hpp): the physics of one body after the other, straight from physics/.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/contact_time.hpp"
+#include "swirl/physics/initial_state.hpp"
+
+namespace swirl {
+
+class ReferenceBodies {
+  public:
+    explicit ReferenceBodies(const InitialState& initial)
+        : state_(initial),
+          motions_(initial.discs.size()),
+          floor_velocity_(initial.path.legs.front().velocity) {
+        for (std::uint32_t i = 0; i < size(); ++i) note_motion(i);
+    }
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(state_.discs.size()); }
+    const Disc& disc(std::size_t i) const { return state_.discs[i]; }
+
+    double meeting_time(std::uint32_t i, std::uint32_t j) const {
+        if (!are_spheres()) return time_of_contact(disc(i), disc(j));
+        return time_of_contact(
+            Encounter<double>(parabola(disc(i), motions_[i]), parabola(disc(j), motions_[j]),
+                              motions_[i].begins_to_roll, motions_[j].begins_to_roll,
+                              disc(i).radius + disc(j).radius));
+    }
+    double wall_time(std::uint32_t i, const Leg& leg) const {
+        if (!are_spheres()) return time_of_wall_contact(disc(i), leg, state_.container_radius);
+        return time_of_wall_contact(parabola(disc(i), motions_[i]), motions_[i].begins_to_roll, leg,
+                                    state_.container_radius - disc(i).radius);
+    }
+    double begins_to_roll(std::uint32_t i) const { return motions_[i].begins_to_roll; }
+
+    Impulse hit(std::uint32_t i, std::uint32_t j, double t) {
+        Disc &a = state_.discs[i], &b = state_.discs[j];
+        const double since_last = t - larger(last_collision(i), last_collision(j));
+        bring_to(i, t);
+        bring_to(j, t);
+        const Surface surface = surface_at_contact(
+            state_.disc_surface, since_last, b.position - a.position, b.velocity - a.velocity);
+        const Impulse J = are_spheres() ? hit(a, b, sphere_body(a), sphere_body(b), surface)
+                                        : hit(a, b, body(a), body(b), surface);
+        note_motion(i);
+        note_motion(j);
+        return J;
+    }
+    Impulse hit_wall(std::uint32_t i, double t, const Leg& leg) {
+        Disc& a = state_.discs[i];
+        const double since_last = t - last_collision(i);
+        bring_to(i, t);
+        const Vec2 from_centre = a.position - leg.position_at(t), u = leg.velocity_at(t);
+        const Surface surface =
+            surface_at_contact(state_.wall_surface, since_last, from_centre, u - a.velocity);
+        const Impulse J =
+            are_spheres() ? hit_wall(a, sphere_body(a), wall_for_spheres(u), from_centre, surface)
+                          : hit_wall(a, body(a), wall_body(u), from_centre, surface);
+        note_motion(i);
+        return J;
+    }
+    /// Says when.
+    double begin_to_roll(std::uint32_t i) {
+        state_.discs[i] = set_rolling(disc(i), motions_[i], state_.floor, floor_velocity_);
+        note_motion(i);
+        return disc(i).time;
+    }
+
+    /// With the last leg of a swirl everybody is brought up to date and all clocks restart. The
+    /// floor takes another velocity at the end of each, which every sphere on it feels.
+    void end_leg(double t, const Leg& next, bool ends_swirl) {
+        floor_velocity_ = next.velocity;
+        if (!ends_swirl && (!are_spheres() || state_.floor.deceleration == 0.0)) return;
+        for (std::uint32_t i = 0; i < size(); ++i) {
+            bring_to(i, t);
+            if (ends_swirl) state_.discs[i].time = state_.discs[i].last_collision = 0.0;
+            note_motion(i);
+        }
+    }
+
+  private:
+    /// Or coins.
+    bool are_spheres() const { return state_.shape != Shape::disc; }
+    /// What the floor does to sphere i from now on.
+    void note_motion(std::uint32_t i) {
+        if (are_spheres()) motions_[i] = floor_motion(disc(i), state_.floor, floor_velocity_);
+    }
+    /// When the last collision was that the TC model asks for.
+    double last_collision(std::uint32_t i) const {
+        return are_spheres() ? disc(i).last_collision : disc(i).time;
+    }
+    void bring_to(std::uint32_t i, double t) {
+        state_.discs[i] = are_spheres() ? moved_to(disc(i), motions_[i], t) : disc(i).at(t);
+    }
+    static Body body(const Disc& d) {
+        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
+    }
+    static SphereBody sphere_body(const Disc& d) { return {body(d), d.rolling_spin}; }
+    static void move_on(Disc& d, const Body& after) {
+        d.velocity = after.velocity;
+        d.spin = after.spin;
+    }
+    static void move_on(Disc& d, const SphereBody& after) {
+        move_on(d, static_cast<const Body&>(after));
+        d.rolling_spin = after.rolling_spin;
+        d.last_collision = d.time;
+    }
+    Surface surface_at_contact(const Surface& surface, double since_last, const Vec2& separation,
+                               const Vec2& relative_velocity) const {
+        return are_spheres() ? at_contact_on_floor(surface, since_last, state_.floor, separation,
+                                                   relative_velocity)
+                             : at_contact(surface, since_last);
+    }
+    template <class AnyBody>
+    static Impulse hit(Disc& a, Disc& b, AnyBody body_a, AnyBody body_b, const Surface& surface) {
+        const Impulse J = collide(body_a, body_b, b.position - a.position, surface);
+        move_on(a, body_a);
+        move_on(b, body_b);
+        return J;
+    }
+    template <class AnyBody>
+    static Impulse hit_wall(Disc& a, AnyBody body_a, AnyBody wall, const Vec2& from_centre,
+                            const Surface& surface) {
+        const Impulse J = collide(body_a, wall, from_centre, surface);
+        move_on(a, body_a);
+        return J;
+    }
+
+    InitialState state_;
+    std::vector<FloorMotion> motions_;  // of spheres
+    Vec2 floor_velocity_;
+};
+
+}  // namespace swirl
