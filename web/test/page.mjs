@@ -161,7 +161,7 @@ await page.waitForSelector('canvas[aria-label^="48 spheres"]');
 // What cannot be is said in a sentence, and mended.
 await page.fill("#parameter-discs", "1000");
 await page.waitForFunction(() => !document.getElementById("refusal").hidden);
-assert.match(await text("refusal"), /1000 discs do not fit/);
+assert.match(await text("refusal"), /1000 spheres do not fit/);
 await page.fill("#parameter-discs", "12");
 await page.waitForFunction(() => document.getElementById("refusal").hidden &&
     document.getElementById("command").textContent.includes("--discs 12 "));
