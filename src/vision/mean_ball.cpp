@@ -16,7 +16,7 @@ namespace {
 constexpr float nowhere = -1e30f;    // no excess there
 constexpr double step = 0.5;         // of the mean ball's grid, pixels
 constexpr double beyond = 3.5;       // pixels that are looked at outside of the edge
-constexpr double near_others = 2.5;  // pixels next to another ball that its blur reaches
+constexpr double near_others = 1.0;  // pixels next to another ball that its blur reaches
 constexpr double gain_varies = 0.2, mode_varies = 0.15;
 constexpr std::size_t modes = 4;
 /// Neighbouring pixels leave the same rest: texture, and what compression makes of it.
