@@ -24,6 +24,7 @@ constexpr std::size_t many_frames = 50, many_discs = 8;
 // Worth a remark.
 constexpr double loose_fit = 0.15;       // radii
 constexpr double phase_tolerance = 3.0;  // degrees
+constexpr double longest_window = 10.0;  // pictures: a jump spread over more is sharp no more
 
 template <class Holds>
 double share(const std::vector<double>& values, Holds holds) {
@@ -83,10 +84,16 @@ std::string smoothing_text(const TrackSmoothing& s) {
                   s.bend, s.window)
             : fmt::format("and were smoothed over {:.1f} pictures, to {:.2g} pixels", s.window,
                           s.place_error);
+    const char* const rounded =
+        s.window > longest_window
+            ? " Sharp turns are rounded over as many pictures: hardly any is sharp, and where "
+              "discs "
+              "become pinned is not told; the temperature is too low by a fifth."
+            : "";
     return fmt::format(
         "Places have a noise of {:.2g} pixels, {}; velocities are good to {:.2g} of the "
-        "container's, between collisions.\n",
-        s.noise, smoothed, s.velocity_error());
+        "container's, between collisions.{}\n",
+        s.noise, smoothed, s.velocity_error(), rounded);
 }
 
 /// Throws Failure where more than this share of the frames contradicts what was said.

@@ -73,14 +73,37 @@ Tracks seen(const std::vector<Snapshot>& frames, double noise) {
 
 struct Found {
     Estimate temperature, becoming_pinned, becoming_free;
+    Estimate wandered;  // square of the way relative to the dish, in a seventy-third of a swirl
+    Estimate speed;     // of the profile, the mean over its slices
 };
 
+/// Mean and mean error of a column over the rows that were visited.
+Estimate mean_of(const ReportTable& table, std::size_t column, std::size_t error) {
+    Estimate mean{0.0, 0.0};
+    double rows = 0.0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (!std::isfinite(table.at(row, error))) continue;
+        mean.mean += table.at(row, column);
+        mean.error += table.at(row, error);
+        rows += 1.0;
+    }
+    mean.mean /= rows, mean.error /= rows;
+    return mean;
+}
+
 Found found_in(const SnapshotSeries& series) {
-    const MeasuredSeries measured = measure_series(series, {"temperature", "pinned"});
+    const MeasuredSeries measured =
+        measure_series(series, {"temperature", "pinned", "diffusion", "profile"});
     const auto row = [&](std::size_t measurement, std::size_t at) {
         return measured.reports.at(measurement).report.rows.at(at).estimate;
     };
-    return {row(0, 0), row(1, 0), row(1, 1)};
+    const ReportTable& ways = measured.reports.at(2).report.tables.at(0);
+    const ReportTable& slices = measured.reports.at(3).report.tables.at(0);
+    return {row(0, 0),
+            row(1, 0),
+            row(1, 1),
+            {ways.at(0, 1), ways.at(0, 2)},
+            mean_of(slices, slices.columns.size() - 2, slices.columns.size() - 1)};
 }
 
 Found exactly(const std::vector<Snapshot>& frames) {
@@ -126,18 +149,38 @@ TEST(SmoothedTracks, TheTemperatureComesBack) {
     }
 }
 
+void expect_same(const Estimate& found, const Estimate& exact, double noise) {
+    EXPECT_LT(std::abs(found.mean - exact.mean), found.error + exact.error) << noise;
+}
+
+// Ways of few pictures hold the noise of both ends, and speeds are lengths, to which noise adds.
+TEST(SmoothedTracks, DiffusionAndTheSpeedOfTheProfileComeBackWithinTheirErrors) {
+    const Found exact = exactly(laboratory());
+    for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
+        const Found found = smoothed(laboratory(), noise);
+        expect_same(found.wandered, exact.wandered, noise);
+        expect_same(found.speed, exact.speed, noise);
+    }
+    const Found raw = found_in(series_of(seen(laboratory(), 0.4), scale_of(laboratory())));
+    EXPECT_GT(raw.wandered.mean - exact.wandered.mean, raw.wandered.error + exact.wandered.error);
+    EXPECT_GT(raw.temperature.mean, 2.0 * exact.temperature.mean);
+}
+
 std::string line_of(const char* how, double noise, const Found& found) {
     const auto text = [](const Estimate& e, int digits) {
-        return fmt::format("{:.{}f} ± {:.{}f}", e.mean, digits, e.error, digits);
+        return std::isfinite(e.mean) && e.error > 0.0  // a single turn has none
+                   ? fmt::format("{:.{}f} ± {:.{}f}", e.mean, digits, e.error, digits)
+                   : std::string("not told");
     };
-    return fmt::format("| {:.1f} | {} | {} | {} | {} |\n", noise, how, text(found.temperature, 3),
-                       text(found.becoming_pinned, 1), text(found.becoming_free, 1));
+    return fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", noise, how,
+                       text(found.temperature, 3), text(found.becoming_pinned, 1),
+                       text(found.becoming_free, 1), text(found.wandered, 4), text(found.speed, 3));
 }
 
 // The table of docs/camera.md, from "exactly" on.
 TEST(SmoothedTracks, TheTable) {
     std::string table = line_of("exactly", 0.0, exactly(laboratory()));
-    for (const double noise : {0.0, 0.1, 0.2}) {
+    for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
         const Tracks tracks = seen(laboratory(), noise);
         table += line_of("differences", noise, found_in(series_of(tracks, scale_of(laboratory()))));
         table += line_of("smoothed", noise, smoothed(laboratory(), noise));
