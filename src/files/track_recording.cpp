@@ -169,15 +169,24 @@ class TrackReader {
 void write_track_recording(const std::filesystem::path& path, const Tracks& tracks,
                            const std::vector<double>& times,
                            const std::vector<TrackColumn>& columns, const Provenance& provenance) {
-    Hdf5File file(partial_name(path), StagedFile::Mode::create);
-    h5md::create_head(file, h5md::tracks);
-    h5md::create_parameters(file, provenance);
-    TrackWriter writer(file, tracks);
-    writer.write_times(times);
-    writer.write_positions();
-    writer.write_ids();
-    for (const TrackColumn& column : columns) writer.write_column(column);
-    file.finish(path);
+    const std::filesystem::path partial = partial_name(path);
+    Hdf5File file(partial, StagedFile::Mode::create);
+    try {
+        h5md::create_head(file, h5md::tracks);
+        h5md::create_parameters(file, provenance);
+        TrackWriter writer(file, tracks);
+        writer.write_times(times);
+        writer.write_positions();
+        writer.write_ids();
+        for (const TrackColumn& column : columns) writer.write_column(column);
+        file.finish(path);
+    } catch (const FileError&) {
+        // Unlike a run's, tracks are written at once, and nobody goes on from a part of them.
+        std::error_code ignored;
+        std::filesystem::remove(partial, ignored);
+        std::filesystem::remove(partial.string() + ".journal", ignored);
+        throw;
+    }
 }
 
 bool is_track_recording(const std::filesystem::path& path) {

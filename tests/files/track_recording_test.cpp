@@ -65,6 +65,15 @@ TEST(TrackRecording, WhatIsWrittenIsReadToTheBit) {
     }
 }
 
+TEST(TrackRecording, NothingIsLeftOfOneThatCannotBeWritten) {
+    const Scratch scratch;
+    std::filesystem::create_directory(scratch / "tracks.h5");  // cannot be replaced by a file
+    EXPECT_THROW(write(scratch / "tracks.h5"), FileError);
+    const std::filesystem::directory_iterator left(
+        std::filesystem::path(scratch / "tracks.h5").parent_path());
+    EXPECT_EQ(std::distance(begin(left), end(left)), 1);
+}
+
 TEST(TrackRecording, ADiscKeepsItsPlaceInTheRowAndStepAndTimeAreThePictures) {
     const Scratch scratch;
     write(scratch / "tracks.h5");
