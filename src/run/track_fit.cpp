@@ -21,6 +21,8 @@ constexpr double sticks_out = 0.2, lie_in_each_other = 0.85;
 // Swirled discs are flung against the wall and each other all the time.
 constexpr double far_from_wall = 0.5, far_apart = 1.15, hardly_ever = 0.1;
 constexpr std::size_t many_frames = 50, many_discs = 8;
+// Of a cause: radii.
+constexpr double off_centre = 0.7, steady = 0.35;
 // Worth a remark.
 constexpr double loose_fit = 0.15;       // radii
 constexpr double phase_tolerance = 3.0;  // degrees
@@ -29,6 +31,12 @@ constexpr double longest_window = 10.0;  // pictures: a jump spread over more is
 template <class Holds>
 double share(const std::vector<double>& values, Holds holds) {
     return double(std::count_if(values.begin(), values.end(), holds)) / double(values.size());
+}
+
+double quantile_of(std::vector<double> values, double share) {
+    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 /// In the picture, which is mirrored where the swirl ran clockwise.
@@ -96,9 +104,20 @@ std::string smoothing_text(const TrackSmoothing& s) {
         s.noise, smoothed, s.velocity_error(), rounded);
 }
 
+/// What the distances of discs say of the scale.
+std::string scale_advice(const TrackFit& fit, const TrackScale& scale) {
+    const double closest = fit.closest_pair * fit.disc_radius;
+    if (!fit.pairs_known || std::abs(closest - 1.0) <= 0.5 * loose_fit) return "";
+    return fmt::format(
+        " The discs' centres come to {:.3g} radii of each other, and where discs touch it is 2: "
+        "--scale {:.3g} would let them.",
+        2.0 * closest, scale.pixels_per_radius * closest);
+}
+
 /// Throws Failure where more than this share of the frames contradicts what was said.
 void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
     const auto frames = [](double part) { return fmt::format("{:.0f} %", 100.0 * part); };
+    const std::string advice = scale_advice(fit, scale);
     if (fit.overlapping > share)
         throw Failure(fmt::format(
             "Discs lie in each other in {} of the frames, their centres {:.3g} radii apart where "
@@ -111,14 +130,16 @@ void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
             "Discs stick out of the dish in {} of the frames, by {:.2g} radii in the median: "
             "--scale, --centre, --phase, --amplitude, --container-radius, --omega, --camera-fps "
             "or --clockwise is wrong.{} (--misfit gives the share of frames that may say so.)",
-            frames(fit.outside), std::max(-fit.wall_gap, 0.0), fit.advice));
+            frames(fit.outside), std::max(-fit.wall_gap, 0.0),
+            advice.empty() ? fit.advice : advice));
     if (share >= 1.0) return;
     if (fit.never_at_wall)
         throw Failure(fmt::format(
             "The discs hardly ever come near the wall, {:.2g} radii from it in the median, but a "
-            "swirl flings them there: --container-radius {} or --scale {} is too large. (--misfit "
+            "swirl flings them there: --container-radius {} or --scale {} is too large.{} "
+            "(--misfit "
             "1 takes it as it is.)",
-            fit.wall_gap, scale.container_radius, scale.pixels_per_radius));
+            fit.wall_gap, scale.container_radius, scale.pixels_per_radius, advice));
     if (fit.never_touching)
         throw Failure(fmt::format(
             "No two discs touch, their centres are {:.3g} radii apart at least in the median: "
@@ -129,11 +150,12 @@ void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
 
 }  // namespace
 
-TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
-    std::vector<double> gaps, pairs;
+TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale, bool y_down) {
+    std::vector<double> gaps, pairs, radii;
     FittingPhase fitting;
     std::size_t discs = 0;
     double last = 0.0;
+    Vec2 middle{0.0, 0.0};
     const std::uint64_t per_frame = std::max<std::uint64_t>(series.frame(0).size(), 1);
     const std::uint64_t count = std::clamp<std::uint64_t>(most_positions / per_frame, 1,
                                                           std::min(most_frames, series.frames));
@@ -141,6 +163,9 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
         const Snapshot s = series.frame(k * series.frames / count);
         if (s.size() == 0) continue;
         gaps.push_back(wall_gap(s));
+        radii.push_back(s.radius[0]);
+        for (std::size_t i = 0; i < s.size(); ++i)
+            middle = middle + (1.0 / double(s.size()) / double(count)) * s.position(i);
         if (s.size() > 1) pairs.push_back(closest_pair(s));
         if (scale.amplitude > 0.0) fitting.sample(s);
         discs = std::max(discs, s.size());
@@ -157,6 +182,7 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
     if (!pairs.empty()) {
         fit.overlapping = share(pairs, [](double pair) { return pair < lie_in_each_other; });
         fit.closest_pair = median(pairs);
+        fit.disc_radius = median(radii);
         fit.pairs_known = discs >= many_discs;
         fit.never_touching = swirled && discs >= many_discs && share(pairs, [](double pair) {
                                                                    return pair < far_apart;
@@ -181,6 +207,17 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale) {
             degrees_in_picture(reverse.phase, scale.clockwise));
     else if (!fit.phase_fits && found.protrusion < 0.2 * given)
         fit.advice = fmt::format(" The phase that fits best is --phase {:.0f}.", fit.fitting_phase);
+    else if (swirled && std::sqrt(dot(middle, middle)) > off_centre)
+        fit.advice = fmt::format(
+            " The middle of all places of discs lies at {:.0f},{:.0f}, and of whole swirls it is "
+            "the --centre.",
+            scale.swirl_centre.x +
+                scale.pixels_per_radius * (scale.clockwise ? -middle.x : middle.x),
+            scale.swirl_centre.y + scale.pixels_per_radius * (y_down ? -middle.y : middle.y));
+    else if (quantile_of(gaps, 0.9) - quantile_of(gaps, 0.1) < steady)
+        fit.advice = fmt::format(
+            " They do so by the same all the way round: --container-radius {:.3g} would hold them.",
+            scale.container_radius - fit.wall_gap);
     return fit;
 }
 
@@ -193,7 +230,7 @@ SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoo
 
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit) {
     FittedSeries fitted;
-    fitted.fit = fit_of(series_of(tracks, scale), scale);
+    fitted.fit = fit_of(series_of(tracks, scale), scale, tracks.y_down);
     refuse_misfit(fitted.fit, scale, misfit);
     fitted.series = smoothed_series(tracks, scale, fitted.smoothing);
     fitted.remarks = mended_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);

@@ -20,12 +20,14 @@ struct TrackFit {
     bool never_at_wall = false, never_touching = false;  // in nine frames of ten, of many
     double wall_gap = 0.0;                               // radii, of the frames the median
     double closest_pair = 1.0;                // in sums of radii, of the frames the median
+    double disc_radius = 1.0;                 // of one that is told with the places, the median
     double phase = 0.0, fitting_phase = 0.0;  // of the picture, degrees
     bool phase_fits = true;                   // hardly better with the fitting one
     std::string advice;                       // of the phase, where it does not fit
 };
 
-TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale);
+/// `y_down`: in the picture that the advice is for.
+TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale, bool y_down);
 
 struct FittedSeries {
     SnapshotSeries series;

@@ -540,6 +540,20 @@ Covered covered(const TrackedFilm& film) {
     return longest;
 }
 
+/// Share of the rim's way, over all of a swirl, that lies outside of the picture.
+double cut_off(const TrackedFilm& film) {
+    constexpr int steps = 36;
+    int out = 0;
+    for (int a = 0; a < steps; ++a)
+        for (int b = 0; b < steps; ++b) {
+            const Vec2 p = film.lens.seen(film.path.centre - film.rim_shift +
+                                          film.path.amplitude * unit_circle(double(a) / steps) +
+                                          film.rim_radius * unit_circle(double(b) / steps));
+            if (p.x < 0.0 || p.y < 0.0 || p.x > film.width - 1.0 || p.y > film.height - 1.0) ++out;
+        }
+    return double(out) / (steps * steps);
+}
+
 /// What looks wrong, with its likely cause.
 void warn(TrackedFilm& film) {
     const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
@@ -584,8 +598,14 @@ void warn(TrackedFilm& film) {
         say("The dish looks longest in another direction than a tilted camera would make it: it is "
             "not round, or its rim not flat. Distances in the two directions cannot be compared to "
             "better than that.");
+    const double cut = cut_off(film);
+    if (cut > 0.005)
+        say(fmt::format(
+            "The dish is not wholly in the picture: {:.0f} % of its rim's way lies outside. Discs "
+            "there are not seen, and the rest is judged by a part; film all of it.",
+            std::max(100.0 * cut, 1.0)));
     const Covered hand = covered(film);
-    const bool hidden = hand.end - hand.begin >= 4;
+    const bool hidden = hand.end - hand.begin >= 4 && cut <= 0.005;
     if (hidden)
         say(fmt::format(
             "In pictures {} to {} about {:.0f} % of the discs are missing at once: something was "

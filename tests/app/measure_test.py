@@ -123,16 +123,16 @@ class MeasureTest(InFolder):
         self.assertLess(abs(math.remainder(float(fitting), 360.0)), 4.0)
         wrong("stick out", "--phase", phase=180)
         wrong("stick out", "without --clockwise", options=["--clockwise"], phase=180)
-        wrong("stick out", "--scale", scale=0.9 * SCALE)
+        wrong("stick out", "would let them", scale=0.9 * SCALE)
         touch = wrong("lie in each other", "--scale", scale=2 * SCALE)
         self.assertAlmostEqual(float(touch.split("too large; ")[1].split(" ")[0]), SCALE, delta=0.5)
-        wrong("stick out", "--container-radius", container_radius=8)
+        wrong("stick out", "all the way round: --container-radius", container_radius=8)
         wrong("hardly ever come near the wall", "--container-radius 10", container_radius=10)
         wrong("hardly ever come near the wall", scale=0.5 * SCALE, container_radius=2 * RADIUS,
               amplitude=2 * AMPLITUDE)
         wrong("stick out", "--amplitude", amplitude=0)
         wrong("stick out", "--omega", omega=0.9 * OMEGA)
-        wrong("stick out", "--centre", centre="330,280")
+        wrong("stick out", "it is the --centre", centre="330,280")
         # Whoever knows better may say so.
         self.measured(misfit=1, phase=75, **good)
         report = swirl("measure", self.path("tracks.csv"), "--camera-fps", FPS, "--scale", SCALE,

@@ -346,6 +346,8 @@ class FilmTest(InFolder):
         after = places(tracks)
         for frame in range(48, 70):
             self.assertEqual(len(after[frame]), 20, frame)  # all are found again
+        _, said = changed("cut.mp4", "-vf", "crop=150:240:0:0", "-qp", "14")
+        self.assertIn("not wholly in the picture", said)
         _, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",
                           "-qp", "14")
         self.assertIn("frame rate varies", said)
