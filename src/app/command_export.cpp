@@ -83,8 +83,12 @@ void export_file(const ExportCall& call) {
                                     call.range, call.file, series.frames - 1));
     const std::uint64_t frames = exported_frames(series, options);
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
+    const std::atomic<bool>& stop = stop_signal();
+    options.listen = [&stop] {
+        if (stop.load()) throw Interrupted("Stopped; nothing was written.");
+    };
     options.done = [&](std::uint64_t done) {
-        if (stop_signal().load()) throw Interrupted("Stopped; nothing was written.");
+        options.listen();
         line.show(double(done) / double(frames), fmt::format("frame {}", done));
     };
     export_series(series, *format, out, options);

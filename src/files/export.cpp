@@ -71,6 +71,7 @@ void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOpt
             : s.turned.empty() ? "omegaz omegax omegay"
                                : "omegaz omegax omegay quatw quati quatj quatk");
         for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
             const Vec2 p = s.position(i);
             add(text, "{} {} {} {} 0 {} {} 0 {} {} {}", i + 1, species[i] + 1, p.x, p.y, s.vx[i],
                 s.vy[i], s.radius[i], s.mass[i], known(s.spin[i]));
@@ -96,6 +97,7 @@ void write_xyz(const SnapshotSeries& series, WholeFile& file, const ExportOption
             s.size(), s.are_spheres() ? 3 : 1, s.turned.empty() ? "" : ":orientation:R:4",
             s.time());
         for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
             const Vec2 p = s.position(i);
             add(text, "D{} {} {} 0 {} {} 0 ", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i]);
             if (s.are_spheres()) add(text, "{} {} ", s.spin_x[i], s.spin_y[i]);
@@ -115,6 +117,7 @@ void write_csv(const SnapshotSeries& series, WholeFile& file, const ExportOption
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
         for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{}\n", k, i, (series.reach + p.x) * options.pixels_per_radius,
                 (series.reach - p.y) * options.pixels_per_radius);
@@ -141,6 +144,7 @@ void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOpti
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
         for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{},{},{},{},{}", k, s.time(), double(s.swirls) + s.clock / s.period,
                 s.container_centre.x, s.container_centre.y, i, p.x, p.y);

@@ -41,6 +41,11 @@ struct ExportOptions {
     std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max(), stride = 1;
     /// Called after each frame with how many there are so far; may throw to stop.
     std::function<void(std::uint64_t)> done = {};
+    /// The same within a frame, of which there may be millions of lines: asked for some of them.
+    std::function<void()> listen = {};
+    void listen_at(std::size_t disc) const {
+        if (disc % 4096 == 0 && listen) listen();
+    }
 };
 
 struct ExportFormat {

@@ -216,5 +216,16 @@ TEST(Checkpoint, OfAMillionDiscsTakesLessThanTwoSeconds) {
     RecordProperty("seconds", std::to_string(taken));
 }
 
+TEST(EventLog, WithMoreVerticesThanItsFloorHasLegsIsRefused) {
+    Disc sphere{};
+    sphere.radius = sphere.mass = sphere.inertia = 1.0;
+    Replay replay({sphere}, 10.0, MovingFloor{{2.0, false}, {{1.0, 0.0}, {0.0, 1.0}}});
+    const auto vertex = [](double clock) {
+        return Event{0, clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    };
+    replay.apply(vertex(2.0));
+    EXPECT_THROW(replay.apply(vertex(4.0)), FileError);
+}
+
 }  // namespace
 }  // namespace swirl

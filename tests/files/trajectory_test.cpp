@@ -64,6 +64,26 @@ TEST(Trajectory, IsWrittenByteForByteTheSameTwice) {
     EXPECT_EQ(read_whole_file(known_trajectory(a)), read_whole_file(known_trajectory(b)));
 }
 
+TEST(Trajectory, ExportListensWithinAFrameOfManyDiscs) {
+    const Scratch scratch;
+    constexpr std::size_t many = 20'000;
+    TrajectoryWriter writer(scratch / "t.h5", known_frame(many, 0), {});
+    writer.write(known_frame(many, 0), 0);
+    writer.finish();
+    const auto series = series_of(std::make_shared<TrajectoryReader>(scratch / "t.h5"));
+    for (const char* format : {"lammps", "xyz", "csv", "table"}) {
+        struct Stopped {};
+        int questions = 0;
+        ExportOptions options;
+        options.listen = [&] {
+            if (++questions == 4) throw Stopped();
+        };
+        EXPECT_THROW(export_series(series, *export_format(format), scratch / "out", options),
+                     Stopped);
+    }
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 // A run that goes on moves what a reader has looked up; he is told so, and given no frame of
 // another place.
 TEST(Trajectory, ThatGrowsWhileItIsReadIsNotReadOn) {
