@@ -116,7 +116,11 @@ def note_not_steady(drawing, rows):
 
 
 def curve(axes, rows, x, y, **look):
-    """One line with its errors, and rings where the run is not steady."""
+    """One line with its errors, and rings where the run is not steady; its name alone where no run has an
+    average."""
+    if not np.isfinite(column(rows, y)).any():
+        axes.errorbar([], [], **look)
+        return
     axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"),
                   elinewidth=0.7, **look)
     ring(axes, rows, x, y)

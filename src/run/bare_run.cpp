@@ -15,7 +15,8 @@ namespace {
 /// An average by event looks at all discs after each of them.
 int events_between_looks(std::size_t discs) {
     constexpr std::size_t discs_looked_at = 1 << 22;
-    return static_cast<int>(std::clamp<std::size_t>(discs_looked_at / discs, 1, 256));
+    return static_cast<int>(
+        std::clamp<std::size_t>(discs_looked_at / std::max<std::size_t>(discs, 1), 1, 256));
 }
 
 }  // namespace

@@ -214,6 +214,12 @@ class Drawings(unittest.TestCase):
         empty = [row | {"visits": 0, "u_x": math.nan} for row in rows]
         self.assertEqual(style.blocks(empty, 2), [])
 
+    def test_runs_too_short_for_any_average_are_drawn_as_nothing(self):
+        none = {name: math.nan for name in ("by_time", "by_time_error", "by_event", "by_event_error")}
+        for name in ("5b", "spheres"):
+            drawing = self.drawn(name, [row | none for row in TABLES[name]])
+            self.assertTrue(drawing.axes[0].get_legend() or drawing.legends, name)
+
     def test_spheres_all_near_zero_need_no_second_scale(self):
         near = curves("mu", (0.5,), range(8, 56, 4))
         near = [row | {"by_time": -0.05} for row in near]

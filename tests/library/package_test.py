@@ -92,7 +92,7 @@ class Installed(unittest.TestCase):
         work = os.path.join(self.folder, "work")
         os.mkdir(work)
         os.chmod(work, 0o777)
-        output_of(self.program, "paper", "--figure", "5b", "--quick", "--events", 300, cwd=work,
+        output_of(self.program, "paper", "--figure", "5b", "--quick", "--events", 2000, cwd=work,
                   env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **somebody_without_rights())
         with open(os.path.join(work, "out", "figure_5b.csv"), newline="") as file:
             self.assertGreater(len(list(csv.DictReader(file))), 10)

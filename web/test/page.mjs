@@ -128,7 +128,7 @@ assert.ok(painted > 5, `the canvas shows ${painted} shades`);
 // Every number has a slider, and what the slider says stands in the field.
 const withoutSlider = await page.$$eval("#parameters .row", (all) => all
     .filter((row) => !row.querySelector("input[type=range]"))
-    .map((row) => row.querySelector("input[type=text]").id.replace("parameter-", "")));
+    .map((row) => row.querySelector("input[type=text], select").id.replace("parameter-", "")));
 assert.deepEqual(withoutSlider, ["preset", "body", "mixture", "floor", "path"]);
 const ofMuWall = page.locator(".row:has(#parameter-mu_wall) input[type=range]");
 assert.deepEqual([await ofMuWall.getAttribute("max"), await ofMuWall.getAttribute("step")], ["2", "0.05"]);
