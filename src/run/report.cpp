@@ -63,8 +63,11 @@ std::string steady_text(const RunResult& r) {
     const std::string found = verdict(r.steady_state());
     if (std::isnan(r.steady.drift) && std::isnan(r.steady_spin.drift)) return found;
     return fmt::format(
-        "{}; first and last part differ by {:.1f} standard errors, of the spins by {:.1f}", found,
-        std::fabs(r.steady.drift), std::fabs(r.steady_spin.drift));
+        "{}; first and last part differ by {:.1f} standard errors, of the spins by {:.1f} (up to "
+        "{:.1f} may "
+        "be chance)",
+        found, std::fabs(r.steady.drift), std::fabs(r.steady_spin.drift),
+        std::min(r.steady.most_drift, r.steady_spin.most_drift));
 }
 
 }  // namespace
