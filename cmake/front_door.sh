@@ -111,7 +111,7 @@ report_progress() {
 # Returns at once if build/PRESET (of it, those targets) is newer than everything it was made of.
 build() {
     folder=$home/build/$1
-    stamp="$folder/.built${4:+ $4}"
+    stamp="$folder/.built${4:+ $4}${settings:+ $settings}"
     # shellcheck disable=SC2046,SC2086
     if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
 
@@ -147,7 +147,7 @@ build() {
     reporter=$!
     built=yes
     # shellcheck disable=SC2086
-    (cd "$home" && cmake --preset "$1") >>"$log" 2>&1 &&
+    (cd "$home" && cmake --preset "$1" ${settings-}) >>"$log" 2>&1 &&
         cmake --build "$folder" ${4:+--target} ${4-} >>"$log" 2>&1 || built=no
     kill "$reporter" 2>/dev/null || true
     if [ $built = no ]; then

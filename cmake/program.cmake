@@ -55,12 +55,15 @@ swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
 swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
 # The camera's floor is built where OpenCV is (section [camera] of `packages`); without it the rest
 # is, and `swirl track` says what is missing.
+option(SWIRL_CAMERA "Build `swirl track` where OpenCV is" ON)
 # (Debian has the CMake files of OpenCV in a package that takes all of it along.)
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
 find_library(opencv_imgproc_library opencv_imgproc)
-if(opencv_include AND opencv_core_library AND opencv_imgproc_library)
-  set(SWIRL_CAMERA ON)
+if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library))
+  set(SWIRL_CAMERA OFF)
+endif()
+if(SWIRL_CAMERA)
   swirl_floor(vision -O3 PUBLIC swirl_run swirl_draw Threads::Threads
     PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
   target_include_directories(swirl_vision SYSTEM PUBLIC ${opencv_include})

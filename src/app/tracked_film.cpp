@@ -28,8 +28,9 @@ namespace swirl {
 
 void throw_no_eyes() {
     throw Failure(
-        "This build of swirl has no eyes: it was made without OpenCV. Install libopencv-core-dev "
-        "and libopencv-imgproc-dev, and build again; ./swirl track does both.");
+        "This build of swirl has no eyes: it was made without OpenCV, or with SWIRL_CAMERA=OFF. "
+        "Install libopencv-core-dev and libopencv-imgproc-dev, and build again; ./swirl track does "
+        "both.");
 }
 
 void check_film_options(const std::optional<double>& fps,

@@ -15,6 +15,8 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
+option(SWIRL_CAMERA "" ON)
+target_compile_definitions(swirl PRIVATE CAMERA="${SWIRL_CAMERA}")
 """
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
  "binaryDir": "${sourceDir}/build/release"}]}"""
@@ -23,6 +25,7 @@ PROGRAM = """#include <cstdio>
 #include <cstring>
 #include <unistd.h>
 int main(int argc, char** argv) {
+    if (argc > 2 && std::strcmp(argv[2], "camera") == 0) std::puts(CAMERA);
     std::printf("%s %d\\n", "WORD", int(getpid()));
     std::fflush(stdout);
     if (argc > 2 && std::strcmp(argv[2], "wait") == 0) pause();
@@ -118,6 +121,20 @@ class FrontDoor(InFolder):
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=20)
         self.assertEqual(process.returncode, -signal.SIGTERM)
+
+    def test_the_camera_is_built_when_first_asked_for_and_stays(self):
+        def camera(subcommand):
+            done = self.call(subcommand, "camera")
+            return done.stdout.split()[0], "building" in done.stderr
+        # (What the small program makes of the words "run" and "track" is an exit code of 0.)
+        self.assertEqual(camera("run"), ("OFF", True))
+        self.assertEqual(camera("run"), ("OFF", False))
+        self.assertEqual(camera("track"), ("ON", True))
+        self.assertEqual(camera("track"), ("ON", False))
+        self.assertEqual(camera("run"), ("ON", False))
+        self.write_program("second")
+        self.assertEqual(camera("run")[0], "ON")
+        self.assertEqual(self.word(), "second")
 
     def test_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
