@@ -10,6 +10,7 @@
 #include "calls.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/crossing.hpp"
 #include "swirl/study/sweep.hpp"
 

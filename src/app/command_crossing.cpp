@@ -10,7 +10,7 @@
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/study/crossing.hpp"
-#include "swirl/study/sweep.hpp"
+#include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
 namespace {

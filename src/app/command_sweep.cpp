@@ -14,6 +14,7 @@
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
 

@@ -4,7 +4,7 @@
 #include "fuzzed_file.hpp"
 #include "swirl/files/file_error.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/study/sweep.hpp"
+#include "swirl/study/sweep_plan.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;

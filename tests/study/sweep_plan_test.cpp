@@ -5,7 +5,7 @@
 #include "files/scratch.hpp"
 #include "swirl/files/file_error.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/study/sweep.hpp"
+#include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
 namespace {

@@ -1,0 +1,41 @@
+// The table of a sweep: what its runs found, over the replicas.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "swirl/files/table.hpp"
+#include "swirl/measure/statistics.hpp"
+#include "swirl/study/sweep_plan.hpp"
+
+namespace swirl {
+
+struct CollectedRow {
+    ParameterTexts parameters;
+    Estimate by_time;  // of the rotation, over the replicas
+};
+
+struct CollectedSweep {
+    Table table;
+    std::vector<CollectedRow> rows = {};
+    std::size_t disagreeing = 0;  // whose replicas scatter more than their own errors can explain
+    std::size_t not_steady = 0;   // with a replica that drifts or is too short to tell
+    /// Runs without a whole swirl after the warm-up: there is nothing to average of them.
+    std::size_t without_swirl = 0;
+    std::set<std::string> versions = {};  // of the programs that made the runs
+};
+
+/// One row for each combination of parameters: mean over the replicas that are done, and its
+/// standard error within and between them (measure/several_runs.hpp), of the rotation and of every
+/// number that was measured; whether all are steady; and the scatter of the replicas' rotation by
+/// time in units of their own errors. The same bytes whoever did the work. Throws FileError for a
+/// result that is damaged or of another version.
+CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
+
+/// Where the rotation of a collected sweep changes its sign: a row for each combination of the
+/// parameters but the number of discs. Throws WrongCall if that is none of them.
+Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected);
+
+}  // namespace swirl
