@@ -35,11 +35,11 @@
 //
 //     s_t = (v_j − v_i)·r + R_i ω_i + R_j ω_j  (ω_z)      s_z = −(R_i h_i + R_j h_j).
 //
-// Two spheres that roll towards each other both have h > 0 and rub; a rolling sphere meets the wall
-// with s_z equal to its speed into the wall. The sphere stays on the floor, which takes vertical
-// impulses as it carries the weight; so against J_z only the spins give way, both by
-// −(R/I) J_z (n_y, −n_x). Each component has an effective mass of its own, and what brings both
-// slips to zero is
+// A rolling sphere has R h = −v·n (v over the floor). Two rub with s_z = (v_i + v_j)·n: not at all
+// head-on, most one behind the other; and one at the wall with its speed into it. They stay on the
+// floor, which takes vertical impulses as it carries the weight; so against J_z only the spins give
+// way, both by −(R/I) J_z (n_y, −n_x). Each component has an effective mass of its own, and what
+// brings both slips to zero is
 //
 //     J* = −(m_t s_t, m_z s_z),    1/m_t = 1/m_i + 1/m_j + R_i²/I_i + R_j²/I_j,
 //                                  1/m_z = R_i²/I_i + R_j²/I_j.
