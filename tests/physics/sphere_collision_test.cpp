@@ -103,6 +103,28 @@ RC_GTEST_PROP(SphereCollision, ImpulsesChangeVelocitiesAndSpinsAsForcesAtTheCont
     check(before.j, after.j, 1.0, -before.j.radius);
 }
 
+// About any vertical axis; about horizontal ones the floor's reaction to J_z has a torque.
+RC_GTEST_PROP(SphereCollision, MomentumAndVerticalAngularMomentumOfTwoAreConserved, ()) {
+    Collision c = draw_collision(false);
+    const Vec2 place = draw_vector(5.0);  // of i
+    const auto momentum = [&] {
+        return (1.0 / c.i.inverse_mass) * c.i.velocity + (1.0 / c.j.inverse_mass) * c.j.velocity;
+    };
+    const auto angular_momentum = [&] {
+        return cross(place, c.i.velocity) / c.i.inverse_mass +
+               cross(place + c.separation, c.j.velocity) / c.j.inverse_mass +
+               c.i.spin / c.i.inverse_inertia + c.j.spin / c.j.inverse_inertia;
+    };
+    const Vec2 p = momentum();
+    const double L = angular_momentum();
+    collide(c.i, c.j, c.separation, c.surface);
+    const Vec2 lost = momentum() - p;
+    RC_ASSERT(std::abs(lost.x) < 10.0 * rounding);
+    RC_ASSERT(std::abs(lost.y) < 10.0 * rounding);
+    // Momenta of up to 10 at places up to 10 away.
+    RC_ASSERT(std::abs(angular_momentum() - L) < 100.0 * rounding);
+}
+
 RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
     Collision c = draw_collision();
     const double before = c.energy();

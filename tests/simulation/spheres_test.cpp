@@ -57,13 +57,13 @@ TEST_P(SpheresInEveryWidth, SlowEngineIsTheReferenceBitForBitOverAHundredThousan
 }
 INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth, every_width(), width_name);
 
-// Without a floor and without friction at the contacts, spheres are discs.
-TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
-    InitialState discs = sphere_dish(28, 0.0, 0.0), spheres = discs;
+/// Spheres and discs of the same masses and moments of inertia go the same way to the last bit; of
+/// their spins, that about the vertical does.
+void expect_spheres_are_discs_bit_for_bit(const InitialState& spheres, int events) {
+    InitialState discs = spheres;
     discs.shape = Shape::disc;
-    for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
     Simulation a(discs), b(spheres);
-    for (int k = 0; k < 20000; ++k) {
+    for (int k = 0; k < events; ++k) {
         const Event expected = a.step(), found = b.step();
         ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
         ASSERT_EQ(expected.i, found.i);
@@ -72,8 +72,34 @@ TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
     for (std::size_t i = 0; i < discs.discs.size(); ++i) {
         const Disc disc = a.disc(i), sphere = b.disc(i);
         ASSERT_TRUE(same_bits(disc.position.x, sphere.position.x));
+        ASSERT_TRUE(same_bits(disc.position.y, sphere.position.y));
+        ASSERT_TRUE(same_bits(disc.velocity.x, sphere.velocity.x));
         ASSERT_TRUE(same_bits(disc.velocity.y, sphere.velocity.y));
-        ASSERT_EQ(sphere.rolling_spin.x, 0.7);
+        ASSERT_TRUE(same_bits(disc.spin, sphere.spin));
+        // Nothing turns it about the other axes.
+        ASSERT_EQ(sphere.rolling_spin.x, spheres.discs[i].rolling_spin.x);
+        ASSERT_EQ(sphere.rolling_spin.y, spheres.discs[i].rolling_spin.y);
+    }
+}
+// Without a floor and without friction at the contacts, or without its vertical part, spheres are
+// discs.
+TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
+    for (const std::size_t n : {2u, 5u, 28u, 48u}) {
+        InitialState spheres = sphere_dish(n, 0.0, 0.0);
+        for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
+        expect_spheres_are_discs_bit_for_bit(spheres, 20000);
+    }
+    InitialState mixture = sphere_mixture();
+    mixture.floor.deceleration = 0.0;
+    mixture.disc_surface.mu = mixture.wall_surface.mu = 0.0;
+    expect_spheres_are_discs_bit_for_bit(mixture, 20000);
+}
+TEST(Spheres, WithoutFloorAndVerticalFrictionTheyAreDiscsBitForBit) {
+    for (InitialState spheres : {sphere_dish(28, 0.0, 0.5), sphere_mixture()}) {
+        spheres.floor.deceleration = 0.0;
+        for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
+        spheres.disc_surface.vertical_friction = spheres.wall_surface.vertical_friction = 0.0;
+        expect_spheres_are_discs_bit_for_bit(spheres, 20000);
     }
 }
 
@@ -164,6 +190,48 @@ TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
         EXPECT_NEAR(simulation.disc(0).velocity.x, expected.x, 1e-13);
         EXPECT_NEAR(simulation.disc(0).velocity.y, expected.y, 1e-13);
     }
+}
+
+// The limits: a floor that hardly rubs is none, to the first order of what it does; on one that
+// rubs much a sphere rolls, but for a share of the time that goes with 1/(μ_f g).
+TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
+    const auto after = [](double deceleration) {
+        Simulation simulation(sphere_dish(5, deceleration));
+        simulation.advance_to(0, 6.0);
+        return simulation.snapshot();
+    };
+    const Snapshot none = after(0.0);
+    const auto distance = [&](double deceleration) {
+        const Snapshot s = after(deceleration);
+        double most = 0.0;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec2 off = s.position(i) - none.position(i);
+            most = std::max(most, std::hypot(off.x, off.y));
+        }
+        return most;
+    };
+    const double at_1e6 = distance(1e-6);
+    EXPECT_GT(at_1e6, 1e-7);  // it does something: ½ a t² is 2·10⁻⁵
+    EXPECT_LT(at_1e6, 1e-2);
+    // A thousandth of the friction, a thousandth of the way: up to the roundings of the second.
+    EXPECT_NEAR(distance(1e-9) / at_1e6, 1e-3, 1e-5);
+
+    const auto rolling_share = [](double deceleration) {
+        Simulation simulation(sphere_dish(5, deceleration));
+        int rolls = 0, all = 0;
+        for (int k = 1; k <= 400; ++k) {
+            simulation.advance_to(k / 40, paper_period * (k % 40) / 40.0 + 0.013);
+            const Snapshot s = simulation.snapshot();
+            for (std::size_t i = 0; i < s.size(); ++i, ++all) {
+                const Disc d = s.disc(i);
+                const Vec2 c = slip_on_floor(d, s.container_velocity);
+                rolls += std::hypot(c.x, c.y) < 1e-12 ? 1 : 0;
+            }
+        }
+        return double(rolls) / all;
+    };
+    EXPECT_LT(rolling_share(0.01), 0.2);
+    EXPECT_GT(rolling_share(100.0), 0.9);
 }
 
 /// The same sphere by small steps: no events, the friction of the floor as a force.
