@@ -93,8 +93,9 @@ void make_paper(PaperCall& call) {
     if (call.figures.empty())
         for (const auto& file : write_report(result, call.settings, command_line()))
             files.push_back(file);
-    if (result.failed > 0)
-        text += fmt::format("{} of the runs failed; their places are empty.\n", result.failed);
+    // What failed stands with each figure; of several figures, which share runs, it is counted.
+    if (result.failed > 0 && result.figures.size() > 1)
+        text += fmt::format("{} of all runs failed, as said above.\n", result.failed);
     text += fmt::format("{} runs{} in {}.\n", result.tasks,
                         result.remembered > 0
                             ? fmt::format(", {} of them from an earlier call,", result.remembered)

@@ -121,15 +121,15 @@ std::string BareRun::collapse_sentence(const Collapse& collapse) const {
 std::string BareRun::reason_for_collapse() const {
     if (config_.restitution < 1.0)
         return fmt::format(
-            "with restitution {} the discs collide ever faster (inelastic collapse). A longer "
+            "with restitution {} the {}s collide ever faster (inelastic collapse). A longer "
             "--contact-duration than {} would keep them apart.",
-            config_.restitution, config_.contact_duration);
+            config_.restitution, body_word(config_), config_.contact_duration);
     return fmt::format(
-        "friction has taken the energy out of the relative motion of discs that lie pressed "
+        "friction has taken the energy out of the relative motion of {}s that lie pressed "
         "together, and they collide ever faster (a collapse; docs/physics.md). The model has "
         "no state after it. Another --seed than {} may "
         "not meet it.",
-        config_.seed);
+        body_word(config_), config_.seed);
 }
 
 /// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,

@@ -121,10 +121,10 @@ double inertia_named(std::string_view name, double mass, double radius) {
     return paper_inertia * mass * radius * radius;
 }
 
-/// Of the same material as the other discs: m ~ r².
+/// Of the same material as the others: m ~ r², of spheres r³.
 double mass_of_second_size(double radius, const RunConfig& config) {
     const double ratio = radius / config.radius;
-    return config.mass * ratio * ratio;
+    return config.mass * ratio * ratio * (config.body == Shape::sphere ? ratio : 1.0);
 }
 
 /// Amplitude, period and speed: two of them make the third. Of three, one that only the file says

@@ -49,7 +49,7 @@ struct RunConfig {
     double mu_disc = 1.0, mu_wall = 1.0;
     double restitution = 1.0;
     double tangential_restitution = 0.0;
-    double contact_duration = 1e-3;  // t_c of the TC model; matters only for restitution < 1
+    double contact_duration = 1e-3;  // t_c; matters only for restitution < 1 or on a floor
     double mass = 1.0, radius = 1.0;
     double inertia = paper_inertia;  // of one disc, not divided by m r²
     Shape body = Shape::disc;
@@ -250,7 +250,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "mixture",
      .form = "COUNT:RADIUS[:MASS]",
      .description = "COUNT of the discs have this radius instead (and this mass; by default of the "
-                    "same material, m ~ r^2)",
+                    "same material, m ~ r^2, of spheres r^3)",
      .group = parameter_group::discs,
      .lowest = smallest_value,
      .highest = largest_value,
@@ -280,8 +280,9 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "t_c",
      .unit = "time",
      .form = "TIME",
-     .description = "with --restitution below 1: a collision this soon after a disc's last one is "
-                    "elastic",
+     .description =
+         "with --restitution below 1, or on a floor: a collision this soon after a disc's "
+         "last one loses nothing",
      .group = parameter_group::discs,
      .member = &RunConfig::contact_duration,
      .lowest = 0,

@@ -16,7 +16,10 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
-bool frictionless(const RunConfig& c) { return c.mu_disc == 0.0 && c.mu_wall == 0.0; }
+/// Nothing takes energy: no contact, nor a floor.
+bool nothing_rubs(const RunConfig& c) {
+    return c.mu_disc == 0.0 && c.mu_wall == 0.0 && c.restitution == 1.0 && !c.floor;
+}
 
 std::string energy_sentence(const RunResult& r) {
     const double growth = r.invariant - r.invariant_at_start;
@@ -57,6 +60,23 @@ std::string too_short_sentence(const RunResult& r) {
     return fmt::format(
         "Too short to tell whether it is steady: {} periods after the warm-up, and it takes {}.",
         r.rotation.by_event.blocks, least_blocks_of_a_steady_state);
+}
+
+/// More than roundings of a place make: some 10⁻¹⁴ in the experiment's dish, 10⁻¹² at most.
+constexpr double sunk = 1e-12;
+
+bool sinks(const RunResult& r) {
+    const RunConfig& c = r.config;
+    return c.floor && c.contact_duration == 0.0 && r.max_overlap > sunk * c.radius;
+}
+
+std::string sunk_sentence(const RunResult& r) {
+    return fmt::format(
+        "Without a contact duration {}s that the floor drives along the wall hop on it ever lower, "
+        "and "
+        "sink into it by a rounding error with each hop: {:.1e} so far. A --contact-duration, "
+        "1e-3 for example, would be right.",
+        body_word(r.config), r.max_overlap);
 }
 
 std::string steady_text(const RunResult& r) {
@@ -170,7 +190,7 @@ std::vector<std::string> warnings(const RunResult& r) {
             fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
                         r.periods, with_commas(r.events.total())));
     if (!r.has_whole_swirl() && r.config.amplitude > 0.0) all.push_back(no_swirl_sentence(r));
-    if (frictionless(r.config) && r.config.amplitude > 0.0 && r.config.restitution == 1.0)
+    if (nothing_rubs(r.config) && r.config.amplitude > 0.0)
         all.push_back(energy_sentence(r));
     else if (r.steady.verdict == SteadyState::Verdict::drifting)
         all.push_back(drift_sentence("rotation", r.steady));
@@ -180,6 +200,7 @@ std::vector<std::string> warnings(const RunResult& r) {
     else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
              r.has_whole_swirl())
         all.push_back(too_short_sentence(r));
+    if (sinks(r)) all.push_back(sunk_sentence(r));
     return all;
 }
 

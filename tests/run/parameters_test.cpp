@@ -243,6 +243,10 @@ TEST(Overridden, NamesOfInertiaAndTheMaterialOfAMixtureFollowAnotherMass) {
     EXPECT_EQ(on_top_of({{"inertia", "3"}}, {{"mass", "2"}}).inertia, 3.0);
     EXPECT_EQ(on_top_of({{"mixture", "2:0.5"}}, {{"mass", "2"}}).mixture->mass, 0.5);
     EXPECT_EQ(on_top_of({{"mixture", "2:0.5:3"}}, {{"mass", "2"}}).mixture->mass, 3.0);
+    // Spheres have a volume, and their material is that of the others in whatever order it is said.
+    EXPECT_EQ(on_top_of({{"mixture", "2:0.5"}, {"body", "sphere"}}, {{"mass", "2"}}).mixture->mass,
+              0.25);
+    EXPECT_EQ(on_top_of({{"mixture", "2:0.5"}}, {{"preset", "experiment"}}).mixture->mass, 0.125);
 }
 
 TEST(ReadNumber, TakesNumbersAndNothingElse) {

@@ -107,6 +107,28 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
+    // On a floor it does not grow: the floor takes it.
+    result.config.floor = true;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
+}
+
+// 3.3e-10 is what half a million hops come to (docs/physics.md).
+TEST(Warnings, TellOfSpheresThatSinkIntoTheWallForWantOfAContactDuration) {
+    RunResult result;
+    result.complete = true;
+    result.rotation.by_event.blocks = 100;
+    result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
+    result.config.body = Shape::sphere;
+    result.config.floor = true;
+    result.max_overlap = 3.3e-10;
+    EXPECT_TRUE(warnings(result).empty());  // elsewhere it may be so much by the size of the dish
+    result.config.contact_duration = 0.0;
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::AllOf(testing::HasSubstr("spheres that the floor"),
+                                                    testing::HasSubstr("3.3e-10 so far"),
+                                                    testing::HasSubstr("--contact-duration"))));
+    result.max_overlap = 1e-14;
+    EXPECT_TRUE(warnings(result).empty());
 }
 
 }  // namespace

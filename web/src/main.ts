@@ -214,11 +214,17 @@ function forgetAverages(): void {
     plot.setData([[], [], []]);
 }
 
+/** Nothing takes energy: no contact, nor a floor. */
+function nothingRubs(): boolean {
+    const {mu_disc, mu_wall, restitution, floor} = configuration;
+    return Number(mu_disc) === 0 && Number(mu_wall) === 0 && Number(restitution) === 1 &&
+        (floor ?? "none") === "none";
+}
+
 /** What a reader must know before believing the averages. */
 function caution(): string {
-    const {mu_disc, mu_wall, amplitude, restitution, path} = configuration;
-    const keepsGrowing = Number(mu_disc) === 0 && Number(mu_wall) === 0 && Number(amplitude) > 0 &&
-        Number(restitution) === 1 && path !== "circle";
+    const {amplitude, path} = configuration;
+    const keepsGrowing = nothingRubs() && Number(amplitude) > 0 && path !== "circle";
     return keepsGrowing && !byHand ? texts.grows : "";
 }
 
@@ -438,9 +444,7 @@ function setBackwards(on: boolean): void {
     backwardsButton.setAttribute("aria-pressed", String(on));
 }
 function allowBackwards(): void {
-    const {mu_disc, mu_wall, restitution, floor} = configuration;
-    backwardsButton.disabled = !(Number(mu_disc) === 0 && Number(mu_wall) === 0 &&
-                                 Number(restitution) === 1 && (floor ?? "none") === "none");
+    backwardsButton.disabled = !nothingRubs();
 }
 
 const recording = new Recording(() => canvases.lab ?? canvases.m);

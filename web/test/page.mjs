@@ -247,6 +247,9 @@ await open("?discs=8");
 assert.equal(await page.isDisabled("#backwards"), true);
 await open("?discs=8&mu=0");
 assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon; /);
+await open("?discs=8&mu=0&body=sphere&floor=sliding"); // the floor takes it
+assert.equal(await text("caution"), "");
+await open("?discs=8&mu=0");
 await page.click("#backwards");
 await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
 assert.match(await text("command"), /^none/);
