@@ -1,0 +1,185 @@
+"""Spheres on a floor once more: an event-driven program of its own, from the physics in three dimensions,
+with numpy's roots of polynomials, in Python. From the same beginning it must come to the events that the
+program logs, one after the other: kind, partners, time, impulses. Neighbouring trajectories part
+exponentially, and the two round differently, so the comparison is strict at first and ends in time."""
+
+import math
+import sys
+import unittest
+
+from program import InFolder, swirl
+
+try:
+    import h5py
+    import numpy as np
+except ImportError:
+    print("skipped: this test needs numpy and h5py; Debian's packages python3-numpy and python3-h5py "
+          "provide them.")
+    sys.exit(77)
+
+# The paper's experiment in units of r and AΩ, as docs/spheres.md derives it.
+DISH, AMPLITUDE, SIDES = 25.5 / 3, 5.75 / 3, 30
+GRAVITY, RESTITUTION, CONTACT_DURATION = 6.382, 0.9, 1e-3
+PERIOD = 2 * math.pi * AMPLITUDE
+UP = np.array([0.0, 0.0, 1.0])
+KINDS = ("pair", "wall", "corner", "rolls")
+AT_ONCE = 1e-9  # all that roll undisturbed begin to roll at one instant: in whatever order
+
+
+def first_contact(apart, velocity, acceleration, reach, inside):
+    """When |s + v t + a t²/2| comes to `reach`, from above, or for what is inside of it from below."""
+    room = [acceleration @ acceleration / 4, velocity @ acceleration,
+            velocity @ velocity + apart @ acceleration, 2 * apart @ velocity, apart @ apart - reach ** 2]
+    falls = -1 if inside else 1
+    while room and room[0] == 0:
+        room.pop(0)
+    slope = np.polyder(room) if len(room) > 1 else []
+    # What has just collided is at a root, and parts.
+    times = [t.real for t in np.roots(room)
+             if abs(t.imag) < 1e-9 * max(1, abs(t)) and t.real > 1e-9 and falls * np.polyval(slope, t.real) < 0]
+    return min(times, default=math.inf)
+
+
+class Dish:
+    def __init__(self, start, friction, floor_friction, coins):
+        self.count = len(start["mass"])
+        self.inertia, self.coins = start["moment_of_inertia"][0], coins
+        flat = np.zeros((self.count, 1))
+        self.place = np.hstack([start["position"][:], flat])
+        self.velocity = np.hstack([start["velocity"][:], flat])
+        rolling = np.zeros((self.count, 2)) if coins else start["rolling_spin"][:]
+        self.spin = np.hstack([rolling, start["spin"][:].reshape(-1, 1)])
+        self.friction, self.deceleration = friction, floor_friction * GRAVITY
+        self.corners = [AMPLITUDE * np.array([math.cos(2 * math.pi * k / SIDES),
+                                              math.sin(2 * math.pi * k / SIDES), 0]) for k in range(SIDES)]
+        self.time, self.last = 0.0, [-math.inf] * self.count
+        self.begin_leg(0)
+
+    def begin_leg(self, leg):
+        self.leg = leg % SIDES
+        self.centre = self.corners[self.leg].copy()
+        self.dish_velocity = (self.corners[(self.leg + 1) % SIDES] - self.centre) / (PERIOD / SIDES)
+        self.rolls = [False] * self.count
+        if self.leg == 0:  # the clock begins anew
+            self.last = [t - self.time for t in self.last]
+            self.time = 0.0
+
+    def on_floor(self, i):
+        """Acceleration, its torque's, and how long it slides."""
+        if self.rolls[i]:
+            return np.zeros(3), np.zeros(3), math.inf
+        slip = self.velocity[i] - self.dish_velocity
+        if not self.coins:
+            slip = slip - np.cross(self.spin[i], UP)
+        speed = np.linalg.norm(slip)
+        if speed < 1e-13:
+            return np.zeros(3), np.zeros(3), 0.0
+        force = -self.deceleration * slip / speed  # at −ẑ, where the floor is
+        if self.coins:
+            return force, np.zeros(3), speed / self.deceleration
+        return (force, np.cross(-UP, force) / self.inertia,
+                speed / (self.deceleration * (1 + 1 / self.inertia)))
+
+    def pending(self, motions):
+        yield (self.leg + 1) * PERIOD / SIDES - self.time, "corner", 0, 0
+        for i, (acceleration, _, slides) in enumerate(motions):
+            yield slides, "rolls", i, i
+            yield first_contact(self.place[i] - self.centre, self.velocity[i] - self.dish_velocity,
+                                acceleration, DISH - 1, True), "wall", i, i
+            for j in range(i + 1, self.count):
+                yield first_contact(self.place[j] - self.place[i], self.velocity[j] - self.velocity[i],
+                                    motions[j][0] - acceleration, 2.0, False), "pair", i, j
+
+    def step(self, kind_of_log, i_of_log):
+        """(time, kind, i, impulses) of the next event; of those at one instant, the log's."""
+        motions = [self.on_floor(i) for i in range(self.count)]
+        events = sorted(self.pending(motions))
+        event = next((e for e in events if e[0] < events[0][0] + AT_ONCE and e[1] == kind_of_log and
+                      (kind_of_log == "corner" or e[2] == i_of_log)), events[0])
+        wait, kind, i, j = event
+        for k, (acceleration, turning, _) in enumerate(motions):
+            self.place[k] += wait * self.velocity[k] + wait ** 2 / 2 * acceleration
+            self.velocity[k] += wait * acceleration
+            self.spin[k] += wait * turning
+        self.centre = self.centre + wait * self.dish_velocity
+        self.time += wait
+        now, impulses = self.time, np.zeros(3)
+        if kind == "corner":
+            self.begin_leg(self.leg + 1)
+        elif kind == "rolls":
+            self.rolls[i] = True
+        else:
+            impulses = self.collide(i, None if kind == "wall" else j)
+        return now, kind, i, impulses
+
+    def collide(self, i, j):
+        """Normal, tangential and vertical impulse. The floor holds them: upwards only spins give way."""
+        normal = self.place[i] - self.centre if j is None else self.place[j] - self.place[i]
+        normal = normal / np.linalg.norm(normal)
+        other = (self.dish_velocity if j is None
+                 else self.velocity[j] + np.cross(self.spin[j], -normal))
+        relative = other - self.velocity[i] - np.cross(self.spin[i], normal)
+        approach, bodies = -relative @ normal, 1 if j is None else 2
+        partners = [i] if j is None else [i, j]
+        restitution = RESTITUTION
+        if self.time - max(self.last[k] for k in partners) < CONTACT_DURATION:
+            restitution = max(1.0, self.deceleration * CONTACT_DURATION / 2 / approach)
+        pressed = (1 + restitution) * approach / bodies
+        along = relative - relative @ normal * normal
+        vertical = along @ UP * UP
+        rubbing = -(along - vertical) / (bodies * (1 + 1 / self.inertia))
+        if not self.coins:
+            rubbing = rubbing - vertical * self.inertia / bodies
+        rubbing *= min(1.0, self.friction * pressed / max(np.linalg.norm(rubbing), 1e-300))
+        level = rubbing - rubbing @ UP * UP
+        for k, sign in zip(partners, (-1, 1)):
+            self.velocity[k] += sign * (pressed * normal + level)
+            self.spin[k] += np.cross(-sign * normal, sign * rubbing) / self.inertia
+            self.rolls[k], self.last[k] = False, self.time
+        return np.array([pressed, level @ np.array([normal[1], -normal[0], 0]), rubbing[2]])
+
+
+class Spheres(InFolder):
+    def compare(self, events, strict, *more, friction=0.2, floor_friction=0.3, coins=False):
+        log = self.path("events.h5")
+        done = swirl("run", "--preset", "experiment", "--events", events, "--warmup", 0, "--mu", friction,
+                     "--floor-friction", floor_friction, *more, "--log-events", log, "--quiet",
+                     "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        collisions = 0
+        with h5py.File(log) as file:
+            dish = Dish(file["initial"], friction, floor_friction, coins)
+            rows = {name: column[:] for name, column in file["events"].items()}
+        for k in range(events):
+            said = KINDS[rows["kind"][k]]
+            time, kind, i, impulses = dish.step(said, rows["i"][k])
+            off = abs(time - rows["clock"][k])
+            self.assertEqual(kind, said, f"event {k}")
+            # Roundings of 10⁻¹⁵, a few times larger with every collision of a body with another.
+            bound = 1e-10 if k < strict else 1e-5
+            self.assertLess(min(off, abs(off - PERIOD)), bound, f"event {k}, {kind}")
+            if kind != "corner":
+                self.assertEqual(i, rows["i"][k], f"event {k}")
+            if kind in ("pair", "wall"):
+                collisions += 1
+                logged = [rows[name][k] for name in ("normal_impulse", "tangential_impulse")]
+                logged.append(rows["vertical_impulse"][k] if "vertical_impulse" in rows else 0.0)
+                np.testing.assert_allclose(impulses, logged, rtol=0, atol=bound, err_msg=f"event {k}")
+        return collisions
+
+    def test_five_spheres(self):
+        self.assertGreater(self.compare(900, 500, "--discs", 5), 40)
+
+    def test_fifteen_spheres(self):
+        self.assertGreater(self.compare(700, 400, "--discs", 15), 50)
+
+    def test_hollow_ones_that_stick_more(self):
+        self.assertGreater(self.compare(400, 250, "--discs", 12, "--inertia", "shell", friction=0.5), 20)
+
+    def test_coins(self):
+        self.assertGreater(self.compare(300, 150, "--discs", 12, "--body", "disc", "--inertia", "solid",
+                                        floor_friction=0.03, coins=True), 30)
+
+
+if __name__ == "__main__":
+    unittest.main()
