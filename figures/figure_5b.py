@@ -5,6 +5,7 @@
 
 import style
 
+MOST = 48  # discs, in the paper
 CURVES = [
     ("no-wall", r"no wall friction ($\mu_w = 0$)", style.GREEN, "^"),
     ("no-disc", r"no disc friction ($\mu_d = 0$)", style.ORANGE, "v"),
@@ -23,14 +24,19 @@ def main():
         style.curve(axes, style.select(rows, setting=name), "discs", "by_event", label=label,
                     color=color, marker=marker)
     style.rotation_axes(axes, "by event")
-    axes.axvspan(48.5, max(row["discs"] for row in rows) + 1.5, color="0.93", zorder=-1,
-                 linewidth=0)
-    axes.set_xlim(3.5, max(row["discs"] for row in rows) + 1.5)
+    last = max(row["discs"] for row in rows)
+    notes = []
+    if last > MOST:
+        axes.axvspan(MOST + 0.5, last + 1.5, color="0.93", zorder=-1, linewidth=0)
+        notes.append("grey: denser than in the paper")
+    axes.set_xlim(3.5, last + 1.5)
     axes.set_ylim(bottom=min(-0.16, axes.get_ylim()[0]))
     axes.text(5, -0.12, "counterrotation", color=style.GREY, fontsize=style.SMALLEST)
     style.legend(axes)
-    style.note(drawing, "grey: denser than in the paper"
-               + ("; in a ring: not shown to be steady" if style.not_steady(rows) else ""))
+    if style.not_steady(rows):
+        notes.append("in a ring: not shown to be steady")
+    if notes:
+        style.note(drawing, "; ".join(notes))
     style.save(drawing, table)
 
 

@@ -11,8 +11,8 @@ CURVES = [
     ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s"),
     ("no-floor", "no floor", style.GREEN, "X"),
     ("no-vertical", "no vertical friction", style.RED, "v"),
-    ("no-vertical-wall", "none at the wall", style.PINK, "P"),
-    ("no-vertical-disc", "none between spheres", style.ORANGE, "^"),
+    ("no-vertical-wall", "… at the wall only", style.PINK, "P"),
+    ("no-vertical-disc", "… between spheres only", style.ORANGE, "^"),
 ]
 
 

@@ -192,7 +192,10 @@ sub { line-height: 0; font-size: .72em; }
 .figures { display: grid; grid-template-columns: 1fr 1fr; gap: 1.6rem 2rem; }
 .figures > div { min-width: 0; }
 .figures > div > figure + figure { margin-top: 1.6rem; }
-figure { margin: 0; break-inside: avoid; min-width: 0; }
+figure { margin: 0; min-width: 0; }
+figure.beside { break-inside: avoid; }
+figure:not(.beside) img { break-inside: avoid; break-after: avoid; }
+figure:not(.beside) li { break-inside: avoid; }
 figure.wide { grid-column: 1 / -1; }
 figure.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
 figure img { display: block; width: 100%; height: auto; max-height: 44rem; object-fit: contain;
@@ -219,7 +222,7 @@ table.claims { table-layout: fixed; }
   figcaption { font-size: 8pt; }
   tr { break-inside: avoid; }
   h3 { font-size: 10pt; }
-  h2, h3 { break-after: avoid; }
+  h2, h3, .heading { break-after: avoid; }
   code { background: none; padding: 0; }
 }
 """
@@ -413,10 +416,16 @@ def found_spheres(folder):
     what = "friction of the contacts along the vertical, which keeps them from rolling,"
     cause = statement(blame, f"{what} drives them that way", f"{what} does not drive them that way",
                       f"whether {what} drives them that way is undecided")
+    try:
+        changes = claims.last_changes(folder)
+    except FileNotFoundError:
+        changes = {}
+    changes = ", ".join(f"{claims.number(at)} (μ = {mu:g})" for mu, at in sorted(changes.items()))
+    where = f" Their sense changes for the last time at N = {changes}." if changes else ""
     return statement(
-        turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.",
-        f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.",
-        f"Whether many spheres that roll on a floor counterrotate is undecided {numbers}.")
+        turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.{where}",
+        f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.{where}",
+        f"Whether many spheres that roll on a floor counterrotate is undecided {numbers}.{where}")
 
 
 def what_was_found(path):
@@ -643,9 +652,14 @@ def td(text, kind=""):
 SUBSCRIPT = re.compile(r"\b([NPRVϖμγ])_(container|cluster|ball|wall|[A-Za-z])\b")
 
 
+# What no line should end in the middle of: N = 48, 0.5 ± 0.1.
+LETTER_IS = re.compile(r"(?<![\w/])([^\W\d]) = (?=[\d−])")
+
+
 def rich(text):
     """Escaped, with N_c and its like as they are printed."""
-    return SUBSCRIPT.sub(r"\1<sub>\2</sub>", html.escape(str(text)))
+    text = LETTER_IS.sub("\\1\u00a0=\u00a0", html.escape(str(text))).replace(" ± ", "\u00a0±\u00a0")
+    return SUBSCRIPT.sub(r"\1<sub>\2</sub>", text)
 
 
 # A picture that is made for the width of the page, with its letters as they are, is wider than this, in
@@ -796,7 +810,7 @@ def page(folder, about, judged):
     for heading, which in in_short(judged):
         items = "".join(f"<li>{rich(says)} <span class=small>{rich(found)}</span></li>"
                         for says, found in which)
-        parts += [f"<p>{heading}:</p><ul>{items}</ul>\n"]
+        parts += [f"<p class=heading>{heading}:</p><ul>{items}</ul>\n"]
     parts += ["<h2>Claim by claim</h2>\n",
              table(["", "the paper says", "found", "verdict, and how to see it"], rows, "claims")]
     texts = figure_texts(about)

@@ -87,7 +87,7 @@ void make_paper(PaperCall& call) {
     for (const MadeFigure& figure : result.figures) {
         for (const std::string& finding : figure.outcome.findings)
             text += result.figures.size() == 1 ? finding + "\n"
-                                               : fmt::format("{:<20}{}\n", figure.name, finding);
+                                               : fmt::format("{:<26}{}\n", figure.name, finding);
         files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
     }
     if (call.figures.empty())

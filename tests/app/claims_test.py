@@ -974,6 +974,10 @@ class OnMadeUpTables(unittest.TestCase):
                          "N<sub>c</sub> &lt; 5, ϖ<sub>M</sub>, R<sub>ball</sub>, steady_state")
         self.assertEqual(report.sentence("ϖ by time"), "ϖ by time")
 
+    def test_a_number_stays_on_the_line_of_what_it_is_the_number_of(self):
+        self.assertEqual(report.rich("ϖ/Ω = 0.5 ± 0.1 at N = 48, where a = b"),
+                         "ϖ/Ω = 0.5\u00a0±\u00a00.1 at N\u00a0=\u00a048, where a = b")
+
     def test_the_report_is_one_page_with_everything_in_it(self):
         about = {"command": "swirl paper", "version": "1", "build": "b", "quick": True, "seed": 1,
                  "events_of_a_run": 1000, "runs": 2, "runs_of_earlier_calls": 0, "seconds": 100.0,

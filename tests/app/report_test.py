@@ -140,6 +140,16 @@ class FirstPage(Tables):
                          "friction of the contacts along the vertical, which keeps them from rolling, "
                          "drives them that way (ϖ/Ω at N = 48, μ = 0.2: −0.0500 ± 0.0010 with it, 0.0400 ± 0.0010 "
                          "without).")
+        # Where: of each friction the last change to counterrotation.
+        self.write("spheres_sense", [
+            {"mu": mu, "crossing": at, "crossing_error": 0.3, "before": at - 1, "after": at + 1, "sense": sense}
+            for mu, at, sense in ((0.5, 14, "counterrotation"), (0.2, 20, "counterrotation"),
+                                  (0.2, 28, "rotation"), (0.2, 32.4, "counterrotation"))])
+        self.write("spheres", [{"curve": "0.2", "mu": 0.2, "discs": n, "by_time": level, "by_time_error": 0.001,
+                                "point": f"spheres_0.2_N{n}"} for n, level in ((16, 0.1), (44, -0.05), (48, -0.05))])
+        self.assertIn("without). Their sense changes for the last time at N = 32.4 ± 0.3 (μ = 0.2), "
+                      "14.0 ± 0.3 (μ = 0.5).", self.found())
+        os.remove(os.path.join(self.folder, "figure_spheres_sense.csv"))
         tables(0.1, -0.05, -0.05)
         self.assertIn("whether friction of the contacts along the vertical", self.found())
         tables(0.1, -0.05, -0.09)
