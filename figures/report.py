@@ -158,7 +158,8 @@ CAPTIONS = {
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
                            "with one of them taken away. Vertical friction is the part of the contacts' friction "
                            "that acts on the vertical slip of spheres that roll.",
-    "spheres_ingredients_rough": "The same for the numbers of spheres at which the sense of rotation is decided.",
+    "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them taken away, where the "
+                                 "sense of rotation is decided.",
     "spheres_pinned": "Of spheres on a stay in the wall layer (full) and of those that the SI's criterion calls "
                       "pinned (open): slip parameter s and the spin about the vertical. Below, of all spheres: the "
                       "share that rolls on the floor without slip, and the correlation of the rolling of neighbours "
@@ -196,6 +197,7 @@ figure { margin: 0; min-width: 0; }
 figure.beside { break-inside: avoid; }
 figure:not(.beside) img { break-inside: avoid; break-after: avoid; }
 figure:not(.beside) li { break-inside: avoid; }
+figcaption > code { display: block; width: fit-content; break-before: avoid; }
 figure.wide { grid-column: 1 / -1; }
 figure.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
 figure img { display: block; width: 100%; height: auto; max-height: 44rem; object-fit: contain;
@@ -493,10 +495,14 @@ def split(figures):
     return [(heading, members) for heading, members in groups if members]
 
 
+PART_OF_THE_STUDY = re.compile(r"^(?:beyond the paper|spheres that roll(?:, beside them)?): ")
+
+
 def title_of(figure):
-    text = figure["description"].removeprefix("beyond the paper: ").removeprefix("spheres that roll: ")
-    name = figure["name"]
-    return f"Figure {name}: {text}" if name[0].isdigit() else text[0].upper() + text[1:]
+    text, name = PART_OF_THE_STUDY.sub("", figure["description"]), figure["name"]
+    if name[0].isdigit() and not text.startswith("Figure"):
+        return f"Figure {name}: {text}"
+    return text[0].upper() + text[1:]
 
 
 def question_of(figure):
@@ -509,23 +515,28 @@ def caption_of(figure):
 
 # What `swirl paper` calls its points and runs, in words.
 CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": "μ_w = 0",
-          "no-disc": "μ_d = 0"}
+          "no-disc": "μ_d = 0", "no-vertical": "no vertical friction",
+          "no-vertical-disc": "no vertical friction between spheres",
+          "no-vertical-wall": "no vertical friction at the wall", "no-damping": "e = 1",
+          "shell": "hollow spheres"}
 POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*((?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?|[\d.]+)"
                    r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
 SYMBOLS = {"inertia": "I", "restitution": "e", "tangential_restitution": "β"}
 PARAMETER = re.compile(rf"^({'|'.join(SYMBOLS)}) (?=[\d.])")
 
 
+POWER_OF_TEN = re.compile(r"\b10\^(\d+)")
 POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?)0*(\d+)\b")
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def powers(text):
-    """2e-09 as 2·10⁻⁹, and 1e-11 as 10⁻¹¹."""
+    """2e-09 as 2·10⁻⁹, 1e-11 as 10⁻¹¹, and 10^6 as 10⁶."""
     def power(match):
         digits, sign, exponent = match.groups()
         ten = "10" + (sign.replace("+", "") + exponent).translate(SUPERSCRIPTS)
         return ten if digits == "1" else f"{digits}·{ten}"
+    text = POWER_OF_TEN.sub(lambda match: "10" + match.group(1).translate(SUPERSCRIPTS), text)
     return POWER.sub(power, text)
 
 
@@ -533,8 +544,11 @@ def in_words(finding):
     """A finding without the names that only the program gives its points."""
     def point(match):
         curve, discs, seed = match.groups()
+        rough = ", μ = 0.3" if curve.endswith("-rough") else ""
+        curve = curve.removesuffix("-rough")
         curve = CURVES.get(curve) or (f"μ = {curve}" if curve[0].isdigit() else
                                       curve.replace("_f", ", μ_f = ").replace("-", " "))
+        curve += rough
         return f"{curve} with N = {discs}" + (f" (seed {seed})" if seed else "")
     finding = re.sub(r"^Figure \S+: (drawn; )?", "", finding)
     finding = re.sub(r" Another --seed than \d+ may not meet it\.|; docs/physics\.md", "", finding)
@@ -578,8 +592,8 @@ def figure_texts(about):
 
 
 def sentence(text):
-    # Not ϖ, whose capital is Π.
-    return text[:1].upper() + text[1:] if text[:1].isascii() else text
+    # Not ϖ, whose capital is Π, nor the e of "e = 1".
+    return text[:1].upper() + text[1:] if text[:1].isascii() and text[1:2] != " " else text
 
 
 def picture_of(figure, endings=(".png",)):
@@ -653,7 +667,7 @@ SUBSCRIPT = re.compile(r"\b([NPRVϖμγ])_(container|cluster|ball|wall|[A-Za-z])
 
 
 # What no line should end in the middle of: N = 48, 0.5 ± 0.1.
-LETTER_IS = re.compile(r"(?<![\w/])([^\W\d]) = (?=[\d−])")
+LETTER_IS = re.compile(r"(?<![\w/])([^\W\d](?:_\w+)?) = (?=[\d−])")
 
 
 def rich(text):

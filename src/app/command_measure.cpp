@@ -62,6 +62,18 @@ void refuse_what_needs_tracks(const std::vector<std::string>& names, const Measu
                 call.file, PinnedLoose::width + 1, name));
 }
 
+/// At a corner of the path the floor has just changed its velocity under everybody.
+std::string remark_on_rolling(const Json& measured) {
+    for (const MeasuredNumber& number : measured_numbers(measured))
+        if (number.name == "rolling.rolling_share" && number.estimate.mean == 0.0)
+            return "No sphere rolls in any of the frames. At a corner of the path the floor has "
+                   "just changed its "
+                   "velocity, and all slide: a recording with 30 frames per swirl on 30 sides has "
+                   "no "
+                   "other frames. One with 511 frames per swirl would tell.\n";
+    return "";
+}
+
 void measure_file(const MeasureCall& call) {
     if (call.list == "help") return print_all(measurement_help_text());
     std::vector<std::string> names;
@@ -93,6 +105,8 @@ void measure_file(const MeasureCall& call) {
     const RotationEstimates& found = measured_series.rotation;
     const std::uint64_t used = measured_series.frames;
     const std::size_t discs = measured_series.discs;
+    const Json measured_values = measured_json(measured);
+    const std::string remarks = opened.remarks + remark_on_rolling(measured_values);
     Json json{{"file", call.file},
               {"frames", used},
               {"discs", discs},
@@ -100,9 +114,9 @@ void measure_file(const MeasureCall& call) {
               {"rotation",
                {{"by_time", estimate_json(found.by_time)},
                 {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
-              {"measured", measured_json(measured)},
+              {"measured", measured_values},
               {"camera", opened.camera},
-              {"remark", opened.remarks},
+              {"remark", remarks},
               {"version", version()}};
     std::string text = fmt::format(
         "{} {} {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
@@ -110,7 +124,7 @@ void measure_file(const MeasureCall& call) {
         with_error(found.by_time.mean, found.by_time.error),
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
     text += measured_text(measured);
-    text += opened.remarks;
+    text += remarks;
     const double per_swirl = measured_series.frames_per_swirl();
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;

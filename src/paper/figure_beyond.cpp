@@ -202,8 +202,9 @@ static FigurePlan plan_figure_transient(const PaperSettings& settings) {
             }
             outcome.findings.push_back(fmt::format(
                 "μ_d = 0, N = {}: ϖ/Ω = {:.3f} in the first {} swirls, {:.4f} in the last {}, when "
-                "the mean spin is {:.3f} Ω; 10^6 events last {} swirls.",
-                numbers[k], early, swirls / 10, late, swirls - swirls / 2, spin,
+                "the mean spin is {} Ω; 10^6 events last {} swirls.",
+                numbers[k], early, swirls / 10, late, swirls - swirls / 2,
+                with_error(spin, not_known),
                 std::isnan(reached) ? fmt::format("more than {}", swirls)
                                     : fmt::format("{:.0f}", reached)));
         }

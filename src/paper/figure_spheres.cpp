@@ -415,22 +415,25 @@ static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
 }
 
 std::vector<PaperFigure> figures_of_spheres() {
-    return {{"spheres", "spheres that roll: rotation against N, for several frictions",
-             plan_figure_spheres},
-            {"spheres_sense", "spheres that roll: where the sense of rotation changes",
-             plan_figure_spheres_sense},
-            {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
-             plan_figure_spheres_ingredients},
-            {"spheres_ingredients_rough", "spheres that roll: the same with more friction, μ = 0.3",
-             plan_figure_spheres_ingredients_rough},
-            {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
-             plan_figure_spheres_pinned},
-            {"spheres_restitution", "spheres that roll: rotation against N, restitutions",
-             plan_figure_spheres_restitution},
-            {"spheres_coins", "spheres that roll, beside them: solid discs that slide on the floor",
-             plan_figure_spheres_coins},
-            {"spheres_map", "spheres that roll: 36 of them, frictions of contacts and floor",
-             plan_figure_spheres_map}};
+    return {
+        {"spheres", "spheres that roll: rotation against N, for several frictions",
+         plan_figure_spheres},
+        {"spheres_sense", "spheres that roll: where the sense of rotation changes",
+         plan_figure_spheres_sense},
+        {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
+         plan_figure_spheres_ingredients},
+        {"spheres_ingredients_rough",
+         "spheres that roll: each ingredient switched off, with more friction, μ = 0.3",
+         plan_figure_spheres_ingredients_rough},
+        {"spheres_pinned", "spheres that roll: the pinned, and the frustration of rolling",
+         plan_figure_spheres_pinned},
+        {"spheres_restitution", "spheres that roll: rotation against N, for several restitutions",
+         plan_figure_spheres_restitution},
+        {"spheres_coins", "spheres that roll, beside them: solid discs that slide on the floor",
+         plan_figure_spheres_coins},
+        {"spheres_map",
+         "spheres that roll: rotation of 36 against the frictions of contacts and floor",
+         plan_figure_spheres_map}};
 }
 
 }  // namespace swirl

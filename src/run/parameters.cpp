@@ -199,8 +199,8 @@ ParameterValue write_body(const RunConfig& config) {
 void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config) {
     if (text != "none" && text != "sliding")
         unreadable("floor", text,
-                   "none or sliding (a perfectly rough floor is the limit of a large "
-                   "--floor-friction)");
+                   "none or sliding: on a perfectly rough floor spheres would collide without end, "
+                   "and a large --floor-friction, 100 for example, comes to the same");
     config.floor = text == "sliding";
 }
 ParameterValue write_floor(const RunConfig& config) {

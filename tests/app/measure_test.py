@@ -170,6 +170,19 @@ class MeasureTest(InFolder):
         self.assertEqual(found["camera"]["breaks"], 6)
         self.assertIn("come or go", found["remark"])
 
+    def test_frames_at_the_corners_alone_say_that_they_see_no_rolling(self):
+        for frames, remark in ((30, "No sphere rolls in any of the frames"), (31, "")):
+            recording = self.path(f"{frames}.h5")
+            done = swirl("run", "--preset", "experiment", "--discs", 8, "--periods", 2, "--frames", frames,
+                         "--trajectory", recording, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            found = json.loads(swirl("measure", recording, "--measure", "rolling", "--json", "-").stdout)
+            self.assertEqual(found["remark"][:len(remark) or None], remark)
+            share = found["measured"]["rolling"]["rolling_share"]["mean"]
+            self.assertEqual(share > 0.5, not remark)
+        said = swirl("measure", self.path("30.h5"), "--measure", "rolling").stdout
+        self.assertIn("One with 511 frames per swirl would tell", said)
+
     def test_a_single_frame_tells_no_rotation(self):
         self.write({0: self.answer()[2][0]})
         self.refused("a single frame", skip=0, measure="density")

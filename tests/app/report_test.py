@@ -198,14 +198,27 @@ class Figures(Tables):
                 ("measured_no-wall_N48_200000events_seed11", "μ_w = 0 with N = 48 (seed 11)"),
                 ("spheres_0.2_N16_25of75periods", "μ = 0.2 with N = 16"),
                 ("spheres_measured_0.15_N30_25of75periods", "μ = 0.15 with N = 30"),
-                ("spheres_no-vertical-disc_N52_25of75periods", "no vertical disc with N = 52"),
+                ("spheres_no-vertical-disc_N52_25of75periods", "no vertical friction between spheres with N = 52"),
+                ("spheres_no-floor-rough_N48_25of75periods", "no floor, μ = 0.3 with N = 48"),
+                ("spheres_shell_N52_25of75periods", "hollow spheres with N = 52"),
                 ("spheres_coins_f0.01_N16_25of75periods", "coins, μ_f = 0.01 with N = 16"),
                 ("tangential_restitution 0.5: lowest", "β = 0.5: lowest"),
                 ("inertia 10: crosses", "I = 10: crosses"),
                 ("Figure 1c: drawn; the forces", "the forces"),
                 ("between 6e-09 and 2.5e+3, 1e-11", "between 6·10⁻⁹ and 2.5·10³, 10⁻¹¹"),
+                ("10^6 events last", "10⁶ events last"),
                 ("the column steady_state", "the column steady_state")):
             self.assertEqual(report.in_words(name), words)
+        self.assertEqual(report.sentence("e = 1: crosses"), "e = 1: crosses")
+        self.assertEqual(report.sentence("a disc"), "a disc")
+
+    def test_titles(self):
+        for name, description, title in (
+                ("5b", "rotation against N", "Figure 5b: rotation against N"),
+                ("5b-steady", "beyond the paper: Figure 5b in the steady state", "Figure 5b in the steady state"),
+                ("spheres_map", "spheres that roll: rotation of 36", "Rotation of 36"),
+                ("spheres_coins", "spheres that roll, beside them: solid discs", "Solid discs")):
+            self.assertEqual(report.title_of({"name": name, "description": description}), title)
 
     def test_what_is_wide_goes_across(self):
         page = self.html(self.figure("1b"), self.figure("5d", width=2100, height=1080),
