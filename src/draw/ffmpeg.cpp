@@ -19,7 +19,8 @@ extern char** environ;
 
 namespace swirl {
 
-Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing) {
+Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing,
+               const std::string& output) {
     // A socket and not a pipe: writing to a dead reader then gives an error instead of a signal.
     std::array<int, 2> ends{};
     complaints_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
@@ -45,6 +46,9 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
         posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
     }
     posix_spawn_file_actions_adddup2(&files, complaints_, STDERR_FILENO);
+    if (!output.empty())
+        posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,
+                                         0);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none, all;

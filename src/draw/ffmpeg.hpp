@@ -12,10 +12,14 @@ namespace swirl {
 class Ffmpeg {
   public:
     enum class Side { input, output };  // which end of ffmpeg we hold
+    static constexpr const char* output_name = "file:/dev/fd/3";
 
     /// Starts `ffmpeg` with these arguments (without the name). Throws DrawFailure if it does not
-    /// start; `missing` is the sentence for when there is none.
-    Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing);
+    /// start; `missing` is the sentence for when there is none. A file `output` is open for it, as
+    /// output_name: it would open one by its own name only when its first pictures are done, and by
+    /// then that may be somebody else's.
+    Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing,
+           const std::string& output = "");
     /// Kills it if it still runs.
     ~Ffmpeg();
     Ffmpeg(const Ffmpeg&) = delete;
@@ -33,6 +37,7 @@ class Ffmpeg {
     std::string how_it_ended(int status) const;
 
   private:
+    static constexpr int output_number = 3;
     int socket_ = -1;
     int complaints_ = -1;  // an unnamed file that takes its standard error
     int process_ = -1;

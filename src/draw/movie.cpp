@@ -39,8 +39,7 @@ const char* name_of(MovieFormat format) {
     return "gif";
 }
 
-std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second, int loss,
-                                   const std::string& out) {
+std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second, int loss) {
     const std::string dimensions = std::to_string(size.width) + "x" + std::to_string(size.height);
     std::vector<std::string> args{"-hide_banner", "-nostats",
                                   "-loglevel",    "error",
@@ -79,8 +78,7 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
                  "-loop", "0"});
             break;
     }
-    add({"-f", name_of(format)});
-    args.push_back("file:" + out);
+    add({"-f", name_of(format), Ffmpeg::output_name});
     return args;
 }
 
@@ -121,9 +119,10 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
     open_aside();
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
-            arguments(format, size, frames_per_second, loss, aside_), Ffmpeg::Side::input,
+            arguments(format, size, frames_per_second, loss), Ffmpeg::Side::input,
             "Movies are made by the program ffmpeg, which was not found: install it "
-            "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.");
+            "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.",
+            aside_);
     } catch (const DrawFailure&) {
         ::unlink(aside_.c_str());
         ::close(lock_);
@@ -137,8 +136,8 @@ MovieWriter::~MovieWriter() {
     ::close(lock_);
 }
 
-/// Always a file of our own: the ffmpeg of a movie that was killed may still write into the one
-/// that it was given. (ffmpeg would complain too, but only once the first frames have been drawn.)
+/// Always a file of our own: the ffmpeg of a movie that was killed still writes into the one that
+/// it was given. (ffmpeg would complain too, but only once the first frames have been drawn.)
 void MovieWriter::open_aside() {
     for (int attempt = 0; attempt < 100; ++attempt) {
         lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

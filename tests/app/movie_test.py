@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import signal
 import struct
 import subprocess
@@ -199,6 +200,38 @@ class MovieTest(unittest.TestCase):
         # What a kill left behind is in nobody's way.
         again = swirl("--seconds", "0.1", "--size", "160x160", "--out", out, "--quiet")
         self.assertEqual(again.returncode, 0, again.stderr)
+
+    def test_the_encoder_that_a_kill_left_behind_does_not_write_into_the_next_movie(self):
+        # It sleeps until the next one has opened its file and written the first pictures into it.
+        os.mkdir(self.path("slow"))
+        with open(self.path("slow/ffmpeg"), "w", encoding="utf-8") as script:
+            script.write("#!/bin/sh\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
+                         f'{shutil.which("ffmpeg")} "$@"\ntouch asleep\n')
+        os.chmod(self.path("slow/ffmpeg"), 0o755)
+        out = self.path("m.mp4")
+        call = ["--seconds", "20", "--size", "640x640", "--quiet", "--out", out]
+        killed = subprocess.Popen([SWIRL, "movie", *call], cwd=self.folder,
+                                  env={**os.environ, "PATH": self.path("slow") + ":" + os.environ["PATH"]})
+        while not os.path.exists(out + ".partial"):
+            time.sleep(0.001)
+        time.sleep(0.3)  # now it is started, and has some pictures waiting
+        killed.kill()
+        killed.wait()
+        second = subprocess.Popen([SWIRL, "movie", *call])
+        self.addCleanup(second.wait)
+        self.addCleanup(second.kill)
+        deadline = time.time() + 30
+        while not (os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000):
+            self.assertIsNone(second.poll())
+            self.assertLess(time.time(), deadline)
+            time.sleep(0.001)
+        open(self.path("wake"), "w").close()
+        while not os.path.exists(self.path("asleep")):
+            self.assertLess(time.time(), deadline)
+            time.sleep(0.01)
+        self.assertIsNone(second.poll(), "it was over before the other woke up")
+        self.assertEqual(second.wait(timeout=60), 0)
+        self.assertEqual(probe(out, "stream=nb_read_frames"), "1200")
 
     def test_without_ffmpeg_it_says_how_to_get_it(self):
         result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),
