@@ -3,9 +3,7 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <new>
 #include <utility>
 
 namespace swirl {
@@ -23,22 +21,17 @@ void set_up_text(cairo_t* cairo) {
     cairo_font_options_destroy(options);
 }
 
-std::string written_aside(const std::string& path) { return path + ".partial"; }
-
-cairo_status_t append_to_file(void* file, const unsigned char* bytes, unsigned int count) {
-    return std::fwrite(bytes, 1, count, static_cast<std::FILE*>(file)) == count
-               ? CAIRO_STATUS_SUCCESS
-               : CAIRO_STATUS_WRITE_ERROR;
+cairo_status_t append_to_bytes(void* bytes, const unsigned char* more, unsigned int count) try {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(more), count);
+    return CAIRO_STATUS_SUCCESS;
+} catch (const std::bad_alloc&) {
+    return CAIRO_STATUS_NO_MEMORY;
 }
 
-[[noreturn]] void fail_to_write(const std::string& path, const char* reason) {
-    std::remove(written_aside(path).c_str());
-    throw DrawFailure("The picture " + path + " could not be written: " + reason + ".");
-}
-
-void move_into_place(const std::string& path) {
-    if (std::rename(written_aside(path).c_str(), path.c_str()) != 0)
-        fail_to_write(path, std::strerror(errno));
+[[noreturn]] void fail_to_make(Size size, cairo_status_t status) {
+    throw DrawFailure("A picture of " + std::to_string(size.width) + "x" +
+                      std::to_string(size.height) +
+                      " pixels could not be made: " + cairo_status_to_string(status) + ".");
 }
 
 }  // namespace
@@ -47,65 +40,55 @@ Canvas::Canvas(Size size)
     : size_(size),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height)),
       cairo_(cairo_create(surface_)) {
-    set_up_text(cairo_);
-    if (cairo_status(cairo_) == CAIRO_STATUS_SUCCESS) return;
-    const std::string reason = cairo_status_to_string(cairo_status(cairo_));
-    cairo_destroy(cairo_);
-    cairo_surface_destroy(surface_);
-    throw DrawFailure("A picture of " + std::to_string(size.width) + "x" +
-                      std::to_string(size.height) + " pixels could not be made: " + reason + ".");
+    set_up();
 }
 
-Canvas::Canvas(Size size, PictureFormat format, const std::string& path)
-    : size_(size), path_(path), format_(format) {
+Canvas::Canvas(Size size, PictureFormat format) : size_(size), format_(format) {
     // 96 pixels per inch, as browsers have it; PDF counts in points of 1/72 inch.
     constexpr double points_per_pixel = 72.0 / 96.0;
-    const std::string aside = written_aside(path);
     switch (format) {
         case PictureFormat::png:
             surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height);
             break;
         case PictureFormat::svg:
-            surface_ = cairo_svg_surface_create(aside.c_str(), size.width, size.height);
+            surface_ = cairo_svg_surface_create_for_stream(append_to_bytes, &bytes_, size.width,
+                                                           size.height);
             cairo_svg_surface_set_document_unit(surface_, CAIRO_SVG_UNIT_PX);
             break;
         case PictureFormat::pdf:
-            surface_ = cairo_pdf_surface_create(aside.c_str(), points_per_pixel * size.width,
-                                                points_per_pixel * size.height);
+            surface_ = cairo_pdf_surface_create_for_stream(append_to_bytes, &bytes_,
+                                                           points_per_pixel * size.width,
+                                                           points_per_pixel * size.height);
             // Without this the file holds the moment it was made, and no two are equal.
             cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE,
                                            "1970-01-01T00:00:00Z");
             break;
     }
     cairo_ = cairo_create(surface_);
-    set_up_text(cairo_);
-    if (cairo_status(cairo_) != CAIRO_STATUS_SUCCESS) {
-        const std::string reason = cairo_status_to_string(cairo_status(cairo_));
-        cairo_destroy(cairo_);
-        cairo_surface_destroy(surface_);
-        fail_to_write(path, reason.c_str());
-    }
+    set_up();
     if (format == PictureFormat::pdf) cairo_scale(cairo_, points_per_pixel, points_per_pixel);
+}
+
+void Canvas::set_up() {
+    set_up_text(cairo_);
+    const cairo_status_t status = cairo_status(cairo_);
+    if (status == CAIRO_STATUS_SUCCESS) return;
+    cairo_destroy(cairo_);
+    cairo_surface_destroy(surface_);
+    fail_to_make(size_, status);
 }
 
 Canvas::~Canvas() {
     cairo_destroy(cairo_);
     cairo_surface_destroy(surface_);
-    // A vector file that was not finished is not left lying about.
-    if (!path_.empty()) std::remove(written_aside(path_).c_str());
 }
 
-void Canvas::finish() {
-    if (format_ == PictureFormat::png) {
-        write_png(path_);
-        path_.clear();
-        return;
-    }
+std::string Canvas::finish() {
+    if (format_ == PictureFormat::png) return png();
     cairo_surface_finish(surface_);
     const cairo_status_t status = cairo_surface_status(surface_);
-    const std::string path = std::exchange(path_, std::string());
-    if (status != CAIRO_STATUS_SUCCESS) fail_to_write(path, cairo_status_to_string(status));
-    move_into_place(path);
+    if (status != CAIRO_STATUS_SUCCESS) fail_to_make(size_, status);
+    return std::move(bytes_);
 }
 
 std::span<std::uint8_t> Canvas::pixels() {
@@ -115,18 +98,12 @@ std::span<std::uint8_t> Canvas::pixels() {
             static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height) * 4};
 }
 
-void Canvas::write_png(const std::string& path) {
-    std::FILE* file = std::fopen(written_aside(path).c_str(), "wb");
-    if (file == nullptr) fail_to_write(path, std::strerror(errno));
-    errno = 0;
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface_, append_to_file, file);
-    const int write_error = errno;
-    const bool closed = std::fclose(file) == 0;
-    if (status != CAIRO_STATUS_SUCCESS)
-        fail_to_write(
-            path, write_error != 0 ? std::strerror(write_error) : cairo_status_to_string(status));
-    if (!closed) fail_to_write(path, std::strerror(errno));
-    move_into_place(path);
+std::string Canvas::png() {
+    std::string bytes;
+    const cairo_status_t status =
+        cairo_surface_write_to_png_stream(surface_, append_to_bytes, &bytes);
+    if (status != CAIRO_STATUS_SUCCESS) fail_to_make(size_, status);
+    return bytes;
 }
 
 void Canvas::fill_page(const Color& color) const {

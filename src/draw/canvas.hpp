@@ -36,9 +36,9 @@ class Canvas {
   public:
     /// Pixels, kept in memory.
     explicit Canvas(Size size);
-    /// A file `path` of the given kind. It appears under its name in finish(), complete or not at
-    /// all. PNG files have `size` pixels. No time stamps: same picture, same bytes.
-    Canvas(Size size, PictureFormat format, const std::string& path);
+    /// A file of the given kind, which finish() gives. PNG files have `size` pixels. No time
+    /// stamps: same picture, same bytes.
+    Canvas(Size size, PictureFormat format);
     ~Canvas();
     Canvas(const Canvas&) = delete;
     Canvas& operator=(const Canvas&) = delete;
@@ -46,14 +46,14 @@ class Canvas {
     cairo_t* cairo() const { return cairo_; }
     Size size() const { return size_; }
 
-    /// Completes the file. Throws DrawFailure if it could not be written.
-    void finish();
+    /// Completes the file: its bytes, for whoever brings them onto a disk. Throws DrawFailure.
+    std::string finish();
 
     /// The pixels of a canvas in memory, rows from the top, four bytes each: blue, green, red,
     /// unused. Rows follow each other without gap.
     std::span<std::uint8_t> pixels();
-    /// Writes the pixels of a canvas in memory as a PNG file; written aside and renamed.
-    void write_png(const std::string& path);
+    /// The pixels of a canvas in memory as a PNG file. Throws DrawFailure.
+    std::string png();
 
     void set(const Color& color, double opacity = 1.0) const {
         cairo_set_source_rgba(cairo_, color.red, color.green, color.blue, opacity);
@@ -61,8 +61,10 @@ class Canvas {
     void fill_page(const Color& color) const;
 
   private:
+    void set_up();
+
     Size size_;
-    std::string path_;
+    std::string bytes_;  // of a vector file, so far
     PictureFormat format_ = PictureFormat::png;
     cairo_surface_t* surface_;
     cairo_t* cairo_;

@@ -13,6 +13,7 @@
 
 #include "swirl/draw/movie.hpp"
 #include "swirl/draw/planar.hpp"
+#include "swirl/files/whole_file.hpp"
 #include "swirl/film/painters.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/failure.hpp"
@@ -394,7 +395,10 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
     if (format)
         movie = std::make_unique<MovieWriter>(config.out, *format, config.appearance.size,
                                               config.frames_per_second);
-    if (!config.frames_folder.empty()) make_folder(config.frames_folder);
+    if (!config.frames_folder.empty()) {
+        make_folder(config.frames_folder);
+        remove_leftovers(config.frames_folder);
+    }
 
     const unsigned count = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::unique_ptr<Easel>> easels(count);
@@ -427,8 +431,13 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
                 auto& easel = easels[painter];
                 if (!easel) easel = std::make_unique<Easel>(sheet);
                 Canvas& canvas = easel->paint(sheet, config, curves, *instant);
-                if (!config.frames_folder.empty())
-                    canvas.write_png(frame_name(config.frames_folder, frame + 1));
+                if (!config.frames_folder.empty()) {
+                    // A disk that is waited for at each would take most of the time.
+                    WholeFile picture(frame_name(config.frames_folder, frame + 1));
+                    picture.append(canvas.png());
+                    picture.empty_buffer();
+                    picture.give_name();
+                }
                 if (!format) return;
                 if (*format == MovieFormat::gif) {
                     const auto pixels = canvas.pixels();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "swirl/files/file_error.hpp"
+#include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -111,11 +113,18 @@ void make_picture(const PictureConfig& config) try {
             for (std::size_t f = 0; f < config.appearance.frames.size(); ++f)
                 contents[contents.size() - 1 - f].turned = turns_until(curves[k], begin, config.at);
     }
-    Canvas canvas(config.appearance.size, *picture_format(config.out), config.out);
+    Canvas canvas(config.appearance.size, *picture_format(config.out));
     sheet.draw_still(canvas);
     sheet.draw_moving(canvas, contents, curves, config.at);
-    canvas.finish();
+    write_picture(config.out, canvas.finish());
 } catch (const DrawFailure& failure) {
+    throw Failure(failure.what());
+}
+
+void write_picture(const std::filesystem::path& file, const std::string& bytes) try {
+    write_whole_file(file, bytes);
+    remove_leftovers(file.parent_path(), file.filename().string());
+} catch (const FileError& failure) {
     throw Failure(failure.what());
 }
 

@@ -1,6 +1,7 @@
 // A picture of one instant, or of several laid over each other as a stroboscope would.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,5 +28,8 @@ std::optional<std::string> problem(const PictureConfig& config);
 
 /// Throws Failure.
 void make_picture(const PictureConfig& config);
+
+/// A picture's file, whole or not at all (files/whole_file.hpp). Throws Failure.
+void write_picture(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace swirl

@@ -72,9 +72,9 @@ void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
         nearest = dot(away, away);
         chosen = i;
     }
-    Canvas canvas(Size{1500, 560}, *picture_format(file), file);
+    Canvas canvas(Size{1500, 560}, *picture_format(file));
     draw_frame_diagram(canvas, light_theme(), s, chosen);
-    canvas.finish();
+    write_picture(file, canvas.finish());
 } catch (const DrawFailure& failure) {
     throw Failure(failure.what());
 }

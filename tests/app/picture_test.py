@@ -1,6 +1,7 @@
 """swirl picture and the drawn parts of swirl paper, tried from outside."""
 
 import os
+import resource
 import signal
 import struct
 import subprocess
@@ -68,6 +69,27 @@ class PictureTest(unittest.TestCase):
             self.assertIn(word, result.stderr)
             self.assertEqual(result.stderr.count("\n"), 1)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_it_is_written_whole_or_not_at_all_and_through_no_link(self):
+        with open(self.path("mine"), "w", encoding="utf-8") as file:
+            file.write("of somebody else")
+        for ending in ("png", "svg", "pdf"):
+            out = self.path("x." + ending)
+            os.symlink(self.path("mine"), out + ".partial")
+            call = ("picture", "--discs", "5", "--at", "0", "--size", "64x64", "--quiet", "--out")
+            result = swirl(*call, out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(contents(self.path("mine")), b"of somebody else", ending)
+            os.remove(out + ".partial")
+            result = swirl(*call, self.path("no/such/folder." + ending))
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("no/such/folder", result.stderr)
+            limited = subprocess.run([SWIRL, *call, self.path("y." + ending)], capture_output=True, text=True,
+                                     timeout=60, preexec_fn=lambda: resource.setrlimit(
+                                         resource.RLIMIT_FSIZE, (100, 100)))
+            self.assertEqual(limited.returncode, 1, limited.stderr)
+            self.assertIn("File too large", limited.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["mine", "x.pdf", "x.png", "x.svg"])
 
     def test_a_file_that_is_no_recording_is_a_clear_error(self):
         with open(self.path("x.h5"), "w", encoding="utf-8") as file:

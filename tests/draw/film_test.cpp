@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "pictures.hpp"
 #include "swirl/draw/scene.hpp"
@@ -25,7 +26,7 @@ class Pictures : public ::testing::Test {
     void take(const std::string& name, double grey) const {
         Canvas canvas(Size{8, 6});
         canvas.fill_page({grey, grey, grey});
-        canvas.write_png(name);
+        std::ofstream(name, std::ios::binary) << canvas.png();
     }
     static int grey_of(const Image& image) {
         cairo_surface_flush(image.surface());
