@@ -83,11 +83,12 @@ build_page
 exec 9>&-
 
 if [ -n "$out" ]; then
-    aside=$out.$$.partial
+    aside=$(mktemp --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
     trap 'rm -f "$aside"' EXIT
     trap 'exit 130' INT
     trap 'exit 143' HUP TERM
-    cp "$page" "$aside" 2>/dev/null && mv "$aside" "$out" ||
+    chmod "$(printf %o $((0666 & ~0$(umask))))" "$aside"
+    cp "$page" "$aside" 2>/dev/null && sync "$aside" && mv -T "$aside" "$out" ||
         give_up "'$out' cannot be written."
     [ -n "$quiet" ] || say "wrote $out"
     exit 0

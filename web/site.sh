@@ -44,11 +44,23 @@ if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/n
     wrong_call "--out is '$out', which is not empty and not a site; another name would be right."
 fi
 
-aside=$out.$$.partial
-trap 'rm -rf "$aside"' EXIT
+# Made in a folder beside it, which is locked for as long. What a kill left has no lock; if it came
+# between the two names at the end, the site of before is in there, and goes back to its place.
+out=${out%"${out##*[!/]}"} # without a slash at its end
+for left in "$out".??????.partial; do
+    [ -e "$left/lock" ] && flock --nonblock "$left/lock" true || continue
+    [ -e "$out" ] || ! [ -e "$left/before" ] || mv -T "$left/before" "$out"
+    rm -rf "$left"
+done
+mkdir -p "$(dirname "$out")" 2>/dev/null &&
+    beside=$(mktemp -d --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
+trap 'rm -rf "$beside"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-mkdir -p "$aside/.help" 2>/dev/null || give_up "'$out' cannot be written."
+exec 8>"$beside/lock"
+flock 8
+aside=$beside/site
+mkdir -p "$aside/.help"
 "$home/web/lab.sh" --quiet --out "$aside/lab.html"
 program=${SWIRL-$home/swirl}
 "$program" --help >"$aside/.help/swirl.txt"
@@ -85,9 +97,12 @@ node "$home/web/site.mjs" "$home" "$aside" "$aside/.help" "$aside/.notebooks" ${
 pages=$(cat "$aside/.log")
 rm -rf "$aside/.help" "$aside/.notebooks" "$aside/.log"
 touch "$aside/.swirl-site"
+trap '' INT HUP TERM # two names: either both or none
 if [ -e "$out" ]; then
-    mv "$out" "$aside.old" && mv "$aside" "$out" && rm -rf "$aside.old"
-else
-    mv "$aside" "$out"
+    mv -T "$out" "$beside/before" || give_up "'$out' cannot be replaced."
 fi
+mv -T "$aside" "$out" || {
+    ! [ -e "$beside/before" ] || mv -T "$beside/before" "$out"
+    give_up "'$out' cannot be written."
+}
 say "wrote $out/index.html and what belongs to it, $pages"
