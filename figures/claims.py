@@ -22,6 +22,7 @@ import os
 import sys
 
 import tables
+import whole_file
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part, Value,  # noqa: F401
                       above, agreed, below, either, every, falls, mean_of, parts, rises, scattered,
                       step_back, trend, true, within)
@@ -1105,12 +1106,8 @@ def main():
               file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     file = os.path.join(sys.argv[1], "verdicts.json")
-    aside = f"{file}.{os.getpid()}.partial"
     try:
-        with open(aside, "w", encoding="utf-8") as out:
-            json.dump(all_verdicts(sys.argv[1]), out, indent=1, ensure_ascii=False)
-            out.write("\n")
-        os.replace(aside, file)
+        whole_file.write(file, json.dumps(all_verdicts(sys.argv[1]), indent=1, ensure_ascii=False) + "\n")
     except OSError as error:
         sys.exit(f"'{file}' could not be written: {error.strerror}.")
 

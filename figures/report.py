@@ -13,6 +13,7 @@ import struct
 import sys
 
 import claims
+import whole_file
 
 ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNDECIDED, claims.UNTESTABLE,
          claims.MISSING]
@@ -840,10 +841,10 @@ def page(folder, about, judged):
 
 
 def write(path, text):
-    aside = f"{path}.{os.getpid()}.partial"
-    with open(aside, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(aside, path)
+    try:
+        whole_file.write(path, text)
+    except OSError as error:
+        sys.exit(f"'{path}' could not be written: {error.strerror}.")
 
 
 def opening(title):

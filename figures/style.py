@@ -4,6 +4,7 @@ Colours are those of Okabe and Ito (2008), which people with any kind of colour 
 apart; every curve has a marker of its own besides.
 """
 
+import io
 import math
 import os
 import sys
@@ -17,6 +18,7 @@ import matplotlib.ticker  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 
 import tables  # noqa: E402
+import whole_file  # noqa: E402
 from tables import column, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
@@ -329,17 +331,15 @@ def arrows(axes, rows, spacing, fastest, color):
 
 
 def save(drawing, table):
-    """PNG and PDF beside the table, each written aside and renamed; no date inside, so the same
-    table gives the same bytes."""
+    """PNG and PDF beside the table, each whole or not there; no date inside, so the same table gives
+    the same bytes."""
     stem = os.path.splitext(table)[0]
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
-        aside = f"{stem}.{os.getpid()}.partial.{kind}"
+        drawn = io.BytesIO()
+        drawing.savefig(drawn, format=kind, metadata=about)
         try:
-            drawing.savefig(aside, metadata=about)
-            os.replace(aside, f"{stem}.{kind}")
+            whole_file.write(f"{stem}.{kind}", drawn.getvalue())
         except OSError as error:
-            if os.path.exists(aside):
-                os.remove(aside)
             sys.exit(f"'{stem}.{kind}' could not be written: {error.strerror}.")
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import fcntl
 import html
 import json
 import math
 import os
+import secrets
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, Optional, Union
@@ -319,16 +321,16 @@ class Result:
 
 
 def write_aside(file: Union[str, os.PathLike[str]], content: bytes) -> None:
-    """Under another name first, so that a file is whole or not there."""
+    """Under another name first, which nobody else has, so that a file is whole or not there."""
     name = os.fspath(file)
-    aside = f"{name}.{os.getpid()}.partial"
-    try:
-        with open(aside, "xb") as opened:
+    aside = f"{name}.{secrets.token_hex(8)}.partial"
+    with open(aside, "xb") as opened:
+        try:
+            fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
             opened.write(content)
             opened.flush()
             os.fsync(opened.fileno())
-        os.replace(aside, name)
-    except BaseException:
-        if os.path.exists(aside):
+            os.replace(aside, name)
+        except BaseException:
             os.remove(aside)
-        raise
+            raise
