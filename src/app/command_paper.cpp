@@ -91,7 +91,7 @@ void make_paper(PaperCall& call) {
         files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
     }
     if (call.figures.empty())
-        for (const auto& file : write_report(result, call.settings, command_line()))
+        for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
             files.push_back(file);
     // What failed stands with each figure; of several figures, which share runs, it is counted.
     if (result.failed > 0 && result.figures.size() > 1)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/files/whole_file.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
@@ -110,11 +111,7 @@ static FigurePlan plan_figure_averages(const PaperSettings& settings) {
         FigureOutcome outcome = table_of_5b(results, out);
         // The table has the runs of one friction after those of the other, and then the densest.
         const fs::path table = out / "figure_averages.csv";
-        std::error_code error;
-        fs::copy_file(outcome.files.front(), table, fs::copy_options::overwrite_existing, error);
-        if (error)
-            throw Failure(
-                fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
+        write_whole_file(table, read_whole_file(outcome.files.front()));
         outcome.files = {table};
         outcome.findings.clear();
         for (std::size_t f = 0; f < std::size(frictions_of_5b); ++f)

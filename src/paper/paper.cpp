@@ -276,11 +276,11 @@ MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
     return made;
 }
 
-void draw(MadeFigure& made, const FigurePlan& plan) {
+void draw(MadeFigure& made, const FigurePlan& plan, const PaperControl& control) {
     if (plan.script.empty() || !made.problem.empty()) return;
     auto& files = made.outcome.files;
     try {
-        const std::vector<fs::path> drawn = draw_figure(plan.script, files.front());
+        const std::vector<fs::path> drawn = draw_figure(plan.script, files.front(), control.stop);
         files.insert(files.end(), drawn.begin(), drawn.end());
     } catch (const Failure& failure) {
         made.problem = failure.what();
@@ -318,8 +318,8 @@ void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& 
 /// Twice the seeds for the points that undecided claims rest on; false if there are none, or no
 /// budget for them.
 bool ask_for_more_seeds(PaperSettings& settings, const std::vector<FigurePlan>& plans,
-                        PaperResult& all) {
-    run_python_script("claims.py", {settings.out.string()});
+                        const PaperControl& control, PaperResult& all) {
+    run_python_script("claims.py", {settings.out.string()}, control.stop);
     const Json found = Json::parse(read_whole_file(settings.out / "verdicts.json"));
     std::map<std::string, int> seeds;
     for (const FigurePlan& plan : plans)
@@ -365,14 +365,14 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
         for (std::size_t f = 0; f < plans.size(); ++f)
             all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
         results = std::move(work.results);
-        if (!decide || !ask_for_more_seeds(settings, plans, all)) break;
+        if (!decide || !ask_for_more_seeds(settings, plans, control, all)) break;
     }
     // The drawings are independent too, and take a second each.
     on_all_cores(
         plans.size(),
         [&](std::size_t f) {
             if (stopped(control)) throw_interrupted(settings);
-            draw(all.figures[f], plans[f]);
+            draw(all.figures[f], plans[f], control);
         },
         control.threads);
     for (MadeFigure& made : all.figures)
@@ -384,7 +384,7 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
 }
 
 std::vector<fs::path> write_report(const PaperResult& result, const PaperSettings& settings,
-                                   const std::string& command) {
+                                   const std::string& command, const std::atomic<bool>* stop) {
     Json figures = Json::array();
     for (const MadeFigure& figure : result.figures) {
         Json files = Json::array();
@@ -412,12 +412,13 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"figures", figures}};
     const fs::path file = settings.out / "paper.json";
     write_whole_file(file, about.dump(2) + "\n");
-    run_python_script("report.py", {settings.out.string()});
+    run_python_script("report.py", {settings.out.string()}, stop);
     return {file, settings.out / "report.md", settings.out / "report.html"};
 }
 
-std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table) {
-    run_python_script(script, {table.string()});
+std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table,
+                                  const std::atomic<bool>* stop) {
+    run_python_script(script, {table.string()}, stop);
     std::vector<fs::path> drawn;
     for (const char* kind : {".png", ".pdf"})
         drawn.push_back(fs::path(table).replace_extension(kind));

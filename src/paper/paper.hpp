@@ -122,7 +122,8 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
 /// OUT/report.html. Returns the files.
 std::vector<std::filesystem::path> write_report(const PaperResult& result,
                                                 const PaperSettings& settings,
-                                                const std::string& command);
+                                                const std::string& command,
+                                                const std::atomic<bool>* stop = nullptr);
 
 /// Events in a swirl, a fair guess for the progress and the order of work.
 double expected_events_per_swirl(const RunConfig& config);
@@ -134,6 +135,7 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
 
 /// The script must be one of figures/; draws `table` to PNG and PDF beside it. Returns the files.
 std::vector<std::filesystem::path> draw_figure(const std::string& script,
-                                               const std::filesystem::path& table);
+                                               const std::filesystem::path& table,
+                                               const std::atomic<bool>* stop = nullptr);
 
 }  // namespace swirl

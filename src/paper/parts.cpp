@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "swirl/files/checksum.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/version.hpp"
@@ -12,6 +13,15 @@ namespace swirl {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Of what the figures are drawn from, and of its time.
+std::string checksum_of(const Json& part) {
+    return fmt::format("{:016x}", checksum(part["result"].dump() + part["seconds"].dump()));
+}
+
+}  // namespace
 
 PaperParts::PaperParts(const fs::path& out) : folder_(out / "parts") {
     std::error_code error;
@@ -30,13 +40,15 @@ std::optional<Json> PaperParts::recall(const std::string& key) const {
         return part.contains(name) && part[name] == text;
     };
     if (!part.is_object() || !says("key", key) || !says("version", version()) ||
-        !part.contains("result") || !part.contains("seconds") || !part["seconds"].is_number())
+        !part.contains("result") || !part.contains("seconds") || !part["seconds"].is_number() ||
+        !says("checksum", checksum_of(part)))
         return {};
     return part;
 }
 
 Json PaperParts::remember(const std::string& key, const Json& result, double seconds) const {
-    const Json part{{"key", key}, {"version", version()}, {"seconds", seconds}, {"result", result}};
+    Json part{{"key", key}, {"version", version()}, {"seconds", seconds}, {"result", result}};
+    part["checksum"] = checksum_of(part);
     write_whole_file(file(key), part.dump() + "\n");
     return part;
 }

@@ -1,5 +1,6 @@
 // What an interrupted call of `swirl paper` has done already: OUT/parts/KEY.json, one file for each
-// piece of work. Those of another version of the program do not count.
+// piece of work. Those of another version of the program do not count, nor those that have been cut
+// or changed since.
 #pragma once
 
 #include <nlohmann/json.hpp>

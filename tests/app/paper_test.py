@@ -3,6 +3,7 @@ the table alone."""
 
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -88,9 +89,17 @@ class Figure5b(InFolder):
         self.make("a")
         table = self.bytes_of("a", "figure_5b.csv")
         parts = self.path("a/parts")
+        edited = cut = 0
         for number, name in enumerate(sorted(os.listdir(parts))):
+            with open(os.path.join(parts, name)) as file:
+                whole = file.read()
+            damaged = ("", "{", "[]", '{"key": 3}', '{"result": {}}', whole[:len(whole) // 2],
+                       re.sub(r'("mean": ?-?)0', r"\g<1>1", whole))[number % 7]
+            cut += number % 7 == 5
+            edited += number % 7 == 6 and damaged != whole
             with open(os.path.join(parts, name), "w") as file:
-                file.write(("", "{", "[]", '{"key": 3}', '{"result": {}}')[number % 5])
+                file.write(damaged)
+        self.assertGreater(min(edited, cut), 3)  # runs with averages among them
         self.make("a")
         self.assertEqual(self.bytes_of("a", "figure_5b.csv"), table)
 

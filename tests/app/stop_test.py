@@ -26,10 +26,11 @@ def processor_seconds(pid):
 
 
 class Started:
-    def __init__(self, folder, *arguments, **more):
+    def __init__(self, folder, *arguments, preexec_fn=None, **environment):
         self.process = subprocess.Popen([SWIRL, *map(str, arguments)], stdin=subprocess.DEVNULL,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                        cwd=folder, env=dict(os.environ, NO_COLOR="1"), **more)
+                                        cwd=folder, preexec_fn=preexec_fn,
+                                        env=dict(os.environ, NO_COLOR="1", **environment))
 
     def wait_for(self, seconds):
         """Until it has worked for so long; False if it has ended before."""
@@ -88,6 +89,26 @@ class Stop(InFolder):
         self.assertEqual(
             self.expect_heard([0.5], "picture", "--at", 1e7, "--out", self.path("a.png")), 1)
         self.assertEqual(self.left_behind(), [])
+
+    def test_while_figures_are_drawn(self):
+        os.mkdir(self.path("figures"))
+        with open(self.path("figures/figure_5b.py"), "w", encoding="utf-8") as script:
+            script.write("import os, sys, time\n"
+                         "open(os.path.join(os.path.dirname(sys.argv[0]), str(os.getpid())), 'w')\n"
+                         "time.sleep(60)\n")
+        for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            started = Started(self.folder, "paper", "--figure", "5b", "--quick", "--events", "2000", "--quiet",
+                              "--out", self.path("out"), SWIRL_FIGURES=self.path("figures"))
+            while not (pids := [name for name in os.listdir(self.path("figures")) if name.isdigit()]):
+                self.assertIsNone(started.process.poll())
+                time.sleep(0.01)
+            begin = time.monotonic()
+            code, errors, _ = started.stop(sent)
+            self.assertLess(time.monotonic() - begin, 10)  # and not the minute that the script takes
+            self.assertEqual(code, 130, errors)
+            self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
+            self.assertIsNone(processor_seconds(int(pids[0])))
+            os.remove(self.path(f"figures/{pids[0]}"))
 
     def test_a_hang_up_keeps_a_checkpoint_like_any_other(self):
         for sent in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
