@@ -254,7 +254,40 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
-/// The index goes last, so that it never names a frame that is not there.
+/// The frames, under their names; what the index says of them. Those of a call that fails are
+/// removed.
+std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem::path& folder,
+                             const ExportOptions& options) {
+    std::vector<std::filesystem::path> written;
+    Text index;
+    add(index,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n<Collection>\n");
+    try {
+        SyncTogether frames(folder);
+        write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+            const std::string name = fmt::format("{:06}.vtp", k);
+            WholeFile frame(folder / name);  // the index waits for the disk, not each frame
+            frame.append(vtp_of(s));
+            frame.empty_buffer();
+            frame.give_name();
+            written.push_back(folder / name);
+            add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
+                escaped(folder.filename().string()), name);
+        });
+        frames.sync();
+    } catch (...) {
+        std::error_code ignored;
+        for (const auto& frame : written) std::filesystem::remove(frame, ignored);
+        std::filesystem::remove(folder, ignored);  // unless something else is in it
+        throw;
+    }
+    add(index, "</Collection>\n</VTKFile>\n");
+    return fmt::to_string(index);
+}
+
+/// The index goes first, if there is one, and comes last: it never names a frame that is not there,
+/// or is of another recording.
 void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
                const ExportOptions& options) {
     std::filesystem::path folder = path;
@@ -265,21 +298,11 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
     if (error)
         throw FileError(fmt::format("The folder '{}' could not be made: {}.", folder.string(),
                                     error.message()));
-    Text index;
-    add(index,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\">\n<Collection>\n");
-    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-        const std::string name = fmt::format("{:06}.vtp", k);
-        WholeFile frame(folder / name);  // the index waits for the disk, not each frame
-        frame.append(vtp_of(s));
-        frame.empty_buffer();
-        frame.give_name();
-        add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
-            escaped(folder.filename().string()), name);
-    });
-    add(index, "</Collection>\n</VTKFile>\n");
-    write_whole_file(path, view(index));
+    remove_leftovers(folder);
+    refuse_to_replace(path);
+    std::filesystem::remove(path, error);
+    write_whole_file(path, write_vtp_frames(series, folder, options));
+    remove_leftovers(path.parent_path(), path.filename().string());
 }
 
 // --- GSD (gsd.readthedocs.io, "File layer", version 2.0) -----------------------------------------

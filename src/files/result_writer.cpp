@@ -1,15 +1,10 @@
 #include "swirl/files/result_writer.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <utility>
 
-#include "swirl/files/file_error.hpp"
 #include "swirl/files/whole_file.hpp"
 
 namespace swirl {
@@ -70,15 +65,7 @@ void ResultWriter::work() {
 }
 
 void ResultWriter::write_together(std::span<Item> items) {
-    // Opened before anything is written: it is told of every failure from then on.
-    const int handle = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const auto close = [](const int* open) { ::close(*open); };
-    const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&handle, close);
-    const auto fail = [&] {
-        throw FileError(
-            fmt::format("'{}' could not be written to: {}.", folder_.string(), system_reason()));
-    };
-    if (handle < 0) fail();
+    SyncTogether together(folder_);
     // Unfinished ones remove themselves.
     std::vector<std::unique_ptr<WholeFile>> files;
     for (const Item& item : items) {
@@ -86,7 +73,7 @@ void ResultWriter::write_together(std::span<Item> items) {
         files.back()->append(item.bytes);
         files.back()->empty_buffer();
     }
-    if (::syncfs(handle) != 0) fail();
+    together.sync();
     for (const auto& file : files) file->give_name();
     sync_folder_of(folder_ / items.front().name);
     for (const Item& item : items)

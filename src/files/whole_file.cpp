@@ -74,6 +74,21 @@ void sync_folder_of(const std::filesystem::path& path) {
         throw FileError(fmt::format("'{}' could not be written to: {}.", folder.string(), reason));
 }
 
+SyncTogether::SyncTogether(const std::filesystem::path& folder)
+    : folder_(folder), handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (handle_ < 0) fail();
+}
+SyncTogether::~SyncTogether() { ::close(handle_); }
+
+void SyncTogether::fail() {
+    throw FileError(
+        fmt::format("'{}' could not be written to: {}.", folder_.string(), system_reason()));
+}
+
+void SyncTogether::sync() {
+    if (::syncfs(handle_) != 0) fail();
+}
+
 void refuse_to_replace(const std::filesystem::path& path) {
     std::error_code unknown;
     const auto kind = std::filesystem::status(path, unknown).type();

@@ -66,6 +66,22 @@ void refuse_to_replace(const std::filesystem::path& path);
 /// Gives a finished file its final name, on the disk too. Throws FileError.
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
 
+/// Brings many files of a folder onto the disk at once. To be made before they are written: it is
+/// told of every failure from then on. Throws FileError.
+class SyncTogether {
+  public:
+    explicit SyncTogether(const std::filesystem::path& folder);
+    ~SyncTogether();
+    SyncTogether(const SyncTogether&) = delete;
+    SyncTogether& operator=(const SyncTogether&) = delete;
+    void sync();
+
+  private:
+    [[noreturn]] void fail();
+    std::filesystem::path folder_;
+    int handle_;
+};
+
 /// Brings the names in the folder of `path` onto the disk. Throws FileError.
 void sync_folder_of(const std::filesystem::path& path);
 
