@@ -81,6 +81,9 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& film, FilmedDi
     std::optional<FilmSpins> spins;
     if (call.spin) spins = spins_of(found, settings);
     line.clear();
+    // From here on until it is written anew, what is there is of no film.
+    std::error_code absent;
+    fs::remove(about, absent);
     write_tracks(found, {film, {}, {}}, table, spins ? &*spins : nullptr);
     draw_found(found, film, name_of_film(film), picture);
     write_output(about, identity);

@@ -148,7 +148,11 @@ void film(const FilmTestCall& call) {
         line.show(double(k + 1) / double(frames), fmt::format("picture {}", k + 1));
     }
     line.clear();
-    writer.finish();
+    // What is replaced goes first, and the film gets its name last, so that none stands beside the
+    // truth of another.
+    std::error_code absent;
+    for (const auto& old : {out, beside(".truth.csv"), beside(".dish.csv"), beside(".truth.json")})
+        std::filesystem::remove(old, absent);
     discs.write(beside(".truth.csv"));
     dish.write(beside(".dish.csv"));
     const Vec2 centre = view.ideal({0.0, 0.0});
@@ -170,6 +174,7 @@ void film(const FilmTestCall& call) {
                                 {"run", config_json(config)},
                                 {"version", version()}};
     write_output(beside(".truth.json"), json.dump(2) + "\n");
+    writer.finish();
     if (!call.quiet)
         print_all(fmt::format(
             "{}: {} pictures, {}x{} pixels, {} for a swirl.\n"

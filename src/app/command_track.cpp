@@ -136,7 +136,12 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
     control.progress = [&](int done, int of) { line.show(double(done) / of, "overlay"); };
     const MovieResult result = make_movie(config, control);
     line.clear();
-    if (!result.complete) throw Interrupted("Stopped while the overlay was drawn.");
+    if (!result.complete)
+        throw Interrupted(
+            fmt::format("Stopped while the overlay was drawn; the tracks are in '{}', and swirl "
+                        "movie {} --over "
+                        "{} --out {} draws it.",
+                        call.out, call.out, call.source.film, call.overlay));
 }
 
 void track(const TrackCall& call) {

@@ -45,6 +45,7 @@ void check_film_options(const std::optional<double>& fps,
 
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 double degrees(double radians) { return radians * 180.0 / pi; }
@@ -273,6 +274,8 @@ void draw_found(const TrackedFilm& film, const std::string& file, const std::str
 std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSource& source,
                                         const Json& found, const std::filesystem::path& folder) {
     make_folder(folder);
+    std::error_code absent;
+    fs::remove(folder / "report.html", absent);  // what it told of will not be there any more
     pictures_of(film).write(folder / "pictures.csv");
     discs_of(film).write(folder / "discs.csv");
     Json about = found;
@@ -282,7 +285,7 @@ std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSourc
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(film, source.film, std::filesystem::path(source.film).filename().string(),
                folder / "film.png");
-    run_python_script("track.py", {folder.string()});
+    run_python_script("track.py", {folder.string()}, &stop_signal());
     return folder / "report.html";
 }
 
@@ -328,8 +331,19 @@ Json write_tracks(const TrackedFilm& film, const FilmSource& source,
         json["spins"] = {{"step", spins->step},
                          {"steps_measured", spins->measured},
                          {"texture_match", spins->match}};
-    write_tracks_alone(film, source, out, spins);
-    write_output(camera_file(out), json.dump(2) + "\n");
+    const auto write_camera = [&] { write_output(camera_file(out), json.dump(2) + "\n"); };
+    // However a kill divides the two, no tracks stand beside what is said of other ones, and the
+    // same call can be made again.
+    std::error_code ignored;
+    const bool replaces = fs::exists(out);
+    replaces ? void(fs::remove(camera_file(out), ignored)) : write_camera();
+    try {
+        write_tracks_alone(film, source, out, spins);
+    } catch (...) {
+        if (!replaces) fs::remove(camera_file(out), ignored);
+        throw;
+    }
+    if (replaces) write_camera();
     return json;
 }
 
