@@ -54,13 +54,17 @@ unsigned threads_of(const TrackingSettings& settings) {
     return settings.threads ? settings.threads : available_cores();
 }
 
+void listen(const TrackingSettings& settings) {
+    if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+}
+
 Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const std::int64_t every = std::max<std::int64_t>(1, pictures / survey_pictures);
     Video video(settings.film, every);
     cv::Mat grey;
     std::vector<cv::Mat> kept;
     while (static_cast<std::int64_t>(kept.size()) < survey_pictures + 2 && video.next(grey)) {
-        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        listen(settings);
         kept.push_back(grey.clone());
         if (settings.progress)
             settings.progress("looking for the dish", double(kept.size()) / (survey_pictures + 2));
@@ -75,7 +79,12 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const unsigned threads = threads_of(settings);
     std::vector<std::optional<Picture>> made(kept.size());
     on_all_cores(
-        kept.size(), [&](std::size_t k) { made[k].emplace(kept[k], rough, 1.0); }, threads);
+        kept.size(),
+        [&](std::size_t k) {
+            listen(settings);
+            made[k].emplace(kept[k], rough, 1.0);
+        },
+        threads);
     std::vector<Picture> small;
     for (auto& picture : made) small.push_back(std::move(*picture));
     found.rim = survey_rim(small);
@@ -85,13 +94,16 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const std::size_t stride = std::max<std::size_t>(1, small.size() / 24);
     const double sharp_side = std::min(1.0, 1.3 * votes_side / side);
     for (std::size_t k = 0; k < small.size(); k += stride) {
+        listen(settings);
         const CircleFit rim = find_rim(small[k], found.rim);
         if (!rim.good) continue;
         rims.push_back(rim);
         fewer.emplace_back(kept[k], sharp_side, survey_blur);
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
+    listen(settings);
     found.look = survey_beads(fewer, rims, threads);
+    listen(settings);
     found.tilt = find_tilt(small, settings.camera, found.rim, found.look.lens);
     // What discs look like on the mean, for films with poor edges.
     const double shrink = std::min(1.0, votes_radius / found.look.radius());
@@ -99,6 +111,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     on_all_cores(
         kept.size(),
         [&](std::size_t k) {
+            listen(settings);
             const Picture sharp(kept[k], shrink, found.look.blur);
             const CircleFit rim = find_rim(sharp, found.rim);
             if (rim.good) seen[k] = {sharp.sharp, rim, find_beads(sharp, rim, found.look)};
@@ -107,6 +120,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     std::vector<MeanBall::Example> examples;
     for (auto& example : seen)
         if (example) examples.push_back(std::move(*example));
+    listen(settings);
     if (auto mean = MeanBall::learned(examples, found.look, threads))
         found.look.mean_ball = std::make_shared<const MeanBall>(std::move(*mean));
     return found;
@@ -138,13 +152,14 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
         }
     };
     for (read(now); now.number > 0; std::swap(now, next)) {
-        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        listen(settings);
         std::future<void> reading = std::async(std::launch::async, [&] { read(next); });
         const std::size_t begin = all.size();
         all.resize(begin + now.number);
         on_all_cores(
             now.number,
             [&](std::size_t k) {
+                listen(settings);
                 const Picture picture(now.pictures[k], shrink, blur);
                 Seen& seen = all[begin + k];
                 seen.rim = find_rim(picture, found.rim);
@@ -262,7 +277,7 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
     const double shrink = std::min(1.0, votes_radius / found.look.radius());
     cv::Mat grey;
     for (std::size_t k = 0; k < all.size() && video.next(grey); ++k) {
-        if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+        listen(settings);
         if (settings.progress && k % 16 == 0)
             settings.progress("looking for lost discs", double(k) / double(all.size()));
         std::vector<Wanted> here = wanted[k];
