@@ -161,6 +161,22 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
         complaint = process.communicate(timeout=60)[1]
         return process.returncode, complaint
 
+    def test_a_checkpoint_goes_on_where_registers_are_of_another_width(self):
+        if shutil.which("valgrind") is None:
+            self.skipTest("this test needs valgrind, whose processor has no AVX-512")
+        run = [SWIRL, "run", "--discs", "48", "--events", "30000", "--measure", "slip", "--quiet", "--json"]
+        subprocess.run([*run, self.path("whole.json")], check=True)
+        narrow = subprocess.Popen(["valgrind", "--quiet", *run, self.path("r.json"), "--resume",
+                                   "--checkpoint-every", "0.2"], stderr=subprocess.DEVNULL)
+        while not os.path.exists(self.path("r.json.checkpoint")):
+            self.assertIsNone(narrow.poll(), "over without a checkpoint")
+            time.sleep(0.01)
+        narrow.kill()
+        narrow.wait()
+        done = subprocess.run([*run, self.path("r.json"), "--resume"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(without_time(self.path("r.json")), without_time(self.path("whole.json")))
+
     def test_ctrl_c_and_resume(self):
         whole = self.reference()
         for attempt in range(30):  # on a busy machine the run may be over before the signal comes

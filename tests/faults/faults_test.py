@@ -1,6 +1,7 @@
 """What a run and a sweep leave behind when the system fails them: the k-th call of each kind fails
 once or for ever, the process is killed before its k-th change of a file, or the power goes. Each
 time the program says so in a sentence and does not end with 0, or what it left is right, to the bit.
+The same of what is made in one go: exports, pictures, measurements, films with their truth, tracks.
 
     faults_test.py          a sample of all that, for the default suite
     faults_test.py --all    every k, both errors, and 200 power cuts; prints a table
@@ -29,6 +30,17 @@ RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2"
        "0.001", "--quiet"]
 SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--frames", "4", "--out",
          "s", "--quiet"]
+# Of a recording in.h5, or of a film in.mp4, each in a folder that no fault touches.
+OUTPUTS = [["export", "IN/in.h5", "--to", "gsd", "--out", "o.gsd", "--quiet"],
+           ["export", "IN/in.h5", "--to", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
+           ["picture", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
+           ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"]]
+FILM = ["film-test", "--discs", "16", "--container-radius", "6.5", "--scale", "12", "--width", "240",
+        "--height", "240", "--frames-per-period", "40", "--length", "1.2", "--quiet", "--out"]
+FILMS = [["film-test", "--discs", "3", "--frames", "4", "--width", "64", "--height", "64", "--scale", "3",
+          "--quiet", "--out", "o.mp4"],
+         ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
+         ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
 PAGE = 4096
 
@@ -81,8 +93,8 @@ class Faults(unittest.TestCase):
 
     def absolute(self, arguments):
         """Names under the folder that the shim watches."""
-        return [os.path.join(self.work, a) if a in ("t.h5", "e.h5", "r.json", "s") else a
-                for a in arguments]
+        return [os.path.join(self.work, a) if a in ("t.h5", "e.h5", "r.json", "s") or a.startswith("o.")
+                else a.replace("IN", self.folder) for a in arguments]
 
     def result(self):
         with open(os.path.join(self.work, "r.json")) as opened:
@@ -131,7 +143,7 @@ class Faults(unittest.TestCase):
         self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
         self.assertTrue(done.stderr.startswith("swirl: "), f"{where}: {done.stderr}")
 
-    def fail_each(self, arguments, assert_right, most):
+    def fail_each(self, arguments, assert_right, most, assert_harmless=lambda where: None):
         most = 10**9 if EVERY else most
         for call in CALLS:
             calls, said, right = self.count(call, arguments), 0, 0
@@ -147,28 +159,73 @@ class Faults(unittest.TestCase):
                         right += 1
                         continue
                     self.assert_said(done, where)
+                    assert_harmless(where)
                     said += 1
             tell(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
                  f"{said} said so, {right} right all the same")
 
-    def fail_memory(self, most):
-        calls, said, right = self.count("new", self.run_call), 0, 0
+    def fail_memory(self, call, only_reads_the_call, assert_right, most):
+        calls, said, right = self.count("new", call), 0, 0
         # Before main() nobody is there who could say anything.
         before = self.count("new", ["--version"])
-        while_the_call_is_read = self.count("new", [*self.run_call, "--dry-run"])
+        while_the_call_is_read = self.count("new", only_reads_the_call)
         for k in [*self.some(range(before // 2, while_the_call_is_read), most // 3),
                   *self.some(range(while_the_call_is_read, calls + 1), most)]:
             where = f"new {k} of {calls}"
             self.anew()
-            done = self.swirl(*self.run_call, **setting("new", k, errno.ENOMEM))
+            done = self.swirl(*call, **setting("new", k, errno.ENOMEM))
             if done.returncode == 0:
-                self.assert_right(where)
+                assert_right(where)
                 right += 1
             else:
                 self.assert_said(done, where)
                 said += 1
-        tell(f"run, new fails: {calls} places, {said + right} tried, {said} said "
+        tell(f"{call[0]}, new fails: {calls} places, {said + right} tried, {said} said "
              f"so, {right} right all the same")
+
+    def files(self):
+        """What stands under a final name in the work folder."""
+        found = {}
+        for folder, _, names in os.walk(self.work):
+            for name in names:
+                if not name.endswith((".partial", ".journal")):
+                    with open(os.path.join(folder, name), "rb") as opened:
+                        found[os.path.relpath(os.path.join(folder, name), self.work)] = opened.read()
+        return found
+
+    def output(self, call):
+        self.anew()
+        call = self.absolute(call)
+        done = self.swirl(*call)
+        if "has no eyes" in done.stderr:
+            self.skipTest("this build was made without OpenCV")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return call, self.files()
+
+    def fail_output(self, call, most):
+        """Calls fail one by one: told, and then nothing else than the right thing stands anywhere."""
+        call, wanted = self.output(call)
+
+        def assert_whole(where):
+            self.assertEqual({name: bytes == wanted.get(name) for name, bytes in self.files().items()},
+                             {name: True for name in wanted}, where)
+
+        def assert_nothing_else(where):
+            for name, found in self.files().items():
+                self.assertEqual(found, wanted.get(name), f"{where}: {name}")
+
+        self.fail_each(call, assert_whole, most, assert_nothing_else)
+
+    def kill_output(self, call, most):
+        call, wanted = self.output(call)
+
+        def assert_clean(where):
+            self.assertEqual(self.files(), wanted, where)
+            left = [name for _, _, names in os.walk(self.work) for name in names
+                    if name.endswith((".partial", ".journal"))]
+            self.assertEqual(left, [], where)
+
+        self.kill_each(call, call, assert_clean, most)
 
     # --- the tests ---------------------------------------------------------------------------------
 
@@ -178,7 +235,70 @@ class Faults(unittest.TestCase):
 
     def test_memory_that_is_not_given_in_a_run_is_told_or_does_no_harm(self):
         self.undisturbed()
-        self.fail_memory(600 if EVERY else 15)
+        self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_right,
+                         600 if EVERY else 15)
+
+    def test_memory_that_is_not_given_in_a_sweep_is_told_or_does_no_harm(self):
+        self.undisturbed_sweep()
+        self.fail_memory(self.sweep_call, ["--version"], self.assert_right_sweep, 300 if EVERY else 8)
+
+    def record_one(self):
+        self.anew()
+        done = self.swirl("run", "--discs", "8", "--events", "300", "--frames", "4", "--quiet",
+                          "--trajectory", os.path.join(self.folder, "in.h5"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def film_one(self):
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("this test needs ffmpeg")
+        self.anew()
+        done = self.swirl(*FILM, os.path.join(self.folder, "in.mp4"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def replace_output(self, old, new, most):
+        """Killed while it takes the place of another: no file stands beside one that belongs to another."""
+        _, before = self.output(old)
+        call, after = self.output([*new, "--overwrite"])
+        self.assertEqual(set(before), set(after))
+        calls = self.count("change", call)
+        for k in self.some(range(1, calls + 1), 10**9 if EVERY else most):
+            self.anew()
+            for name, content in before.items():
+                with open(os.path.join(self.work, name), "wb") as opened:
+                    opened.write(content)
+            self.swirl(*call, FAULT_UNDER=self.folder, **setting("change", k))
+            found = self.files()
+            mixed = [[name for name, content in found.items() if content != of[name]]
+                     for of in (before, after)]
+            self.assertIn([], mixed, f"{new[0]} killed before change {k} of {calls}")
+            done = self.swirl(*call)
+            self.assertEqual((done.returncode, self.files()), (0, after), done.stderr)
+        tell(f"{new[0]} --overwrite, killed before a change: {calls} places, nothing mixed")
+
+    def test_killed_while_files_that_belong_together_are_replaced_they_are_not_mixed(self):
+        self.film_one()
+        self.replace_output(FILMS[0], [*FILMS[0], "--seed", "2"], 4)
+        self.replace_output(FILMS[2], [*FILMS[2], "--frames", "40"], 4)
+
+    def test_a_call_that_fails_while_something_is_made_of_a_recording(self):
+        self.record_one()
+        for call in OUTPUTS:
+            self.fail_output(call, 1)
+
+    def test_killed_before_a_change_of_a_file_an_output_is_made_by_the_same_call(self):
+        self.record_one()
+        for call in OUTPUTS:
+            self.kill_output(call, 2)
+
+    def test_a_call_that_fails_while_a_film_is_made_or_tracked(self):
+        self.film_one()
+        for call in FILMS if EVERY else FILMS[:2]:
+            self.fail_output(call, 1)
+
+    def test_killed_before_a_change_of_a_file_film_and_tracks_are_made_by_the_same_call(self):
+        self.film_one()
+        for call in FILMS if EVERY else FILMS[1:]:
+            self.kill_output(call, 2)
 
     def test_a_call_that_fails_in_a_sweep_is_told_or_does_no_harm(self):
         self.undisturbed_sweep()
