@@ -55,7 +55,8 @@ unsigned threads_of(const TrackingSettings& settings) {
 }
 
 void listen(const TrackingSettings& settings) {
-    if (settings.stop && settings.stop->load()) throw Interrupted("Stopped.");
+    if (settings.stop && settings.stop->load())
+        throw Interrupted("Stopped while a film was tracked; of it nothing was written.");
 }
 
 Survey survey(const TrackingSettings& settings, std::int64_t pictures) {

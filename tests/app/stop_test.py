@@ -3,12 +3,13 @@ lists are made, between events. Counted is processor time, since the machine may
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from program import InFolder, SWIRL
+from program import InFolder, SWIRL, swirl
 
 PER_SECOND = os.sysconf("SC_CLK_TCK")
 
@@ -89,6 +90,21 @@ class Stop(InFolder):
         self.assertEqual(
             self.expect_heard([0.5], "picture", "--at", 1e7, "--out", self.path("a.png")), 1)
         self.assertEqual(self.left_behind(), [])
+
+    def test_while_a_film_is_made_and_tracked(self):
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("this test needs ffmpeg")
+        film = ["film-test", "--discs", 16, "--container-radius", 6.5, "--scale", 12, "--width", 240, "--height",
+                240, "--frames-per-period", 40, "--length", 1.2, "--quiet", "--out"]
+        self.assertGreaterEqual(self.expect_heard([0.05], *film, self.path("stopped.mp4")), 1)
+        self.assertEqual(self.left_behind(), [])
+        self.assertEqual(swirl(*film, self.path("film.mp4")).returncode, 0)
+        made = self.left_behind()
+        track = ["track", self.path("film.mp4"), "--quiet", "--out", self.path("tracks.csv")]
+        if "has no eyes" in swirl(*track, "--frames", 1).stderr:
+            self.skipTest("this build was made without OpenCV")
+        self.assertGreaterEqual(self.expect_heard([0.05, 0.2, 0.35, 0.5], *track), 3)
+        self.assertEqual(self.left_behind(), made)
 
     def test_while_figures_are_drawn(self):
         os.mkdir(self.path("figures"))
