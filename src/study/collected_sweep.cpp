@@ -181,11 +181,19 @@ std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
     return quantities;
 }
 
+/// How long the runs are is known of runs that were given so many swirls.
+bool gives_periods(const SweepPlan& plan) {
+    return std::any_of(plan.axes.begin(), plan.axes.end(),
+                       [](const SweepAxis& axis) { return axis.name == "periods"; });
+}
+
 std::vector<std::string> columns_of(const SweepPlan& plan,
                                     const std::vector<Quantity>& quantities) {
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
-    columns.insert(columns.end(), {"replicas", "periods", "energy", "steady_state", "scatter"});
+    columns.emplace_back("replicas");
+    if (!gives_periods(plan)) columns.emplace_back("periods");
+    columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
     for (const Quantity& quantity : quantities) {
         columns.push_back(quantity.name);
         columns.push_back(quantity.name + "_error");
@@ -215,7 +223,7 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
     const std::string steadiness = steadiness_of(replicas);
     collected.not_steady += steadiness == "steady" ? 0 : 1;
     row.emplace_back(std::int64_t(replicas.size()));
-    row.emplace_back(periods);
+    if (!gives_periods(plan)) row.emplace_back(periods);
     row.emplace_back(energy);
     row.emplace_back(steadiness);
     const std::size_t place_of_scatter = row.size();

@@ -186,6 +186,18 @@ class Sweep(InFolder):
             self.assertEqual(many[header.index(name)], "")
         self.assertNotEqual(many[header.index("energy")], "")
 
+    def test_no_two_columns_have_one_name(self):
+        for length, others in ((("--events", 2000), ["mu", "events"]), (("--periods", 3), ["mu", "periods"])):
+            folder = self.path(length[0][2:])
+            self.assertEqual(swirl("sweep", "--discs", "5,6", "--mu", 1, *length, "--measure", "slip", "--out",
+                                   folder, "--quiet").returncode, 0)
+            header, *rows = [line.split(",") for line in self.table(folder).splitlines()]
+            self.assertEqual(len(set(header)), len(header), header)
+            self.assertEqual(header[1:3], others)
+            for row in rows:
+                self.assertEqual(len(row), len(header))
+                self.assertGreaterEqual(float(row[header.index("periods")]), 3)
+
     def test_a_sweep_grows_and_keeps_what_is_done(self):
         table = self.whole()
         small = ["sweep", "--discs", "5,7:9", "--mu", "1", "--seeds", "1", "--events", "20000",
