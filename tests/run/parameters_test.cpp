@@ -181,7 +181,9 @@ TEST(RunParameters, WhatSpheresCannotDoIsRefused) {
     EXPECT_THAT(refusal({{"floor", "sliding"}, {"vertical_disc", "0"}}),
                 testing::HasSubstr("do not slip vertically"));
     EXPECT_THAT(refusal({{"body", "sphere"}, {"path", "circle"}}), testing::HasSubstr("parabola"));
-    EXPECT_THAT(refusal({{"body", "sphere"}, {"floor", "rough"}}), testing::HasSubstr("limit"));
+    EXPECT_THAT(refusal({{"body", "sphere"}, {"floor", "rough"}}),
+                testing::AllOf(testing::HasSubstr("collide without end"),
+                               testing::HasSubstr("a large --floor-friction, 100")));
 }
 TEST(RunParameters, WhatOnlyAFloorDoesIsRefusedWithoutOne) {
     EXPECT_THAT(refusal({{"floor_friction", "0.5"}}), testing::HasSubstr("there is no floor"));
