@@ -40,5 +40,11 @@ template <class Real>
 SWIRL_INLINE constexpr BasicVec2<Real> perpendicular(const BasicVec2<Real>& a) {
     return {-a.y, a.x};
 }
+/// The product as complex numbers: b turned by the angle of a and stretched by its magnitude.
+template <class Real>
+SWIRL_INLINE constexpr BasicVec2<Real> complex_product(const BasicVec2<Real>& a,
+                                                       const BasicVec2<Real>& b) {
+    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
 
 }  // namespace swirl

@@ -126,6 +126,37 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGas) {
         expect_same_trajectory(gas_at_rest(200, 0.05), 4000, tuning(neighbours));
     }
 }
+/// Turns all discs about the centre of the dish, as if they were one body.
+InitialState turning(InitialState scene, double angular_velocity) {
+    for (Disc& disc : scene.discs) {
+        const Vec2 from_centre = disc.position - scene.path.legs[0].start;
+        disc.velocity = disc.velocity + angular_velocity * perpendicular(from_centre);
+    }
+    return scene;
+}
+// The frame of the skins turns with the pack, and stretches all distances while it does: where it
+// is fast by a fiftieth with each leg, so that after ten it is begun again; and it does not turn
+// where that would be too far in one leg.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAPackThatTurns) {
+    const int events = sanitized ? 1500 : 6000;
+    const InitialState pack = state_of({unit_disc()}, 41, 8.0, still_path(1.0), 0.0, 0.0, 0.1);
+    for (const double angular_velocity : {0.02, -0.19, 1.0})
+        for (const int cells : {1, 3})
+            expect_same_trajectory(turning(pack, angular_velocity), events, tuning(cells));
+    expect_same_trajectory(turning(mixture_dish(), 0.1), events, tuning(3));
+    expect_same_trajectory(on_circle(turning(paper_dish(41, 0.3, 0.0), -0.1)), events, tuning(3));
+    expect_same_trajectory(turning(large_among_small(3, 100, 0.3, 5.5), 0.2), events / 4, tuning());
+}
+// In a frame that did not turn, the discs would fly ten times as fast as among each other; each
+// list would be rebuilt three times. What the wall does to those beside it is left.
+TEST(TurningPack, HardlyAnyListIsRebuilt) {
+    const InitialState pack = state_of({unit_disc()}, 500, 28.0, still_path(1.0), 0.0, 0.0, 0.1);
+    for (const double angular_velocity : {0.0, 0.02}) {
+        Simulation simulation(turning(pack, angular_velocity));
+        simulation.advance_to(8, 0.0);
+        EXPECT_LT(simulation.loop_counts().list_rebuilds, 50u) << angular_velocity;
+    }
+}
 // The cells move with the container, here over several swirls.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInThePaperDish) {
     for (const std::size_t n : {1u, 5u, 48u})

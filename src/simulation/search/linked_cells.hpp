@@ -54,9 +54,9 @@ SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
 SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, double t) {
     const HotDisc& disc = state.discs[i];
     const Skin& mine = state.skins[i];
-    const Vec2 offset =
-        disc.flight().position_at(t) - state.comoving_frame.position_at(t) - Vec2{mine.X, mine.Y};
-    const Vec2 v = disc.velocity - state.comoving_frame.velocity;
+    const Flight<double>& frame = state.comoving_frame.origin;
+    const Vec2 offset = disc.flight().position_at(t) - frame.position_at(t) - Vec2{mine.X, mine.Y};
+    const Vec2 v = disc.velocity - frame.velocity;
     const Lanes<2> speed = two_lanes(v.x, v.y), from = two_lanes(offset.x, offset.y);
     const Lanes<2> zero(0.0), half(0.5 / state.grids[0].cells_per_length);
     const Lanes<2> way = select(speed > zero, half - from, half + from);
@@ -152,15 +152,19 @@ static void predict_all(EngineState& state, double t) {
     }
 }
 
+SWIRL_INLINE void rest_with_container(EngineState& state) {
+    state.comoving_frame = {container_flight(state.legs[state.leg]), {1.0, 0.0}, 0.0, 1.0, false};
+}
+
 static void start(EngineState& state) {
-    state.comoving_frame = container_flight(state.legs[state.leg]);
+    rest_with_container(state);
     const Grid& grid = state.grids[0];
     for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         state.cells[c].count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (state.stops_at(i)) return;
         const Vec2 at = state.discs[i].flight().position_at(state.clock) -
-                        state.comoving_frame.position_at(state.clock);
+                        state.comoving_frame.origin.position_at(state.clock);
         enter(state, i, cell_number(state, grid, at.x, at.y));
     }
     for (std::uint32_t i = 0; i < state.size && !state.discs_overlap; ++i) {
@@ -172,7 +176,7 @@ static void start(EngineState& state) {
 
 /// The container, and the cells with it, take another course.
 SWIRL_INLINE void leg_ended(EngineState& state) {
-    state.comoving_frame = container_flight(state.legs[state.leg]);
+    rest_with_container(state);
     predict_all(state, state.clock);
 }
 

@@ -68,12 +68,54 @@ inline constexpr std::uint32_t leaves_skin = 0xffffff01u;
 /// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell
 /// (linked_cells.hpp).
 struct Skin {
-    float X, Y;         // its centre, in the co-moving frame
+    float X, Y;         // its centre, in the co-moving frame (ComovingFrame)
     float skin_radius;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell
     union {
         std::uint32_t next_in_cell;  // the number of a disc, or EngineState::size
         std::uint32_t cell;          // its number
     };
+};
+
+/// Where skins and cells rest. It moves with the discs' mean velocity and turns with them: what is
+/// at Z in it moves uniformly, from `origin.position + turn Z` on, as complex numbers, with the
+/// velocity that the rotation has there. A field of velocities like that turns all distances alike
+/// and stretches them alike, by √(1 + (turning τ)²) in a time τ, so they never shrink.
+struct ComovingFrame {
+    Flight<double> origin;
+    Vec2 turn;       // at origin.time; of magnitude 1 or more
+    double turning;  // angular velocity then
+    double scale;    // magnitude of turn: so many times as far apart as in the frame two places are
+    bool has_turned;
+
+    template <class Real>
+    SWIRL_INLINE Flight<Real> flight_of(const BasicVec2<Real>& Z) const {
+        const BasicVec2<Real> c = complex_product(BasicVec2<Real>{Real(turn.x), Real(turn.y)}, Z);
+        return {{Real(origin.position.x) + c.x, Real(origin.position.y) + c.y},
+                {Real(origin.velocity.x) - Real(turning) * c.y,
+                 Real(origin.velocity.y) + Real(turning) * c.x},
+                Real(origin.time)};
+    }
+    SWIRL_INLINE Flight<double> flight_of(const Skin& skin) const {
+        return flight_of(Vec2{skin.X, skin.Y});
+    }
+    SWIRL_INLINE Vec2 turn_at(double t) const {
+        return turn + ((t - origin.time) * turning) * perpendicular(turn);
+    }
+    /// Of what is at p at time t.
+    SWIRL_INLINE Vec2 place_of(const Vec2& p, double t) const {
+        const Vec2 from_origin = p - origin.position_at(t);
+        if (!has_turned) return from_origin;
+        const Vec2 m = turn_at(t);
+        return (1.0 / dot(m, m)) * complex_product(Vec2{m.x, -m.y}, from_origin);
+    }
+    /// At time t the velocity at p is origin.velocity + rate_at(t) (p - origin), as complex
+    /// numbers.
+    SWIRL_INLINE Vec2 rate_at(double t) const {
+        if (turning == 0.0) return {0.0, 0.0};
+        const double angle = (t - origin.time) * turning;
+        const double share = turning / (1.0 + angle * angle);
+        return {share * angle, share};
+    }
 };
 
 /// The discs in a cell of a thin gas.
@@ -164,10 +206,9 @@ struct EngineState {
     double* level_times[12];
     std::uint32_t* level_winners[12];
 
-    // The frame in which the skins rest: the mean motion of the discs, renewed with every leg, and
-    // when the discs have left it.
-    Flight<double> comoving_frame;
+    ComovingFrame comoving_frame;     // renewed with every leg, and when the discs have left it
     std::uint64_t rebuilds_in_frame;  // of lists, since it was last asked whether they have
+    std::uint64_t events_when_asked;  // collisions until the frame was last held against the discs
 
     // A grid for each size of disc that there is (verlet_skin.hpp), from the smallest on; or one
     // for all, if the discs are few or equal; or that of a thin gas (linked_cells.hpp).

@@ -112,18 +112,21 @@ SWIRL_INLINE bool is_on_list(const EngineState& state, std::uint32_t i, std::uin
 }
 /// How far the disc is at time t from the centre of its skin or its cell.
 SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, double t) {
-    return state.discs[i].flight().position_at(t) - state.comoving_frame.position_at(t) -
-           Vec2{state.skins[i].X, state.skins[i].Y};
+    return state.discs[i].flight().position_at(t) -
+           state.comoving_frame.flight_of(state.skins[i]).position_at(t);
 }
 
 [[maybe_unused]] static void check_lists(const EngineState& state, double t) {
+    const Vec2 turn = state.comoving_frame.turn_at(t);
+    const double scale = square_root(dot(turn, turn));
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Skin& skin = state.skins[i];
         const Vec2 offset = offset_in_skin(state, i, t);
         promise::discs_are_within_their_skins(square_root(dot(offset, offset)) <= skin.skin_radius);
         for (std::uint32_t k = i + 1; k < state.size; ++k) {
             const Skin& other = state.skins[k];
-            const double dx = double(other.X) - skin.X, dy = double(other.Y) - skin.Y;
+            const double dx = scale * (double(other.X) - skin.X);
+            const double dy = scale * (double(other.Y) - skin.Y);
             const double reach = state.discs[i].radius + state.discs[k].radius +
                                  double(skin.skin_radius) + other.skin_radius;
             const bool listed = is_on_list(state, i, k);

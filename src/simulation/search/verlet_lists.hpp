@@ -6,6 +6,7 @@
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/search/comoving_frame.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/state_checks.hpp"
@@ -100,7 +101,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 /// A new frame, in which the discs rest, in the middle of the leg.
 [[gnu::noinline]] static void follow_the_discs(EngineState& state, double t) {
     ++state.full_rebuilds;
-    renew_comoving_frame(state, state.legs[state.leg].position_at(t), t);
+    begin_comoving_frame(state, t);
     rebuild_all_narrow(state, t);
     predict_all(state, t);
 }
@@ -110,7 +111,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     ++state.list_rebuilds;
     if (++state.rebuilds_in_frame > 8 * static_cast<std::uint64_t>(state.size)) [[unlikely]] {
         state.rebuilds_in_frame = 0;
-        if (frame_is_left_behind(state)) return follow_the_discs(state, t);
+        if (frame_is_left_behind(state, t)) return follow_the_discs(state, t);
     }
     const double before = recentre_skin(state, i, t);
     if (build_list(state, i, t, before, skin_radius_range(state))) {
@@ -131,7 +132,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 }
 
 [[gnu::noinline]] static void start(EngineState& state) {
-    renew_comoving_frame(state, state.legs[state.leg].position_at(state.clock), state.clock);
+    begin_comoving_frame(state, state.clock);
     rebuild_all_narrow(state, state.clock);
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (state.stops_at(i)) return;
@@ -181,17 +182,18 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     }
     using Eight = Lanes<8>;
     const Others<8> discs = load_others<8>(state, who);
-    const BasicVec2<Eight> centre{Eight::load(X), Eight::load(Y)};
-    const Flight<double>& frame = state.comoving_frame;
-    const BasicVec2<Eight> at = discs.flight.position_at(Eight(t));
-    const BasicVec2<Eight> offset = at - in_lanes<8>(frame.position_at(t)) - centre;
-    const BasicVec2<Eight> drift = discs.flight.velocity - in_lanes<8>(frame.velocity);
+    const Flight<Eight> skins =
+        state.comoving_frame.flight_of(BasicVec2<Eight>{Eight::load(X), Eight::load(Y)});
+    const BasicVec2<Eight> centre = skins.position_at(Eight(t));
+    const BasicVec2<Eight> offset = discs.flight.position_at(Eight(t)) - centre;
+    const BasicVec2<Eight> drift = discs.flight.velocity - skins.velocity;
     alignas(64) double wall[8], skin[8], beyond[8];
     soonest_wall_times<8>(state, discs.flight, discs.radius, t).store(wall);
     (Eight(t) + time_to_leave(offset, drift, Eight::load(inner_radius))).store(skin);
-    const Vec2 from_container = frame.position_at(t) - state.legs[state.leg].position_at(t);
-    beyond_reach(Eight(reach_far_from_wall(state, t)), in_lanes<8>(from_container) + centre,
-                 Eight::load(skin_radius), discs.radius)
+    const WallReach reach = reach_far_from_wall(state, t);
+    const BasicVec2<Eight> s = centre - in_lanes<8>(state.legs[state.leg].position_at(t));
+    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, Eight::load(skin_radius),
+                 discs.radius)
         .store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -203,8 +205,8 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
 
 /// In the old frame, for the eight discs from `begin` on: the wall alone. Who was far from it and
 /// still is has no event that could have changed.
-SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin, double reach,
-                                       const Vec2& from_container, double t) {
+SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin,
+                                       const WallReach& reach, double t) {
     using Eight = Lanes<8>;
     const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
     std::uint32_t who[8];
@@ -220,9 +222,12 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin, 
         radius[k] = state.discs[i].radius;
         were_far |= static_cast<unsigned>(state.discs[i].far_from_wall) << k;
     }
-    beyond_reach(Eight(reach),
-                 in_lanes<8>(from_container) + BasicVec2<Eight>{Eight::load(X), Eight::load(Y)},
-                 Eight::load(skin_radius), Eight::load(radius))
+    const Flight<Eight> skins =
+        state.comoving_frame.flight_of(BasicVec2<Eight>{Eight::load(X), Eight::load(Y)});
+    const BasicVec2<Eight> s =
+        skins.position_at(Eight(t)) - in_lanes<8>(state.legs[state.leg].position_at(t));
+    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, Eight::load(skin_radius),
+                 Eight::load(radius))
         .store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
     unsigned near = ~(far & were_far) & ((1u << count) - 1u);
@@ -239,37 +244,36 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin, 
 
 /// At a corner of the path only what depends on the container's motion is predicted anew.
 static void renew_all_leaving(EngineState& state, double t) {
-    if (!frame_still_serves(state)) {
-        renew_comoving_frame(state, state.comoving_frame.position_at(t), t);
+    begin_stretch(state, t);
+    if (renew_frame_if_left(state, t)) {
         for (std::uint32_t i = 0; i < state.size; i += 8) renew_eight(state, i, t);
         return;
     }
-    begin_stretch(state, t);
-    const double reach = reach_far_from_wall(state, t);
-    const Vec2 from_container =
-        state.comoving_frame.position_at(t) - state.legs[state.leg].position_at(t);
-    for (std::uint32_t i = 0; i < state.size; i += 8)
-        renew_walls_of_eight(state, i, reach, from_container, t);
+    const WallReach reach = reach_far_from_wall(state, t);
+    for (std::uint32_t i = 0; i < state.size; i += 8) renew_walls_of_eight(state, i, reach, t);
 }
 
-/// At the end of the swirl the discs' clocks have restarted, and so does the frame's. Its origin is
-/// brought back to the container when it has moved away by more than a cell.
-static void renew_all(EngineState& state, const Vec2& origin) {
-    const Vec2 drift = origin - state.legs[0].start;
+/// At the end of the swirl, at time t, the discs' clocks have restarted, and so does the frame's.
+/// Its origin is brought back to the container when it has moved away by more than a cell, and its
+/// cells to their size when they have grown.
+static void renew_all(EngineState& state, double t) {
+    ComovingFrame& frame = state.comoving_frame;
+    const Vec2 drift = frame.origin.position_at(t) - state.legs[0].start;
     const bool gone = square_root(dot(drift, drift)) * state.grids[0].cells_per_length > 1.0;
-    if (!state.has_no_grid && gone) {
-        renew_comoving_frame(state, state.legs[0].start, 0.0);
+    if ((!state.has_no_grid && gone) || frame.scale > bearable_stretch) {
+        begin_comoving_frame(state, 0.0);
         rebuild_all_narrow(state, 0.0);
     } else {
-        renew_comoving_frame(state, origin, 0.0);
+        frame.origin.time -= t;
+        begin_stretch(state, 0.0);
+        renew_comoving_frame(state, motion_in_frame(state, 0.0), 0.0);
         for (std::uint32_t i = 0; i < state.size; ++i) note_far_from_wall(state, i, 0.0);
     }
     predict_all(state, 0.0);
 }
 
 SWIRL_INLINE void leg_ended(EngineState& state, double t) {
-    const Vec2 origin = state.comoving_frame.position_at(t);
-    if (state.leg == 0) return renew_all(state, origin);
+    if (state.leg == 0) return renew_all(state, t);
     renew_all_leaving(state, t);
 }
 

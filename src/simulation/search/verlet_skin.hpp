@@ -1,12 +1,13 @@
 // Speed only, changes no bit: Verlet lists. Each disc has a skin: a circle of radius h_i about a
-// point X_i that rests in a co-moving frame, which moves with the mean velocity of all discs. While
-// every disc is within its own skin, only pairs with
+// point X_i that rests in a co-moving frame, which moves with the mean velocity of all discs and
+// turns with them (comoving_frame.hpp). While every disc is within its own skin, only pairs with
 //
 //     |X_i − X_k| < r_i + r_k + h_i + h_k
 //
-// can touch, and these are on each other's lists. A disc about to leave its skin gets a new one
-// where it stands, and its list is rebuilt. Lists change what is predicted, never what happens: a
-// disc keeps the state it had, and a pair off the lists cannot meet.
+// can touch, and these are on each other's lists. No distance in the frame ever shrinks. A disc
+// about to leave its skin gets a new one where it stands, and its list is rebuilt. Lists change
+// what is predicted, never what happens: a disc keeps the state it had, and a pair off the lists
+// cannot meet.
 //
 // The skin radius adapts by itself: h_i is half the gap to the nearest disc but
 // `wanted_neighbours`, so that a list fits in one vector. In a gas that is a long way, in the pack
@@ -45,71 +46,33 @@ SWIRL_INLINE bool is_lost_in_rounding(const Skin& skin) {
     return skin.skin_radius < rounding_of_centre * distance;
 }
 
-/// On a turning leg the co-moving frame is renewed this often per turn, as on the paper's polygon.
-inline constexpr double stretches_per_turn = 30.0;
-
-static void begin_stretch(EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
-    state.stretch_end = leg.end;
-    if (leg.turning != 0.0)
-        state.stretch_end =
-            smaller(leg.end, t + 2.0 * pi / (stretches_per_turn * magnitude(leg.turning)));
-}
-
-/// From time t on the co-moving frame has the discs' mean velocity. The pack circles in the dish
-/// with the swirl, so this is where most discs stay near; and in a large dish, where the wall is
-/// far, they do not follow the container at all. On a turning leg it lasts for a stretch.
-static void renew_comoving_frame(EngineState& state, const Vec2& origin, double t) {
-    Vec2 sum{0.0, 0.0};
-    for (std::uint32_t i = 0; i < state.size; ++i) sum = sum + state.discs[i].velocity;
-    state.comoving_frame = {origin, (1.0 / state.size) * sum, t};
-    state.rebuilds_in_frame = 0;
-    begin_stretch(state, t);
-}
-
-/// How much the discs fly with each other rather than with the frame: the energy of their mean
-/// motion against it, over that of their motion against each other.
-static double lag_of_frame(const EngineState& state) {
-    Vec2 sum{0.0, 0.0};
-    double squares = 0.0;
-    for (std::uint32_t i = 0; i < state.size; ++i) {
-        const Vec2 v = state.discs[i].velocity - state.comoving_frame.velocity;
-        sum = sum + v;
-        squares += dot(v, v);
-    }
-    const double together = dot(sum, sum) / state.size;
-    return together / larger(squares - together, 0.0);
-}
-
-/// Then lists would be rebuilt for ever: in a fast dish all have followed the container long before
-/// the next leg.
-static bool frame_is_left_behind(const EngineState& state) { return lag_of_frame(state) > 1.0; }
-
-/// At a corner of the path the frame is renewed, and with it when each disc leaves its skin. Where
-/// discs hardly follow the container, as in a thin dish, that is most of the work and changes
-/// little; then it is left as it is.
-inline constexpr double bearable_lag = 0.05;
-static bool frame_still_serves(const EngineState& state) {
-    return lag_of_frame(state) < bearable_lag;
-}
-
 /// How far from the centre of the container a disc may reach without touching the wall, with room
 /// for the rounding of places to single precision.
 SWIRL_INLINE double reach_short_of_wall(const EngineState& state) {
     return state.container_radius * (1.0 - 1e-6);
 }
-/// How far from the centre of the container, at time t, a skin may reach so that its disc cannot
-/// reach the wall before the leg ends, or a stretch of it: the skin drifts against the container,
-/// which turns away from its course by no more than half its acceleration times the square of the
-/// time.
-SWIRL_INLINE double reach_far_from_wall(const EngineState& state, double t) {
+/// Who is far from the wall, from a time on: a disc with radius r whose skin has radius h and is at
+/// s from the centre of the container cannot reach the wall before the leg ends, or a stretch of
+/// it, if growth |s| < reach - h - r.
+struct WallReach {
+    double reach, growth;
+};
+/// The skin drifts against the container, as what is in the container's centre does, and away from
+/// there as the frame stretches; and the container turns away from its course by no more than half
+/// its acceleration times the square of the time.
+SWIRL_INLINE WallReach reach_far_from_wall(const EngineState& state, double t) {
     const Leg& leg = state.legs[state.leg];
+    const ComovingFrame& frame = state.comoving_frame;
     const double time = state.stretch_end - t;
-    const Vec2 drift = time * (state.comoving_frame.velocity - leg.velocity_at(t));
+    const Vec2 rate = frame.rate_at(t);
+    const Vec2 centre = leg.position_at(t) - frame.origin.position_at(t);
+    const Vec2 drift =
+        time * (frame.origin.velocity + complex_product(rate, centre) - leg.velocity_at(t));
+    const double turn = time * rate.y, growth = 1.0 + time * rate.x + 0.5 * turn * turn;
     const double reach = reach_short_of_wall(state) - square_root(dot(drift, drift));
-    if (leg.turning == 0.0) return reach;
+    if (leg.turning == 0.0) return {reach, growth};
     const double speed = square_root(dot(leg.velocity, leg.velocity));
-    return reach - 0.5 * speed * magnitude(leg.turning) * time * time;
+    return {reach - 0.5 * speed * magnitude(leg.turning) * time * time, growth};
 }
 
 /// Negative if a skin whose centre is at s from that of the container does not reach so far.
@@ -122,11 +85,12 @@ SWIRL_INLINE Real beyond_reach(const Real& reach, const BasicVec2<Real>& s, cons
 
 static void note_far_from_wall(EngineState& state, std::uint32_t i, double t) {
     const Skin& mine = state.skins[i];
-    const Vec2 centre = state.comoving_frame.position_at(t) + Vec2{mine.X, mine.Y};
+    const Vec2 centre = state.comoving_frame.flight_of(mine).position_at(t);
     const Vec2 s = centre - state.legs[state.leg].position_at(t);
     const double skin_radius = mine.skin_radius;
+    const WallReach far = reach_far_from_wall(state, t);
     state.discs[i].far_from_wall =
-        beyond_reach(reach_far_from_wall(state, t), s, skin_radius, state.discs[i].radius) < 0.0;
+        beyond_reach(far.reach, far.growth * s, skin_radius, state.discs[i].radius) < 0.0;
 }
 
 SWIRL_INLINE std::uint32_t cell_row(const EngineState& state, const Grid& grid, double x) {
@@ -246,7 +210,7 @@ SWIRL_INLINE void pad(const EngineState& state, Candidates& candidates) {
 }
 
 /// Everybody within so much of disc i, whatever their sizes. False if there are too many to hold.
-static bool collect_within(const EngineState& state, std::uint32_t i, double farthest,
+static bool collect_within(const EngineState& state, std::uint32_t i, double scale, double farthest,
                            Candidates& candidates) {
     const Skin& mine = state.skins[i];
     const double X = mine.X, Y = mine.Y, radius = state.discs[i].radius;
@@ -274,7 +238,7 @@ static bool collect_within(const EngineState& state, std::uint32_t i, double far
                     const Skin& other = state.skins[k];
                     const double dx = other.X - X, dy = other.Y - Y;
                     const double gap =
-                        square_root(dx * dx + dy * dy) - (radius + state.discs[k].radius);
+                        scale * square_root(dx * dx + dy * dy) - (radius + state.discs[k].radius);
                     if (k == i || !(gap < farthest + larger(farthest, double(other.skin_radius))))
                         continue;
                     if (candidates.count == candidates.room) return false;
@@ -288,9 +252,10 @@ static bool collect_within(const EngineState& state, std::uint32_t i, double far
 }
 /// So far as there is room for. False if even the narrowest skin reaches too many.
 [[gnu::noinline]] static bool collect_within(const EngineState& state, std::uint32_t i,
-                                             const SkinRadiusRange& range, Candidates& candidates) {
+                                             double scale, const SkinRadiusRange& range,
+                                             Candidates& candidates) {
     for (double farthest = range.largest;; farthest = larger(0.5 * farthest, range.least)) {
-        if (collect_within(state, i, farthest, candidates)) return true;
+        if (collect_within(state, i, scale, farthest, candidates)) return true;
         if (!(farthest > range.least)) return false;
     }
 }
@@ -324,17 +289,18 @@ SWIRL_INLINE std::uint32_t collect_next_door(const EngineState& state, std::uint
 /// Collects every disc that two skins may reach across to. False if there are too many to hold.
 SWIRL_INLINE bool collect_candidates(const EngineState& state, std::uint32_t i,
                                      const SkinRadiusRange& range, Candidates& candidates) {
-    if (state.grid_count > 1) return collect_within(state, i, range, candidates);
+    const double scale = state.comoving_frame.scale;
+    if (state.grid_count > 1) return collect_within(state, i, scale, range, candidates);
     const CandidateColumns columns = state.candidates;
     const std::uint32_t count = collect_next_door(state, i, columns);
-    if (count > columns.room) return collect_within(state, i, range, candidates);
+    if (count > columns.room) return collect_within(state, i, scale, range, candidates);
     const Skin& mine = state.skins[i];
     const std::uint32_t padded = (count + 7u) & ~7u;
     const double X = mine.X, Y = mine.Y, radii = state.discs[i].radius + state.smallest_radius;
     for (std::uint32_t n = 0; n < padded; ++n) {
         const double dx = static_cast<double>(columns.X[n]) - X;
         const double dy = static_cast<double>(columns.Y[n]) - Y;
-        columns.gap[n] = square_root(dx * dx + dy * dy) - radii;
+        columns.gap[n] = scale * square_root(dx * dx + dy * dy) - radii;
     }
     candidates.count = count;
     // Where all are alike, nobody's disc is looked at: in a large dish each is far away in memory.
@@ -366,9 +332,7 @@ SWIRL_INLINE double fair_skin_radius(const Candidates& candidates, std::uint32_t
 
 /// Sets X_i where the disc is at time t, with a skin radius of 0 for now.
 static void centre_skin(EngineState& state, std::uint32_t i, double t) {
-    const HotDisc& disc = state.discs[i];
-    const Vec2 at = Flight<double>{disc.position, disc.velocity, disc.time}.position_at(t) -
-                    state.comoving_frame.position_at(t);
+    const Vec2 at = state.comoving_frame.place_of(state.discs[i].flight().position_at(t), t);
     state.skins[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, {state.size}};
     if (!state.has_no_grid) enter_cell(state, i);
 }

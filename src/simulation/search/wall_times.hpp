@@ -135,12 +135,13 @@ SWIRL_INLINE void find_leaving(const EngineState& state, const std::uint32_t (&w
         const Vec2 at_wall_now = just_now ? disc.position : disc.flight().position_at(wall_now);
         const Vec2 at = just_now ? disc.position : disc.flight().position_at(t);
         const Vec2 centre = container.position_at(wall_now);
-        const Vec2 origin = state.comoving_frame.position_at(t);
+        const Flight<double> skin_flight = state.comoving_frame.flight_of(skin);
+        const Vec2 skin_at = skin_flight.position_at(t);
         now[d] = Double2{wall_now, t};
-        x[d] = Double2{at_wall_now.x, at.x} - Double2{centre.x, origin.x} - Double2{0.0, skin.X};
-        y[d] = Double2{at_wall_now.y, at.y} - Double2{centre.y, origin.y} - Double2{0.0, skin.Y};
-        vx[d] = disc.velocity.x - Double2{container.velocity.x, state.comoving_frame.velocity.x};
-        vy[d] = disc.velocity.y - Double2{container.velocity.y, state.comoving_frame.velocity.y};
+        x[d] = Double2{at_wall_now.x, at.x} - Double2{centre.x, skin_at.x};
+        y[d] = Double2{at_wall_now.y, at.y} - Double2{centre.y, skin_at.y};
+        vx[d] = disc.velocity.x - Double2{container.velocity.x, skin_flight.velocity.x};
+        vy[d] = disc.velocity.y - Double2{container.velocity.y, skin_flight.velocity.y};
         clearance[d] = Double2{state.container_radius - disc.radius, inner_skin_radius(skin)};
     }
     const Lanes<2 * D> wait =
@@ -220,18 +221,17 @@ SWIRL_INLINE void find_leaving_on_turn(EngineState& state, const std::uint32_t (
                                        Leaving (&leaving)[D]) {
     const Flight<double> centre = container_near(state, t);
     const TurningBound& bound = state.turning_bound;
-    const Vec2 origin = state.comoving_frame.position_at(t);
-    const Vec2& drift = state.comoving_frame.velocity;
     Double2 x[D], y[D], vx[D], vy[D], clearance[D];
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         const HotDisc& disc = state.discs[who[d]];
         const Skin& skin = state.skins[who[d]];
-        const Vec2 at = disc.flight().position_at(t);
-        x[d] = at.x - Double2{centre.position.x, origin.x} - Double2{0.0, skin.X};
-        y[d] = at.y - Double2{centre.position.y, origin.y} - Double2{0.0, skin.Y};
-        vx[d] = disc.velocity.x - Double2{centre.velocity.x, drift.x};
-        vy[d] = disc.velocity.y - Double2{centre.velocity.y, drift.y};
+        const Flight<double> skin_flight = state.comoving_frame.flight_of(skin);
+        const Vec2 at = disc.flight().position_at(t), skin_at = skin_flight.position_at(t);
+        x[d] = at.x - Double2{centre.position.x, skin_at.x};
+        y[d] = at.y - Double2{centre.position.y, skin_at.y};
+        vx[d] = disc.velocity.x - Double2{centre.velocity.x, skin_flight.velocity.x};
+        vy[d] = disc.velocity.y - Double2{centre.velocity.y, skin_flight.velocity.y};
         clearance[d] = Double2{state.container_radius - disc.radius, inner_skin_radius(skin)};
     }
     using Pairs = Lanes<2 * D>;
