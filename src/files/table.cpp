@@ -41,6 +41,9 @@ std::string Table::csv() const {
     return text;
 }
 
-void Table::write(const std::filesystem::path& file) const { write_whole_file(file, csv()); }
+void Table::write(const std::filesystem::path& file) const {
+    write_whole_file(file, csv());
+    remove_leftovers(file.parent_path(), file.filename().string());
+}
 
 }  // namespace swirl
