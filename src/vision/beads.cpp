@@ -301,6 +301,8 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     const cv::Size whole = pictures.front().sharp.size();
     look.lens =
         lens_of(sizes, {0.5 * (whole.width - 1), 0.5 * (whole.height - 1)}, 0.5 * whole.height);
+    look.lens.ball = look.radius();
+    look.lens.settle_distortion();
     if (look.lens.k != 0.0) {
         std::vector<double> ratios;
         for (const SeenSize& s : sizes)

@@ -343,6 +343,65 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     return path;
 }
 
+std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
+                           const std::vector<std::size_t>& numbers, const DishPath& path) {
+    constexpr std::size_t around = 5, fewest = 12;
+    constexpr double on_path = 0.2;     // of the amplitude
+    constexpr double stands_out = 6.0;  // standard deviations of a step
+    constexpr double least = 0.6;       // of a step: a picture lost or doubled is one
+    std::vector<double> steps;
+    std::vector<std::size_t> firsts;  // of the two centres
+    for (std::size_t k = 0; k + 1 < centres.size(); ++k) {
+        const Vec2 a = centres[k] - path.centre, b = centres[k + 1] - path.centre;
+        if (numbers[k + 1] != numbers[k] + 1) continue;
+        if (std::abs(length(a) - path.amplitude) > on_path * path.amplitude ||
+            std::abs(length(b) - path.amplitude) > on_path * path.amplitude)
+            continue;
+        const double angle = std::atan2(-b.y, b.x) - std::atan2(-a.y, a.x);
+        steps.push_back((path.clockwise ? -1.0 : 1.0) * std::remainder(angle, 2.0 * pi));
+        firsts.push_back(k);
+    }
+    if (steps.size() < fewest) return {};
+    // Against those around it, for who swirls by hand does not keep to one speed.
+    std::vector<double> usual, off;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        const std::size_t from = k < around ? 0 : k - around,
+                          to = std::min(steps.size(), k + around + 1);
+        usual.push_back(median({steps.begin() + static_cast<std::ptrdiff_t>(from),
+                                steps.begin() + static_cast<std::ptrdiff_t>(to)}));
+        off.push_back(std::abs(steps[k] - usual.back()));
+    }
+    const double scatter = 1.4826 * median(off);
+    std::vector<Leap> leaps;
+    const auto leap = [&](std::size_t k, double by) {
+        leaps.push_back({numbers[firsts[k]], numbers[firsts[k] + 1], steps[k] / by});
+    };
+    // Every other picture may be there twice: then nothing is usual.
+    std::vector<double> sorted = steps;
+    std::sort(sorted.begin(), sorted.end());
+    const double large = sorted[sorted.size() * 9 / 10];
+    const auto moves = [&](std::size_t k) {
+        return k >= steps.size() || (steps[k] > 0.5 * large && steps[k] < 1.5 * large);
+    };
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        const bool stays = std::abs(steps[k]) < 0.15 * large &&
+                           large * path.amplitude > least_amplitude && moves(k - 1) && moves(k + 1);
+        if (stays) {
+            leap(k, large);
+            continue;
+        }
+        if (!(usual[k] > stands_out * scatter) || off[k] < least * usual[k]) continue;
+        // A centre that was found beside its place goes there and back.
+        const auto strays = [&](std::size_t j) {
+            return j < steps.size() &&
+                   std::abs(steps[k] + steps[j] - 2.0 * usual[k]) < 0.5 * off[k];
+        };
+        if (strays(k + 1) || (k > 0 && strays(k - 1))) continue;
+        leap(k, usual[k]);
+    }
+    return leaps;
+}
+
 PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
                        const DishPath& path) {
     constexpr int least_sides = 3, fewest_a_side = 2;

@@ -55,6 +55,16 @@ CircleFit find_rim(const Picture& picture, const Rim& rim);
 std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
                                  const std::vector<double>& times);
 
+/// Where the dish went another way between two pictures than between those around them: pictures
+/// that are lost, or are there twice. Angles about the path's middle, picture by picture, tell
+/// where they err by less than a sixth of a step; nothing is told where they do not.
+struct Leap {
+    std::size_t before = 0, after = 0;  // pictures, as `numbers` has them
+    double steps = 1.0;                 // of the usual way between two
+};
+std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
+                           const std::vector<std::size_t>& numbers, const DishPath& path);
+
 /// Run through at constant speed, a regular polygon of n sides departs from the circle of the same
 /// mean radius by (2A/n²) cos n(φ − φ_corner), and by less at multiples of n: the one harmonic of
 /// the centres' distances from the middle that has this size and stands out from the noise is the

@@ -100,9 +100,26 @@ Lens::Circle Lens::ideal(const Circle& seen_circle) const {
 }
 
 void Lens::settle_distortion() {
-    const double hidden = nearness * half * nearness * half / 8.0, whole = apparent_k + hidden;
-    const bool seen = std::abs(whole) > 4.0 * k_error && std::abs(whole) > 0.002;
-    k = seen && std::abs(whole) < 0.3 ? whole : 0.0;
+    // Of the radius of a ball: what shade and texture do to it in one place more than in another.
+    constexpr double size_misleads = 0.1;                    // pixels
+    constexpr double contradicts = 3.0;                      // standard errors
+    constexpr double stands_out = 4.0, with_contacts = 3.0;  // the same
+    constexpr double not_known = 0.01;
+    const double hidden = nearness * half * nearness * half / 8.0;
+    double whole = apparent_k + hidden;
+    k_error = std::hypot(apparent_k_error, ball > 0.0 ? size_misleads / ball : 0.0);
+    double least = stands_out;
+    if (contact_error > 0.0) {
+        const bool agree =
+            std::abs(whole - contact_k) < contradicts * std::hypot(k_error, contact_error);
+        const double sizes = agree ? 1.0 / (k_error * k_error) : 0.0,
+                     contacts = 1.0 / (contact_error * contact_error);
+        whole = (sizes * whole + contacts * contact_k) / (sizes + contacts);
+        k_error = 1.0 / std::sqrt(sizes + contacts);
+        least = with_contacts;
+    }
+    const bool seen = std::abs(whole) > least * k_error && std::abs(whole) > 0.002;
+    k = seen && k_error < not_known && std::abs(whole) < 0.3 ? whole : 0.0;
 }
 
 Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half) {
@@ -146,7 +163,7 @@ Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half
             weights[i] = std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
         }
     }
-    lens.k_error = 0.5 * error / fit[0];
+    lens.apparent_k_error = 0.5 * error / fit[0];
     lens.apparent_perspective = (-1.0 / fit[0] / half) * Vec2{fit[2], fit[3]};
     lens.apparent_error = slope_error / fit[0] / half;
     lens.apparent_k = -0.5 * fit[1] / fit[0];

@@ -7,7 +7,10 @@
 // the apparent sizes of equal balls all over the dish. The rim is one large circle whose middle
 // moves little, and says much less. A ball that is seen at an angle ψ to the camera's axis looks
 // longer by 1/cos ψ away from it, larger by 1 + ψ²/4 on the average, which hides a k of tan²(v/2)/8
-// with v the view angle of the picture's height; with v not known k is too small by that.
+// with v the view angle of the picture's height; with v not known k is too small by that. Shade
+// does the same: balls that are lit from one side look smaller where the wall is dark. Discs in
+// contact know nothing of it (contact.hpp): where they tell a distortion, sizes count only as far
+// as balls of so few pixels can be trusted, and not at all where the two contradict each other.
 //
 // A camera whose axis leans by θ sees what lies in the plane of the discs at P, in pixels relative
 // to the middle, at
@@ -33,7 +36,10 @@ struct Lens {
     double half = 1.0;  // of the height, pixels
     double k = 0.0, k_error = 0.0;
     // As sizes say it, whatever the error: k, and a perspective with its error.
-    double apparent_k = 0.0;
+    double apparent_k = 0.0, apparent_k_error = 0.0;
+    double ball = 0.0;  // radius of the balls whose sizes these are, pixels
+    // As distances of discs in contact say it; without an error: they do not.
+    double contact_k = 0.0, contact_error = 0.0;
     Vec2 apparent_perspective{0.0, 0.0};
     double apparent_error = 0.0;
     double nearness = 0.0;       // 1/F, per pixel; 0: not known
@@ -51,7 +57,7 @@ struct Lens {
     Circle ideal(const Circle& seen) const;
     /// The circle that fits the image of one.
     Circle image(const Circle& ideal) const;
-    /// k from sizes and nearness: 0 where it is within four standard errors.
+    /// k from sizes and nearness, and from contacts: 0 where it is within four standard errors.
     void settle_distortion();
     /// How large a ball of that radius appears there.
     double seen_radius(const Vec2& seen, double radius) const;

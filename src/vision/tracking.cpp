@@ -12,6 +12,7 @@
 #include "swirl/run/all_cores.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/vision/beads.hpp"
+#include "swirl/vision/contact.hpp"
 #include "swirl/vision/dish.hpp"
 #include "swirl/vision/link.hpp"
 #include "swirl/vision/mean_ball.hpp"
@@ -314,35 +315,71 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
     }
 }
 
-/// Hard discs do not lie in each other: who seems to is moved apart, each by its share of the
-/// variance, which is the larger the less of its edge is seen. What errors of radii explain is
-/// left.
-void part_overlaps(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all) {
-    constexpr double nearest = 0.985;  // of the sum of radii
-    constexpr int rounds = 12;
+/// The discs of a picture that are somebody.
+std::vector<Bead*> known_beads(const Links& links, std::vector<Seen>& all, std::size_t picture) {
+    std::vector<Bead*> here;
+    for (std::size_t d = 0; d < all[picture].beads.size(); ++d)
+        if (links.track[picture][d] >= 0) here.push_back(&all[picture].beads[d]);
+    return here;
+}
+
+/// Hard discs do not lie in each other or in the wall: who seems to is moved, each by its share of
+/// the variance, which is the larger the less of its edge is seen.
+void part_overlaps(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all,
+                   TrackedFilm& film) {
+    constexpr double nearest = 0.9, farthest = 1.1;  // of the sum of radii
+    std::vector<double> apart, reaches;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        std::vector<Bead*> here;
-        for (std::size_t d = 0; d < all[k].beads.size(); ++d)
-            if (links.track[k][d] >= 0) here.push_back(&all[k].beads[d]);
-        // By trial: the error that its fit tells itself says too little of a disc that is hardly
-        // seen.
-        const auto variance = [](const Bead& b) {
-            const double share = std::max(b.support, 0.05),
-                         doubt = b.error / (share * share * share);
-            return std::max(doubt * doubt, 1e-6);
-        };
-        for (int round = 0; round < rounds; ++round)
-            for (std::size_t a = 0; a < here.size(); ++a)
-                for (std::size_t b = a + 1; b < here.size(); ++b) {
-                    const Vec2 d = here[b]->centre - here[a]->centre;
-                    const double apart = length(d);
-                    const double over =
-                        nearest * (radii[here[a]->kind] + radii[here[b]->kind]) - apart;
-                    if (over <= 0.0 || apart <= 0.0) continue;
-                    const double va = variance(*here[a]), vb = variance(*here[b]);
-                    here[a]->centre = here[a]->centre - (over * va / (va + vb) / apart) * d;
-                    here[b]->centre = here[b]->centre + (over * vb / (va + vb) / apart) * d;
-                }
+        const std::vector<Bead*> here = known_beads(links, all, k);
+        const Vec2 dish = film.path.at(film.times[k]);
+        for (std::size_t a = 0; a < here.size(); ++a) {
+            reaches.push_back(-(length(here[a]->centre - dish) + radii[here[a]->kind]));
+            for (std::size_t b = a + 1; b < here.size(); ++b) {
+                const double ratio = length(here[a]->centre - here[b]->centre) /
+                                     (radii[here[a]->kind] + radii[here[b]->kind]);
+                if (ratio > nearest && ratio < farthest) apart.push_back(ratio);
+            }
+        }
+    }
+    // Where they do not tell, what errors of radii explain is left.
+    Contact contact{0.985, 0.004};
+    if (const auto told = contact_of(apart, nearest, farthest);
+        told && std::abs(told->at - 1.0) < 0.05) {
+        contact = *told;
+        film.overlap_error = contact.error * film.radius * std::sqrt(2.0);  // a distance's has two
+    }
+    std::optional<Contact> wall;
+    // A tilted camera sees the rim, by which the dish's middle goes, shifted against the discs.
+    if (!reaches.empty() && !film.lens.tilted()) {
+        const double out = -*std::min_element(reaches.begin(), reaches.end());
+        wall = contact_of(reaches, -out - 1.0, -out + 0.4 * film.radius);
+        // Where the wall is a circle about the dish's middle that was found, it is as sharp.
+        if (wall && wall->error > 1.3 * contact.error * std::sqrt(2.0) * film.radius) wall.reset();
+    }
+    // Of a coordinate. Neighbours hold each other in their places, so that less than all of an
+    // error is free to be moved; 0.3 to 1 times it serve about as well in films whose truth is
+    // known.
+    constexpr double free_to_move = 0.4;
+    const double error = contact.error * film.radius * std::sqrt(2.0 * free_to_move);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::vector<Bead*> here = known_beads(links, all, k);
+        std::vector<HardDisc> discs;
+        std::vector<double> doubts;
+        for (const Bead* bead : here) {
+            // By trial: the error that its fit tells itself says too little of a disc that is
+            // hardly seen.
+            const double share = std::max(bead->support, 0.05),
+                         doubt = std::max(bead->error, 1e-3) / (share * share * share);
+            const double radius = radii[bead->kind];
+            doubts.push_back(doubt * doubt);
+            discs.push_back({bead->centre, 1.0, radius, wall ? -wall->at - radius : 1e300});
+        }
+        if (discs.empty()) continue;
+        const double usual = median(doubts);
+        for (std::size_t i = 0; i < discs.size(); ++i)
+            discs[i].variance = error * error * std::clamp(doubts[i] / usual, 0.1, 10.0);
+        move_apart(discs, contact.at, film.path.at(film.times[k]));
+        for (std::size_t i = 0; i < here.size(); ++i) here[i]->centre = discs[i].centre;
     }
 }
 
@@ -364,7 +401,7 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
     drop_overlaps(all, settings.radii, links);
     drop_leaps(all, film, links);
     search_again(given, found, film, all, links);
-    part_overlaps(links, settings.radii, all);
+    part_overlaps(links, settings.radii, all, film);
     film.refused = links.refused;
     // By track: where it was when.
     struct Place {
@@ -512,12 +549,12 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     film.reach = quantile(reaches, 0.8);
     film.touching =
         gaps.size() > 100 ? 1.0 + onset(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
-    // Hard discs touch and do not overlap: of discs in contact half seem to overlap, by the error
-    // of a distance, √2 that of a place.
+    // Where contacts did not tell the error: hard discs touch and do not overlap. Of discs in
+    // contact half seem to overlap, by the error of a distance, √2 that of a place.
     std::vector<double> overlaps;
     for (const double g : gaps)
         if (g < 0.0) overlaps.push_back(-g);
-    if (overlaps.size() > 50)
+    if (!(film.overlap_error > 0.0) && overlaps.size() > 50)
         film.overlap_error = 1.4826 * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
@@ -681,6 +718,70 @@ TrackScale TrackedFilm::scale() const {
     return s;
 }
 
+namespace {
+
+/// Discs in contact tell the lens beside sizes. Of a tilted camera, whose tilt was found with the
+/// lens as sizes have it, that is left.
+void believe_contacts(const std::vector<Seen>& all, const BeadLook& look, Lens& lens) {
+    constexpr double near = 1.4;  // of the sum of radii: with any lens
+    constexpr std::size_t pictures = 400;
+    if (lens.tilted()) return;
+    std::vector<SeenPair> pairs;
+    const std::size_t stride = all.size() / pictures + 1;
+    for (std::size_t k = 0; k < all.size(); k += stride) {
+        const std::vector<Bead>& beads = all[k].beads;
+        for (std::size_t a = 0; a < beads.size(); ++a)
+            for (std::size_t b = a + 1; b < beads.size(); ++b) {
+                if (!beads[a].sure || !beads[b].sure) continue;
+                const double radii =
+                    look.kinds[beads[a].kind].radius + look.kinds[beads[b].kind].radius;
+                if (length(beads[a].centre - beads[b].centre) < near * radii)
+                    pairs.push_back({beads[a].centre, beads[b].centre, radii});
+            }
+    }
+    const auto told = distortion_of(pairs, lens.middle, lens.half);
+    if (!told) return;
+    lens.contact_k = told->k;
+    lens.contact_error = told->error;
+    lens.settle_distortion();
+}
+
+/// Pictures that are lost or doubled make times, Ω and velocities wrong. By little that is said,
+/// and otherwise there is no way on.
+void judge_leaps(const std::vector<Leap>& leaps, TrackedFilm& film) {
+    constexpr double little = 0.003;  // of the film
+    if (leaps.empty()) return;
+    double wrong = 0.0;
+    std::size_t begin = 0, longest = 0, from = 0, doubled = 0;
+    for (std::size_t n = 0; n <= leaps.size(); ++n) {
+        const std::size_t end = n < leaps.size() ? leaps[n].before + 1 : film.times.size();
+        if (end - begin > longest) longest = end - begin, from = begin;
+        if (n == leaps.size()) break;
+        begin = leaps[n].after;
+        wrong += std::abs(leaps[n].steps - 1.0);
+        doubled += leaps[n].steps < 0.5 ? 1 : 0;
+    }
+    const std::string what = fmt::format(
+        "The dish does not go equally far from each picture to the next: in {} place{} (first "
+        "between pictures {} and {}, {:.1f} times the usual way) {}.",
+        leaps.size(), leaps.size() == 1 ? "" : "s", leaps.front().before, leaps.front().after,
+        leaps.front().steps,
+        doubled == leaps.size() ? "a picture is there twice"
+        : doubled == 0          ? "pictures are missing"
+                                : "pictures are missing or there twice");
+    const double share = wrong / double(film.times.size());
+    if (share < little)
+        film.warnings.push_back(
+            what + fmt::format(" Times and Ω are off by up to {:.2f} % from it.", 100.0 * share));
+    else
+        throw Failure(what + fmt::format(" Times and Ω would be off by up to {:.1f} %. Pictures {} "
+                                         "to {} have no such place: cut the film to them, or film "
+                                         "with a constant frame rate.",
+                                         100.0 * share, from, from + longest - 1));
+}
+
+}  // namespace
+
 TrackedFilm track_film(const TrackingSettings& settings) {
     TrackedFilm film;
     cv::setNumThreads(1);  // the pictures are shared out among ours
@@ -696,6 +797,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     std::vector<Seen> all = look_at_all(settings, found, expected, film);
     film.lens = found.look.lens;
     film.tilt = found.tilt;
+    believe_contacts(all, found.look, film.lens);
     if (found.rim.second_dish) film.warnings.emplace_back(second_dish);
     std::vector<double> rims;
     for (Seen& seen : all) {
@@ -727,6 +829,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
 
     std::vector<Vec2> centres;
     std::vector<double> when, supports;
+    std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (!all[k].rim.good) {
             ++film.rims_missed;
@@ -734,6 +837,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
         }
         centres.push_back(all[k].rim.centre);
         when.push_back(film.times[k]);
+        numbers.push_back(k);
         supports.push_back(all[k].rim.support);
     }
     const auto path = fit_path(centres, when);
@@ -742,6 +846,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
+    if (!uneven) judge_leaps(leaps_of(centres, numbers, film.path), film);
     film.polygon = polygon_of(centres, when, film.path);
     for (std::size_t k = 0; k < all.size(); ++k)
         film.rim_off.push_back(

@@ -138,5 +138,56 @@ TEST(PathPolygon, TellsAPolygonByItsSidesAndACircleFromIt) {
     }
 }
 
+/// Centres of the pictures that are left, and the number that each has in the film then.
+std::vector<Leap> leaps_with(const std::vector<int>& shown, double omega, Random& random) {
+    const DishPath truth{{310.0, 250.0}, 40.0, omega, 0.7, false};
+    std::vector<Vec2> centres;
+    std::vector<std::size_t> numbers;
+    for (const int k : shown) {
+        numbers.push_back(centres.size());
+        centres.push_back(truth.at(k) + Vec2{0.1 * noise(random), 0.1 * noise(random)});
+    }
+    return leaps_of(centres, numbers, truth);
+}
+
+TEST(Leaps, TellPicturesThatAreLostOrThereTwice) {
+    Random random(8);
+    std::vector<int> all, lost, twice, each_twice;
+    for (int k = 0; k < 200; ++k) {
+        all.push_back(k);
+        if (k != 50 && k != 120 && k != 121) lost.push_back(k);
+        twice.push_back(k);
+        if (k == 70) twice.push_back(k);
+        each_twice.push_back(k / 2 * 2);
+    }
+    EXPECT_TRUE(leaps_with(all, 0.05, random).empty());
+    const auto missing = leaps_with(lost, 0.05, random);
+    ASSERT_EQ(missing.size(), 2u);
+    EXPECT_EQ(missing[0].before, 49u);
+    EXPECT_NEAR(missing[0].steps, 2.0, 0.4);
+    EXPECT_NEAR(missing[1].steps, 3.0, 0.4);
+    const auto doubled = leaps_with(twice, 0.05, random);
+    ASSERT_EQ(doubled.size(), 1u);
+    EXPECT_EQ(doubled[0].before, 70u);
+    EXPECT_NEAR(doubled[0].steps, 0.0, 0.4);
+    EXPECT_EQ(leaps_with(each_twice, 0.05, random).size(), 100u);
+}
+
+TEST(Leaps, AreNotMadeOfNoiseOrOfAHandThatSwirls) {
+    Random random(12);
+    std::vector<int> all;
+    for (int k = 0; k < 300; ++k) all.push_back(k);
+    EXPECT_TRUE(leaps_with(all, 0.002, random).empty());  // a step is less than the noise
+    const DishPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, false};
+    std::vector<Vec2> centres;
+    std::vector<std::size_t> numbers;
+    for (int k = 0; k < 300; ++k) {
+        numbers.push_back(centres.size());
+        centres.push_back(truth.at(k + 8.0 * std::sin(0.05 * k)));  // 40 % faster, and slower
+        if (k % 40 == 7) centres.back() = centres.back() + Vec2{4.0, -3.0};  // a stray
+    }
+    EXPECT_TRUE(leaps_of(centres, numbers, truth).empty());
+}
+
 }  // namespace
 }  // namespace swirl

@@ -1,0 +1,323 @@
+"""Films of a swirled dish made without any of the program's code: balls pushed apart by springs, pictures
+painted with numpy. Each film has its faults; the truth comes with it.
+
+    film = make("film.mp4", seed=3, floor=40, ball=200, vignette=0.4)
+    film.places, film.centre, film.amplitude, film.omega, …
+"""
+
+import math
+import subprocess
+
+import numpy
+
+USUAL = {
+    # The scene, lengths in pixels.
+    "size": (320, 320), "balls": 20, "radius": 14.0, "dish": 92.0, "amplitude": 26.0,
+    "middle": (0.0, 0.0),      # of the dish's path, off the picture's
+    "small": 0, "small_radius": 0.7,
+    "per_swirl": 60, "frames": 84, "still_for": 0, "clockwise": False, "seed": 1,
+    # What it looks like, in grey levels of 255.
+    "table": 110.0, "floor": 45.0, "rim": 170.0, "rim_width": 5.0, "ball": 190.0,
+    "colours": None,           # of the balls, in turn: (red, green, blue)
+    "tint": (1.0, 1.0, 1.0), "table_tint": (1.0, 1.0, 1.0),
+    "texture": "patches",      # none, patches, dot, stripe
+    "contrast": 0.35,          # of the texture
+    "flat": False,             # discs, not balls
+    "gloss": 60.0, "shine": 20.0, "lamp": (-0.4, -0.3), "ambient": 0.45,
+    "shadow": 0.0, "shadow_to": (0.25, 0.25), "shadow_soft": 2.5,
+    "uneven": 0.0, "vignette": 0.0, "clutter": 0.0, "label": False, "glare": 0.0,
+    "grain": 0.0,              # of the dish's floor, moves with it
+    # The camera.
+    "noise": 2.0, "blur": 0.8, "gamma": 1.0, "exposure": 0.2, "flicker": 0.0, "grey": False,
+    "shake": 0.0,
+    # The file.
+    "fps": "30", "codec": ("libx264", "-crf", "18"), "pixels": "yuv420p", "filter": None,
+    "after": (),               # options for a second pass
+    "drop": (), "double": (),
+}
+
+
+MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "per_swirl", "frames",
+          "still_for", "clockwise", "seed")
+moved_before = {}  # by what the motion depends on: films that differ in their looks alone share it
+
+
+class Film:
+    """What was filmed, and what is true of it."""
+
+
+def random_ball(rng, kind):
+    """Levels of a texture over the directions of a sphere, −1 … 1: a function of an array (…, 3)."""
+    if kind == "dot":
+        axis = rng.normal(size=3)
+        axis /= numpy.linalg.norm(axis)
+        return lambda n: numpy.where(n @ axis > 0.85, -1.0, 0.15)
+    if kind == "stripe":
+        axis = rng.normal(size=3)
+        axis /= numpy.linalg.norm(axis)
+        return lambda n: numpy.where(numpy.abs(n @ axis) < 0.2, -1.0, 0.2)
+    waves, phases = rng.normal(size=(6, 3)) * 2.5, rng.uniform(0.0, 2.0 * math.pi, 6)
+    return lambda n: numpy.cos(n @ waves.T + phases).sum(axis=-1) / 3.0
+
+
+def course(s, frame):
+    """The dish's middle, from the middle of its path, y down, at a time in pictures."""
+    t = max(0.0, frame - s["still_for"])
+    turn = 2.0 * math.pi * t / s["per_swirl"] + 0.7
+    if not s["clockwise"]:
+        turn = -turn
+    return s["amplitude"] * numpy.array([math.cos(turn), math.sin(turn)])
+
+
+def moved(s, radii, rng):
+    """Places, rotations by picture: springs, rubbing, a floor that drags; balls roll on it."""
+    n, steps = len(radii), 60
+    dish = s["dish"]
+    places = []
+    grid = [(x, y) for x in numpy.arange(-dish, dish, 2.05 * radii.max())
+            for y in numpy.arange(-dish, dish, 2.05 * radii.max())
+            if math.hypot(x, y) + radii.max() < dish]
+    assert len(grid) >= n, "the dish is too small"
+    start = rng.permutation(len(grid))[:n]
+    p = numpy.array([grid[k] for k in start]) + rng.normal(size=(n, 2)) * 0.01 * radii.max()
+    p = p + course(s, 0.0)
+    v = numpy.zeros((n, 2))
+    # Units: pixels and pictures. Stiff enough that nobody overlaps by more than a hundredth.
+    speed = 2.0 * math.pi * s["amplitude"] / s["per_swirl"]
+    stiff = (speed / (0.012 * radii.mean())) ** 2
+    dt = 1.0 / steps
+    while stiff * dt * dt > 0.03:
+        dt *= 0.5
+        steps *= 2
+    lossy, drag = 0.25 * math.sqrt(stiff), 0.5 * 2.0 * math.pi / s["per_swirl"]
+    turned = numpy.tile(numpy.eye(3), (n, 1, 1))
+    spin = numpy.zeros(n)
+    rotations = []
+    sums = radii[:, None] + radii[None, :]
+    warm = int(2.5 * s["per_swirl"])
+    for frame in range(-warm, s["frames"]):
+        if frame >= 0:
+            places.append(p.copy())
+            u = (course(s, frame + 0.01) - course(s, frame - 0.01)) / 0.02
+            roll = v - u
+            for i in range(n):
+                w = numpy.array([roll[i, 1], -roll[i, 0], 0.0]) / radii[i] * 0.7
+                w[2] = spin[i]
+                angle = numpy.linalg.norm(w)
+                if angle > 1e-9:
+                    a = w / angle
+                    cross = numpy.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
+                    turned[i] = (numpy.eye(3) + math.sin(angle) * cross
+                                 + (1.0 - math.cos(angle)) * cross @ cross) @ turned[i]
+            rotations.append(turned.copy())
+        for k in range(steps):
+            now = frame + k * dt if s["still_for"] == 0 else max(frame, 0.0) + k * dt
+            c = course(s, now)
+            u = (course(s, now + 0.01) - course(s, now - 0.01)) / 0.02
+            d = p[:, None, :] - p[None, :, :]
+            r = numpy.sqrt((d * d).sum(-1)) + numpy.eye(n) * 1e9
+            over = numpy.maximum(0.0, sums - r)
+            e = d / r[..., None]
+            rel = v[:, None, :] - v[None, :, :]
+            normal = (rel * e).sum(-1)
+            push = numpy.where(over > 0.0, numpy.maximum(0.0, stiff * over - lossy * normal), 0.0)
+            slide = rel - normal[..., None] * e
+            slip = slide + (spin[:, None] * radii[:, None] + spin[None, :] * radii[None, :])[
+                ..., None] * numpy.stack([e[..., 1], -e[..., 0]], -1)
+            rub = numpy.minimum(lossy * numpy.sqrt((slip * slip).sum(-1)), 0.3 * push)
+            slip_unit = slip / (numpy.sqrt((slip * slip).sum(-1))[..., None] + 1e-9)
+            force = (push[..., None] * e - rub[..., None] * slip_unit).sum(1)
+            w = p - c
+            far = numpy.sqrt((w * w).sum(-1)) + 1e-9
+            out = w / far[:, None]
+            over_wall = numpy.maximum(0.0, far + radii - dish)
+            rel_wall = v - u
+            normal = (rel_wall * out).sum(-1)
+            press = numpy.where(over_wall > 0.0,
+                                numpy.maximum(0.0, stiff * over_wall + lossy * normal), 0.0)
+            tangent = numpy.stack([-out[:, 1], out[:, 0]], -1)
+            slip_wall = ((rel_wall * tangent).sum(-1)) + spin * radii
+            rub_wall = numpy.clip(-lossy * slip_wall, -0.4 * press, 0.4 * press)
+            force += -press[:, None] * out + rub_wall[:, None] * tangent - drag * (v - u)
+            v = v + dt * force
+            p = p + dt * v
+            spin = spin + dt * (2.5 * rub_wall / radii - 0.5 * drag * spin)
+    return places, rotations
+
+
+def blurred(picture, sigma):
+    if sigma <= 0.0:
+        return picture
+    reach = int(math.ceil(3.0 * sigma))
+    x = numpy.arange(-reach, reach + 1)
+    kernel = numpy.exp(-0.5 * (x / sigma) ** 2)
+    kernel /= kernel.sum()
+    for axis in (0, 1):
+        wide = numpy.pad(picture, [(reach, reach) if a == axis else (0, 0)
+                                   for a in range(picture.ndim)], mode="edge")
+        picture = sum(w * numpy.take(wide, range(k, k + picture.shape[axis]), axis)
+                      for k, w in enumerate(kernel))
+    return picture
+
+
+class Painter:
+    def __init__(self, s, radii, rng):
+        self.s, self.radii, self.rng = s, radii, rng
+        width, height = s["size"]
+        self.x, self.y = numpy.meshgrid(numpy.arange(width, dtype=float),
+                                        numpy.arange(height, dtype=float))
+        self.table = s["table"] * numpy.ones((height, width, 3)) * numpy.array(s["table_tint"])
+        if s["clutter"] > 0.0:  # things that lie about: bars, coins, and grain of wood
+            wood = blurred(rng.normal(size=(height, width)), 3.0)
+            self.table += s["clutter"] * 2.0 * wood[..., None]
+            for _ in range(14):
+                cx, cy, size = rng.uniform(0, width), rng.uniform(0, height), rng.uniform(8, 30)
+                level = s["clutter"] * rng.choice([-1.0, 1.0])
+                if rng.uniform() < 0.5:
+                    self.table[numpy.hypot(self.x - cx, self.y - cy) < size] += level
+                else:
+                    turn = rng.uniform(0, math.pi)
+                    a = (self.x - cx) * math.cos(turn) + (self.y - cy) * math.sin(turn)
+                    b = -(self.x - cx) * math.sin(turn) + (self.y - cy) * math.cos(turn)
+                    self.table[(abs(a) < 2.0 * size) & (abs(b) < 0.3 * size)] += level
+        self.grain = blurred(rng.normal(size=(height * 2, width * 2)), 1.5)
+        self.textures = [random_ball(rng, s["texture"]) for _ in radii]
+        self.light = numpy.ones((height, width))
+        if s["uneven"] > 0.0:
+            self.light *= 1.0 + s["uneven"] * ((self.x - 0.5 * width) / width
+                                               + 0.6 * (self.y - 0.5 * height) / height)
+        if s["vignette"] > 0.0:
+            far = numpy.hypot(self.x - 0.5 * width, self.y - 0.5 * height) / (0.5 * width)
+            self.light *= 1.0 - s["vignette"] * 0.5 * far ** 2
+        self.lamp = numpy.array([s["lamp"][0], s["lamp"][1], 1.0])
+        self.lamp /= numpy.linalg.norm(self.lamp)
+
+    def colour(self, i):
+        s = self.s
+        return numpy.array(s["colours"][i % len(s["colours"])], float) if s["colours"] else \
+            s["ball"] * numpy.array(s["tint"])
+
+    def paint(self, middle, places, turned):
+        s = self.s
+        picture = self.table.copy()
+        far = numpy.hypot(self.x - middle[0], self.y - middle[1])
+        inner, outer = s["dish"], s["dish"] + s["rim_width"]
+        in_dish = numpy.clip(inner - far + 0.5, 0.0, 1.0)[..., None]
+        in_rim = numpy.clip(outer - far + 0.5, 0.0, 1.0)[..., None]
+        floor = numpy.full(self.x.shape, s["floor"])
+        if s["grain"] > 0.0:
+            gx = (self.x - middle[0] + self.grain.shape[1] / 2).astype(int) % self.grain.shape[1]
+            gy = (self.y - middle[1] + self.grain.shape[0] / 2).astype(int) % self.grain.shape[0]
+            floor = floor + s["grain"] * 5.0 * self.grain[gy, gx]
+        if s["shadow"] > 0.0:
+            for p, a in zip(places, self.radii):
+                q = p + a * numpy.array(s["shadow_to"])
+                d = numpy.hypot(self.x - q[0], self.y - q[1])
+                floor = floor * (1.0 - s["shadow"]
+                                 * numpy.clip(0.5 + (a - d) / (2.0 * s["shadow_soft"]), 0.0, 1.0))
+        # The wall is lit from one side.
+        side = ((self.x - middle[0]) * self.lamp[0] + (self.y - middle[1]) * self.lamp[1]) \
+            / numpy.maximum(far, 1.0)
+        rim = s["rim"] * (1.0 + 0.25 * side)
+        picture = picture * (1.0 - in_rim) + in_rim * rim[..., None]
+        picture = picture * (1.0 - in_dish) + in_dish * floor[..., None]
+        for i, p in enumerate(places):
+            self.paint_ball(picture, p, self.radii[i], turned[i], i)
+        return picture
+
+    def paint_ball(self, picture, p, a, turned, i):
+        s = self.s
+        x0, x1 = max(0, int(p[0] - a - 2)), min(picture.shape[1], int(p[0] + a + 3))
+        y0, y1 = max(0, int(p[1] - a - 2)), min(picture.shape[0], int(p[1] + a + 3))
+        if x0 >= x1 or y0 >= y1:
+            return
+        dx, dy = (self.x[y0:y1, x0:x1] - p[0]) / a, (self.y[y0:y1, x0:x1] - p[1]) / a
+        r = numpy.hypot(dx, dy)
+        cover = numpy.clip((1.0 - r) * a + 0.5, 0.0, 1.0)
+        shrink = numpy.where(r > 0.999, 0.999 / numpy.maximum(r, 1e-9), 1.0)
+        nx, ny = dx * shrink, dy * shrink
+        nz = numpy.sqrt(numpy.maximum(0.0, 1.0 - nx * nx - ny * ny))
+        n = numpy.stack([nx, ny, nz], -1)
+        pattern = 0.0 if s["texture"] == "none" else self.textures[i](n @ turned)
+        if s["flat"]:
+            lit = 1.0
+        else:
+            lit = s["ambient"] + (1.0 - s["ambient"]) * numpy.maximum(0.0, n @ self.lamp)
+        level = (1.0 + s["contrast"] * pattern) * lit
+        colour = level[..., None] * self.colour(i) if numpy.ndim(level) else \
+            numpy.ones(r.shape + (1,)) * level * self.colour(i)
+        if not s["flat"]:
+            half = self.lamp + numpy.array([0.0, 0.0, 1.0])
+            half /= numpy.linalg.norm(half)
+            colour = colour + (s["gloss"] * numpy.maximum(0.0, n @ half) ** (4.0 * s["shine"]))[
+                ..., None]
+        c = cover[..., None]
+        picture[y0:y1, x0:x1] = (1.0 - c) * picture[y0:y1, x0:x1] + c * colour
+
+    def finished(self, picture, frame):
+        s, rng = self.s, self.rng
+        picture = picture * self.light[..., None]
+        if s["glare"] > 0.0:
+            width, height = s["size"]
+            gx = (0.4 + 0.2 * math.sin(0.05 * frame)) * width
+            picture = picture + s["glare"] * numpy.exp(
+                -((self.x - gx) ** 2 + (self.y - 0.42 * height) ** 2)
+                / (0.02 * width * width))[..., None]
+        picture = blurred(picture, s["blur"])
+        picture = picture * (1.0 + s["flicker"] * rng.normal())
+        picture = 255.0 * numpy.clip(picture / 255.0, 0.0, None) ** s["gamma"]
+        picture = picture + s["noise"] * rng.normal(size=picture.shape[:2])[..., None] \
+            + 0.5 * s["noise"] * rng.normal(size=picture.shape)
+        if s["label"]:
+            height = picture.shape[0]
+            digits = numpy.kron((numpy.arange(60) * (frame + 7) % 5 > 1).reshape(5, 12),
+                                numpy.ones((3, 6)))
+            picture[height - 20:height - 5, 6:78] = 0.0
+            picture[height - 20:height - 5, 6:78][digits > 0] = 255.0
+        return numpy.clip(picture + 0.5, 0.0, 255.0).astype(numpy.uint8)
+
+
+def make(path, **faults):
+    unknown = set(faults) - set(USUAL)
+    assert not unknown, unknown
+    s = {**USUAL, **faults}
+    rng = numpy.random.default_rng((s["seed"], 1))
+    radii = numpy.full(s["balls"], float(s["radius"]))
+    radii[:s["small"]] *= s["small_radius"]
+    motion = tuple(s[name] for name in MOTION)
+    if motion not in moved_before:
+        moved_before[motion] = moved(s, radii, numpy.random.default_rng(s["seed"]))
+    places, rotations = moved_before[motion]
+    painter = Painter(s, radii, rng)
+    width, height = s["size"]
+    middle = numpy.array([0.5 * (width - 1) + s["middle"][0], 0.5 * (height - 1) + s["middle"][1]])
+    command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
+               f"{width}x{height}", "-r", s["fps"], "-i", "-"]
+    if s["filter"]:
+        command += ["-vf", s["filter"]]
+    if s["grey"]:
+        command += ["-pix_fmt", "gray"]
+    else:
+        command += ["-pix_fmt", s["pixels"]]
+    command += ["-c:v", *s["codec"], str(path)]
+    film = Film()
+    film.settings, film.radii, film.places = s, radii, []
+    writer = subprocess.Popen(command, stdin=subprocess.PIPE)
+    for k in range(s["frames"]):
+        shake = s["shake"] * rng.normal(size=2)
+        between = [(course(s, k + o) - course(s, k), o) for o in
+                   (numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0])]
+        sum_of = 0.0
+        for shift, o in between:
+            v = places[min(k + 1, s["frames"] - 1)] - places[max(k - 1, 0)]
+            sum_of = sum_of + painter.paint(middle + shake + course(s, k) + shift,
+                                            places[k] + 0.5 * o * v + middle + shake, rotations[k])
+        picture = painter.finished(sum_of / len(between), k)
+        for _ in range(0 if k in s["drop"] else 2 if k in s["double"] else 1):
+            writer.stdin.write(picture.tobytes())
+            film.places.append(places[k] + middle + shake)
+    writer.stdin.close()
+    assert writer.wait() == 0, "ffmpeg failed"
+    film.centre, film.amplitude, film.dish = middle, s["amplitude"], s["dish"]
+    film.per_swirl, film.clockwise = s["per_swirl"], s["clockwise"]
+    return film
