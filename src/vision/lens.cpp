@@ -105,8 +105,10 @@ void Lens::settle_distortion() {
     constexpr double contradicts = 3.0;                      // standard errors
     constexpr double stands_out = 4.0, with_contacts = 3.0;  // the same
     constexpr double not_known = 0.01;
-    const double hidden = nearness * half * nearness * half / 8.0;
-    double whole = apparent_k + hidden;
+    constexpr double supports = 1.5;  // the same
+    constexpr double least_seen = 0.002, most_possible = 0.3;
+    const double hidden = nearness * half * nearness * half / 8.0, by_sizes = apparent_k + hidden;
+    double whole = by_sizes;
     k_error = std::hypot(apparent_k_error, ball > 0.0 ? size_misleads / ball : 0.0);
     double least = stands_out;
     if (contact_error > 0.0) {
@@ -118,8 +120,18 @@ void Lens::settle_distortion() {
         k_error = 1.0 / std::sqrt(sizes + contacts);
         least = with_contacts;
     }
-    const bool seen = std::abs(whole) > least * k_error && std::abs(whole) > 0.002;
-    k = seen && k_error < not_known && std::abs(whole) < 0.3 ? whole : 0.0;
+    // A distortion that is too weak to stand out so is believed as sizes have it where contacts
+    // side with them rather than with no distortion: balls that look alike all over the dish know
+    // it better.
+    const double off = std::abs(by_sizes - contact_k);
+    if (std::abs(whole) <= least * k_error && contact_error > 0.0 &&
+        std::abs(by_sizes) > stands_out * apparent_k_error && off < supports * contact_error &&
+        off < std::abs(contact_k)) {
+        whole = by_sizes;
+        least = 0.0;
+    }
+    const bool seen = std::abs(whole) > least * k_error && std::abs(whole) > least_seen;
+    k = seen && k_error < not_known && std::abs(whole) < most_possible ? whole : 0.0;
 }
 
 Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half) {

@@ -87,5 +87,38 @@ TEST(Lens, IsFoundFromSizesOfEqualBalls) {
     }
 }
 
+/// What is believed of sizes that tell k_sizes ± 0.0003 for balls of 26 pixels beside contacts.
+double believed(double k_sizes, double k_contacts, double contact_error) {
+    Lens lens{middle, 240.0};
+    lens.apparent_k = k_sizes;
+    lens.apparent_k_error = 0.0003;
+    lens.ball = 26.0;
+    lens.contact_k = k_contacts;
+    lens.contact_error = contact_error;
+    lens.settle_distortion();
+    return lens.k;
+}
+
+TEST(Lens, SizesAreNotBelievedAgainstContacts) {
+    // Shade makes the sizes of balls without texture say −0.015 (docs/camera.md), a near camera
+    // −0.0095.
+    EXPECT_EQ(believed(-0.015, 0.001, 0.0025), 0.0);
+    EXPECT_EQ(believed(-0.0095, 0.001, 0.0025), 0.0);
+    EXPECT_EQ(believed(-0.0095, -0.003, 0.0025), 0.0);
+}
+
+TEST(Lens, AWeakDistortionIsBelievedWhereContactsSideWithIt) {
+    EXPECT_EQ(believed(0.005, 0.004, 0.0025), 0.005);
+    EXPECT_EQ(believed(-0.006, -0.005, 0.0025), -0.006);
+    EXPECT_EQ(believed(0.005, 0.001, 0.0025), 0.0);  // which side with none
+    EXPECT_EQ(believed(0.005, 0.0, 0.0), 0.0);       // which are not there
+}
+
+TEST(Lens, OfAStrongOneSizesAndContactsAreWeighed) {
+    const double k = believed(0.033, 0.029, 0.0025);
+    EXPECT_GT(k, 0.029);
+    EXPECT_LT(k, 0.033);
+}
+
 }  // namespace
 }  // namespace swirl
