@@ -121,8 +121,7 @@ static void renew_comoving_frame(EngineState& state, const MotionInFrame& motion
 static void begin_comoving_frame(EngineState& state, double t) {
     const Leg& leg = state.legs[state.leg];
     begin_stretch(state, t);
-    state.comoving_frame = {
-        {leg.position_at(t), leg.velocity_at(t), t}, {1.0, 0.0}, 0.0, 1.0, false};
+    state.comoving_frame = {.origin = {leg.position_at(t), leg.velocity_at(t), t}};
     renew_comoving_frame(state, motion_in_frame(state, t), t);
 }
 

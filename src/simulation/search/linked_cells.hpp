@@ -153,7 +153,7 @@ static void predict_all(EngineState& state, double t) {
 }
 
 SWIRL_INLINE void rest_with_container(EngineState& state) {
-    state.comoving_frame = {container_flight(state.legs[state.leg]), {1.0, 0.0}, 0.0, 1.0, false};
+    state.comoving_frame = {.origin = container_flight(state.legs[state.leg])};
 }
 
 static void start(EngineState& state) {

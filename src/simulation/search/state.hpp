@@ -81,11 +81,11 @@ struct Skin {
 /// velocity that the rotation has there. A field of velocities like that turns all distances alike
 /// and stretches them alike, by √(1 + (turning τ)²) in a time τ, so they never shrink.
 struct ComovingFrame {
-    Flight<double> origin;
-    Vec2 turn;       // at origin.time; of magnitude 1 or more
-    double turning;  // angular velocity then
-    double scale;    // magnitude of turn: so many times as far apart as in the frame two places are
-    bool has_turned;
+    Flight<double> origin{};
+    Vec2 turn{1.0, 0.0};   // at origin.time; of magnitude 1 or more
+    double turning = 0.0;  // angular velocity then
+    double scale = 1.0;    // of places in the frame: |turn|
+    bool has_turned = false;
 
     template <class Real>
     SWIRL_INLINE Flight<Real> flight_of(const BasicVec2<Real>& Z) const {
