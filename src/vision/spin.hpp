@@ -17,7 +17,7 @@
 //
 // Texture is what differs from the mean picture of all discs: shading and highlights stay where
 // they are when a ball turns, and would tell that it does not. Turns are measured over `step`
-// pictures, a 64th of a swirl or one picture; the spin at a picture is the mean of the steps
+// pictures, a 32nd of a swirl or one picture; the spin at a picture is the mean of the steps
 // before and after it.
 //
 // x to the right, y up, z to the camera: ω_z > 0 is counter-clockwise in the picture.
