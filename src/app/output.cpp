@@ -60,9 +60,7 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
     const auto kind = std::filesystem::status(file, ignored).type();
     if (kind == std::filesystem::file_type::regular ||
         kind == std::filesystem::file_type::not_found) {
-        const auto& place = target.empty() ? file : target;
-        write_whole_file(place, text);
-        remove_leftovers(place.parent_path(), place.filename().string());
+        write_named_file(target.empty() ? file : target, text);
         return;
     }
     std::FILE* const stream = std::fopen(file.c_str(), "w");

@@ -40,7 +40,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
     }
     file.append(number(sum.value()));
     file.finish();
-    remove_leftovers(path.parent_path(), path.filename().string());
+    remove_leftovers_of(path);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {

@@ -301,8 +301,7 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
     remove_leftovers(folder);
     refuse_to_replace(path);
     std::filesystem::remove(path, error);
-    write_whole_file(path, write_vtp_frames(series, folder, options));
-    remove_leftovers(path.parent_path(), path.filename().string());
+    write_named_file(path, write_vtp_frames(series, folder, options));
 }
 
 // --- GSD (gsd.readthedocs.io, "File layer", version 2.0) -----------------------------------------
@@ -471,7 +470,7 @@ void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
     WholeFile file(path);
     write(series, file, options);
     file.finish();
-    remove_leftovers(path.parent_path(), path.filename().string());
+    remove_leftovers_of(path);
 }
 
 constexpr std::array formats{

@@ -41,9 +41,6 @@ std::string Table::csv() const {
     return text;
 }
 
-void Table::write(const std::filesystem::path& file) const {
-    write_whole_file(file, csv());
-    remove_leftovers(file.parent_path(), file.filename().string());
-}
+void Table::write(const std::filesystem::path& file) const { write_named_file(file, csv()); }
 
 }  // namespace swirl

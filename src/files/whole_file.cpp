@@ -168,6 +168,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
     file.finish();
 }
 
+void write_named_file(const std::filesystem::path& path, std::string_view bytes) {
+    write_whole_file(path, bytes);
+    remove_leftovers_of(path);
+}
+
 namespace {
 
 std::string read_to_the_end(int file, const std::filesystem::path& path) {
@@ -219,7 +224,10 @@ std::string first_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-void remove_leftovers(const std::filesystem::path& folder, std::string_view name) {
+namespace {
+
+/// `name`: only what was to become that file.
+void remove_leftovers_in(const std::filesystem::path& folder, std::string_view name) {
     std::error_code error;
     for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, error), end;
          !error && it != end; it.increment(error)) {
@@ -234,6 +242,13 @@ void remove_leftovers(const std::filesystem::path& folder, std::string_view name
         if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
         ::close(file);
     }
+}
+
+}  // namespace
+
+void remove_leftovers(const std::filesystem::path& folder) { remove_leftovers_in(folder, {}); }
+void remove_leftovers_of(const std::filesystem::path& path) {
+    remove_leftovers_in(path.parent_path(), path.filename().string());
 }
 
 }  // namespace swirl

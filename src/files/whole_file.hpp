@@ -42,6 +42,9 @@ class WholeFile {
 
 /// All at once.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same for a file of which there are few in a folder, as somebody named it: what killed
+/// writers left of it goes, too.
+void write_named_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Throws FileError when it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
@@ -51,9 +54,10 @@ std::string read_regular_file(const std::filesystem::path& path);
 /// Throws as read_regular_file() does.
 std::string first_bytes(const std::filesystem::path& path);
 
-/// Removes what writers that were killed left in a folder; `name`: only what was to become that
-/// file.
-void remove_leftovers(const std::filesystem::path& folder, std::string_view name = {});
+/// Removes what writers that were killed left in a folder.
+void remove_leftovers(const std::filesystem::path& folder);
+/// Only what was to become that file.
+void remove_leftovers_of(const std::filesystem::path& path);
 
 /// The end of the name under which a file is written until it is complete.
 inline constexpr std::string_view partial_suffix = ".partial";

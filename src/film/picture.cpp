@@ -122,8 +122,7 @@ void make_picture(const PictureConfig& config) try {
 }
 
 void write_picture(const std::filesystem::path& file, const std::string& bytes) try {
-    write_whole_file(file, bytes);
-    remove_leftovers(file.parent_path(), file.filename().string());
+    write_named_file(file, bytes);
 } catch (const FileError& failure) {
     throw Failure(failure.what());
 }

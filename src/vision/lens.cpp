@@ -101,37 +101,33 @@ Lens::Circle Lens::ideal(const Circle& seen_circle) const {
 
 void Lens::settle_distortion() {
     // Of the radius of a ball: what shade and texture do to it in one place more than in another.
-    constexpr double size_misleads = 0.1;                    // pixels
-    constexpr double contradicts = 3.0;                      // standard errors
-    constexpr double stands_out = 4.0, with_contacts = 3.0;  // the same
-    constexpr double not_known = 0.01;
-    constexpr double supports = 1.5;  // the same
-    constexpr double least_seen = 0.002, most_possible = 0.3;
+    constexpr double size_misleads = 0.1;  // pixels
+    // Standard errors.
+    constexpr double contradicts = 3.0, supports = 1.5, stands_out = 4.0, with_contacts = 3.0;
+    constexpr double not_known = 0.01, least_seen = 0.002, most_possible = 0.3;  // of k
     const double hidden = nearness * half * nearness * half / 8.0, by_sizes = apparent_k + hidden;
     double whole = by_sizes;
     k_error = std::hypot(apparent_k_error, ball > 0.0 ? size_misleads / ball : 0.0);
-    double least = stands_out;
+    bool seen = std::abs(whole) > stands_out * k_error;
     if (contact_error > 0.0) {
-        const bool agree =
-            std::abs(whole - contact_k) < contradicts * std::hypot(k_error, contact_error);
+        const double off = std::abs(by_sizes - contact_k);
+        const bool agree = off < contradicts * std::hypot(k_error, contact_error);
         const double sizes = agree ? 1.0 / (k_error * k_error) : 0.0,
                      contacts = 1.0 / (contact_error * contact_error);
-        whole = (sizes * whole + contacts * contact_k) / (sizes + contacts);
+        whole = (sizes * by_sizes + contacts * contact_k) / (sizes + contacts);
         k_error = 1.0 / std::sqrt(sizes + contacts);
-        least = with_contacts;
+        seen = std::abs(whole) > with_contacts * k_error;
+        // A distortion that is too weak to stand out so is believed as sizes have it where contacts
+        // side with them rather than with no distortion: balls that look alike all over the dish
+        // know it better.
+        if (!seen && std::abs(by_sizes) > stands_out * apparent_k_error &&
+            off < supports * contact_error && off < std::abs(contact_k)) {
+            whole = by_sizes;
+            seen = true;
+        }
     }
-    // A distortion that is too weak to stand out so is believed as sizes have it where contacts
-    // side with them rather than with no distortion: balls that look alike all over the dish know
-    // it better.
-    const double off = std::abs(by_sizes - contact_k);
-    if (std::abs(whole) <= least * k_error && contact_error > 0.0 &&
-        std::abs(by_sizes) > stands_out * apparent_k_error && off < supports * contact_error &&
-        off < std::abs(contact_k)) {
-        whole = by_sizes;
-        least = 0.0;
-    }
-    const bool seen = std::abs(whole) > least * k_error && std::abs(whole) > least_seen;
-    k = seen && k_error < not_known && std::abs(whole) < most_possible ? whole : 0.0;
+    const bool possible = std::abs(whole) > least_seen && std::abs(whole) < most_possible;
+    k = seen && possible && k_error < not_known ? whole : 0.0;
 }
 
 Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half) {

@@ -57,7 +57,7 @@ struct Lens {
     Circle ideal(const Circle& seen) const;
     /// The circle that fits the image of one.
     Circle image(const Circle& ideal) const;
-    /// k from sizes and nearness, and from contacts: 0 where it is within four standard errors.
+    /// k from sizes and nearness, and from contacts: 0 where it does not stand out from its error.
     void settle_distortion();
     /// How large a ball of that radius appears there.
     double seen_radius(const Vec2& seen, double radius) const;

@@ -395,8 +395,7 @@ Steps measure_steps(const TrackedFilm& film, const TrackingSettings& settings, i
     std::vector<std::vector<Cut>> recent(static_cast<std::size_t>(step) + 1);
     cv::Mat grey;
     for (std::size_t k = 0; k < steps.size() && video.next(grey); ++k) {
-        if (settings.stop && settings.stop->load())
-            throw Interrupted("Stopped while a film was tracked; of it nothing was written.");
+        settings.listen();
         if (settings.progress && k % 8 == 0)
             settings.progress("measuring spins", double(k) / double(steps.size()));
         std::vector<Cut>& now = recent[k % recent.size()];

@@ -55,18 +55,13 @@ unsigned threads_of(const TrackingSettings& settings) {
     return settings.threads ? settings.threads : available_cores();
 }
 
-void listen(const TrackingSettings& settings) {
-    if (settings.stop && settings.stop->load())
-        throw Interrupted("Stopped while a film was tracked; of it nothing was written.");
-}
-
 Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const std::int64_t every = std::max<std::int64_t>(1, pictures / survey_pictures);
     Video video(settings.film, every);
     cv::Mat grey;
     std::vector<cv::Mat> kept;
     while (static_cast<std::int64_t>(kept.size()) < survey_pictures + 2 && video.next(grey)) {
-        listen(settings);
+        settings.listen();
         kept.push_back(grey.clone());
         if (settings.progress)
             settings.progress("looking for the dish", double(kept.size()) / (survey_pictures + 2));
@@ -83,7 +78,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     on_all_cores(
         kept.size(),
         [&](std::size_t k) {
-            listen(settings);
+            settings.listen();
             made[k].emplace(kept[k], rough, 1.0);
         },
         threads);
@@ -96,16 +91,16 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     const std::size_t stride = std::max<std::size_t>(1, small.size() / 24);
     const double sharp_side = std::min(1.0, 1.3 * votes_side / side);
     for (std::size_t k = 0; k < small.size(); k += stride) {
-        listen(settings);
+        settings.listen();
         const CircleFit rim = find_rim(small[k], found.rim);
         if (!rim.good) continue;
         rims.push_back(rim);
         fewer.emplace_back(kept[k], sharp_side, survey_blur);
     }
     if (fewer.empty()) throw Failure("No dish was found in the pictures.");
-    listen(settings);
+    settings.listen();
     found.look = survey_beads(fewer, rims, threads);
-    listen(settings);
+    settings.listen();
     found.tilt = find_tilt(small, settings.camera, found.rim, found.look.lens);
     // What discs look like on the mean, for films with poor edges.
     const double shrink = std::min(1.0, votes_radius / found.look.radius());
@@ -113,7 +108,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     on_all_cores(
         kept.size(),
         [&](std::size_t k) {
-            listen(settings);
+            settings.listen();
             const Picture sharp(kept[k], shrink, found.look.blur);
             const CircleFit rim = find_rim(sharp, found.rim);
             if (rim.good) seen[k] = {sharp.sharp, rim, find_beads(sharp, rim, found.look)};
@@ -122,7 +117,7 @@ Survey survey(const TrackingSettings& settings, std::int64_t pictures) {
     std::vector<MeanBall::Example> examples;
     for (auto& example : seen)
         if (example) examples.push_back(std::move(*example));
-    listen(settings);
+    settings.listen();
     if (auto mean = MeanBall::learned(examples, found.look, threads))
         found.look.mean_ball = std::make_shared<const MeanBall>(std::move(*mean));
     return found;
@@ -154,14 +149,14 @@ std::vector<Seen> look_at_all(const TrackingSettings& settings, const Survey& fo
         }
     };
     for (read(now); now.number > 0; std::swap(now, next)) {
-        listen(settings);
+        settings.listen();
         std::future<void> reading = std::async(std::launch::async, [&] { read(next); });
         const std::size_t begin = all.size();
         all.resize(begin + now.number);
         on_all_cores(
             now.number,
             [&](std::size_t k) {
-                listen(settings);
+                settings.listen();
                 const Picture picture(now.pictures[k], shrink, blur);
                 Seen& seen = all[begin + k];
                 seen.rim = find_rim(picture, found.rim);
@@ -279,7 +274,7 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
     const double shrink = std::min(1.0, votes_radius / found.look.radius());
     cv::Mat grey;
     for (std::size_t k = 0; k < all.size() && video.next(grey); ++k) {
-        listen(settings);
+        settings.listen();
         if (settings.progress && k % 16 == 0)
             settings.progress("looking for lost discs", double(k) / double(all.size()));
         std::vector<Wanted> here = wanted[k];
@@ -323,10 +318,15 @@ std::vector<Bead*> known_beads(const Links& links, std::vector<Seen>& all, std::
     return here;
 }
 
-/// Hard discs do not lie in each other or in the wall: who seems to is moved, each by its share of
-/// the variance, which is the larger the less of its edge is seen.
-void part_overlaps(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all,
-                   TrackedFilm& film) {
+/// Where discs stop each other, as shares of the sum of radii, and where the wall stops them, as
+/// minus their distance from the dish's middle.
+struct Contacts {
+    Contact discs;
+    std::optional<Contact> wall;
+};
+
+Contacts contacts_of(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all,
+                     TrackedFilm& film) {
     constexpr double nearest = 0.9, farthest = 1.1;  // of the sum of radii
     std::vector<double> apart, reaches;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -342,20 +342,27 @@ void part_overlaps(const Links& links, const std::vector<double>& radii, std::ve
         }
     }
     // Where they do not tell, what errors of radii explain is left.
-    Contact contact{0.985, 0.004};
+    Contacts contacts{{0.985, 0.004}, {}};
     if (const auto told = contact_of(apart, nearest, farthest);
         told && std::abs(told->at - 1.0) < 0.05) {
-        contact = *told;
-        film.overlap_error = contact.error * film.radius * std::sqrt(2.0);  // a distance's has two
+        contacts.discs = *told;
+        film.overlap_error = told->error * film.radius * std::sqrt(2.0);  // a distance's has two
     }
-    std::optional<Contact> wall;
     // A tilted camera sees the rim, by which the dish's middle goes, shifted against the discs.
-    if (!reaches.empty() && !film.lens.tilted()) {
-        const double out = -*std::min_element(reaches.begin(), reaches.end());
-        wall = contact_of(reaches, -out - 1.0, -out + 0.4 * film.radius);
-        // Where the wall is a circle about the dish's middle that was found, it is as sharp.
-        if (wall && wall->error > 1.3 * contact.error * std::sqrt(2.0) * film.radius) wall.reset();
-    }
+    if (reaches.empty() || film.lens.tilted()) return contacts;
+    const double out = -*std::min_element(reaches.begin(), reaches.end());
+    const auto wall = contact_of(reaches, -out - 1.0, -out + 0.4 * film.radius);
+    // Where the wall is a circle about the dish's middle that was found, it is as sharp.
+    if (wall && wall->error <= 1.3 * contacts.discs.error * std::sqrt(2.0) * film.radius)
+        contacts.wall = wall;
+    return contacts;
+}
+
+/// Hard discs do not lie in each other or in the wall: who seems to is moved, each by its share of
+/// the variance, which is the larger the less of its edge is seen.
+void part_overlaps(const Links& links, const std::vector<double>& radii, std::vector<Seen>& all,
+                   TrackedFilm& film) {
+    const auto [contact, wall] = contacts_of(links, radii, all, film);
     // Of a coordinate. Neighbours hold each other in their places, so that less than all of an
     // error is free to be moved; 0.3 to 1 times it serve about as well in films whose truth is
     // known.
@@ -704,6 +711,11 @@ std::size_t common_number(const std::vector<Seen>& all, std::size_t kind) {
 }
 
 }  // namespace
+
+void TrackingSettings::listen() const {
+    if (stop && stop->load())
+        throw Interrupted("Stopped while a film was tracked; of it nothing was written.");
+}
 
 TrackScale TrackedFilm::scale() const {
     TrackScale s;

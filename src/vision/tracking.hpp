@@ -33,6 +33,9 @@ struct TrackingSettings {
     unsigned threads = 0;            // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& what, double share)> progress;
+
+    /// Throws Interrupted if it is to stop.
+    void listen() const;
 };
 
 struct TrackedKind {

@@ -56,9 +56,9 @@ TEST(WholeFile, WhatAKillLeftBehindIsRemovedAndWhatIsBeingWrittenIsNot) {
     ASSERT_EQ(files_in(scratch.folder()), 1u);
     WholeFile alive(scratch / "f");
     write_quickly(scratch / "f.my own.partial", "not ours");
-    remove_leftovers(scratch.folder(), "other");
+    remove_leftovers_of(scratch / "other");
     EXPECT_EQ(files_in(scratch.folder()), 3u);
-    remove_leftovers(scratch.folder(), "f");
+    remove_leftovers_of(scratch / "f");
     EXPECT_EQ(files_in(scratch.folder()), 2u);
     alive.append("whole");
     alive.finish();

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 
 namespace swirl {
@@ -106,13 +107,6 @@ TEST(SeveralRuns, ExactRunsThatAgreeAreExact) {
     EXPECT_FALSE(several_runs(runs).disagree);
 }
 
-/// Sum of twelve uniform numbers less six: normal enough.
-double normal(Random& random) {
-    double sum = -6.0;
-    for (int k = 0; k < 12; ++k) sum += random.uniform();
-    return sum;
-}
-
 // How often the 95 % interval holds the truth, over 4000 repetitions: a binomial deviate with a
 // standard deviation of 0.35 %. The maximum of two estimates is on the safe side, so what is asked
 // is not less than 93.5 %, also where blocks understate the error.
@@ -125,7 +119,7 @@ TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
             for (int k = 0; k < repetitions; ++k) {
                 std::vector<Estimate> runs;
                 for (int s = 0; s < seeds; ++s)
-                    runs.push_back(run_of(normal(random), 1.0 / understated, 200.0));
+                    runs.push_back(run_of(deviate(random), 1.0 / understated, 200.0));
                 const Estimate e = several_runs(runs).estimate;
                 held += std::fabs(e.mean) <= 1.96 * e.error ? 1 : 0;
             }

@@ -4,18 +4,12 @@
 
 #include <cmath>
 
+#include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {
-
-/// Nearly normal, with variance 1: the sum of twelve uniform numbers.
-double deviate(Random& random) {
-    double sum = -6.0;
-    for (int k = 0; k < 12; ++k) sum += random.uniform();
-    return sum;
-}
 
 double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
 

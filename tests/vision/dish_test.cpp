@@ -4,17 +4,12 @@
 
 #include <cmath>
 
+#include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {
-
-double noise(Random& random) {
-    double sum = -6.0;
-    for (int k = 0; k < 12; ++k) sum += random.uniform();
-    return sum;
-}
 
 TEST(DishPath, IsFoundWithItsErrors) {
     Random random(5);
@@ -26,7 +21,7 @@ TEST(DishPath, IsFoundWithItsErrors) {
             std::vector<double> times;
             for (int k = 0; k < 300; ++k) {
                 times.push_back(k);
-                centres.push_back(truth.at(k) + Vec2{0.2 * noise(random), 0.2 * noise(random)});
+                centres.push_back(truth.at(k) + Vec2{0.2 * deviate(random), 0.2 * deviate(random)});
                 if (k % 23 == 0) centres.back() = {100.0 * random.uniform(), 5.0};  // strays
             }
             const auto found = fit_path(centres, times);
@@ -48,7 +43,7 @@ TEST(DishPath, AStillDishHasNone) {
     std::vector<double> times;
     for (int k = 0; k < 200; ++k) {
         times.push_back(k);
-        centres.push_back({300.0 + 0.3 * noise(random), 200.0 + 0.3 * noise(random)});
+        centres.push_back({300.0 + 0.3 * deviate(random), 200.0 + 0.3 * deviate(random)});
     }
     EXPECT_FALSE(fit_path(centres, times));
 }
@@ -75,7 +70,7 @@ cv::Mat picture_of(const Vec2& centre, double radius, Polarity polarity, double 
             level /= fine * fine;
             if (polarity < 0) level = 255.0 - level;
             picture.ptr<float>(row)[column] =
-                static_cast<float>(level + noise_level * noise(random));
+                static_cast<float>(level + noise_level * deviate(random));
         }
     return picture;
 }
@@ -124,7 +119,7 @@ TEST(PathPolygon, TellsAPolygonByItsSidesAndACircleFromIt) {
                     (amplitude * u) * unit_circle(std::fmod(std::floor(leg) + 1.0, sides) / sides);
             }
             centres.push_back(Vec2{200.0 + p.x, 180.0 - p.y} +
-                              noise_of_a_rim * Vec2{noise(random), noise(random)});
+                              noise_of_a_rim * Vec2{deviate(random), deviate(random)});
             times.push_back(k);
         }
         const auto path = fit_path(centres, times);
@@ -145,7 +140,7 @@ std::vector<Leap> leaps_with(const std::vector<int>& shown, double omega, Random
     std::vector<std::size_t> numbers;
     for (const int k : shown) {
         numbers.push_back(centres.size());
-        centres.push_back(truth.at(k) + Vec2{0.1 * noise(random), 0.1 * noise(random)});
+        centres.push_back(truth.at(k) + Vec2{0.1 * deviate(random), 0.1 * deviate(random)});
     }
     return leaps_of(centres, numbers, truth);
 }
