@@ -98,14 +98,14 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width) {
 }
 
 void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event) {
-    if (event.kind == EventKind::path_vertex || snapshot.on_floor)
+    if (event.kind == EventKind::path_vertex)
         centre_ = centre_of(snapshot, *kernel_);
     else
         push(centre_, event);
 }
 
 RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
-    if (centre_.discs != static_cast<std::ptrdiff_t>(snapshot.size()))
+    if (snapshot.on_floor || centre_.discs != static_cast<std::ptrdiff_t>(snapshot.size()))
         centre_ = centre_of(snapshot, *kernel_);
     const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
     event_.add(sample, snapshot.period);

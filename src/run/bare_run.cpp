@@ -12,7 +12,7 @@
 namespace swirl {
 namespace {
 
-/// An average by event looks at all discs after each of them.
+/// An observation by event looks at all discs after each of them.
 int events_between_looks(std::size_t discs) {
     constexpr std::size_t discs_looked_at = 1 << 22;
     return static_cast<int>(
@@ -34,7 +34,9 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
       events_to_look_(events_until_look()),
       watch_(simulation_.size(), mark()),
       next_question_(least_blocks_of_a_steady_state),
-      warm_(config.warmup == 0) {
+      warm_(config.warmup == 0),
+      events_per_sample_(events_per_rotation_sample(simulation_.size())),
+      events_to_sample_(events_per_sample_ - simulation_.events().total() % events_per_sample_) {
     const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
@@ -70,7 +72,10 @@ void BareRun::find_event() {
 void BareRun::pass_event() {
     simulation_.refresh(snapshot_, event_);
     rotation().follow(snapshot_, event_);
-    rotation_is_sampled_ = false;
+    if (--events_to_sample_ == 0) {
+        events_to_sample_ = events_per_sample_;
+        rotation_is_sampled_ = false;
+    }
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes()) observation_->sample(event_, snapshot());
     if (event_.kind == EventKind::path_vertex && simulation_.swirls() > event_.swirls)

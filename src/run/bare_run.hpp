@@ -138,7 +138,9 @@ class BareRun {
     BlockMean spin_in_warmup_, spin_after_;
     std::int64_t next_question_;  // at this swirl: warm?
     bool warm_;
-    bool rotation_is_sampled_ = true;  // after the last event
+    const std::uint64_t events_per_sample_;
+    std::uint64_t events_to_sample_;   // until the next sample of the rotation by event
+    bool rotation_is_sampled_ = true;  // as it stands, if it is to be
     RunResult result_;
 };
 

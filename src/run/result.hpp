@@ -48,6 +48,10 @@ struct RunResult {
             visit(group, ReportRow{name, unit, description, {.mean = value}, {}, false});
         };
         rotation.report([&](const ReportRow& row) { visit("rotation", row); });
+        number("", "events_per_rotation_sample", "1",
+               "of the averages over events: 1 up to 128 discs, beyond that their number over 64",
+               static_cast<double>(
+                   events_per_rotation_sample(static_cast<std::size_t>(config.discs))));
         number("steady_state", "drift", "1",
                "of the rotation, from its first part to its last, in standard errors",
                steady.drift);

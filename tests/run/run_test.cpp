@@ -175,6 +175,32 @@ TEST(Run, WarmupIsLeftOutOfTheAverages) {
               result.events.total());
 }
 
+TEST(Run, InALargeDishTheAverageByEventIsOverEverySoManyEvents) {
+    RunConfig config = small(200, 3);
+    config.container_radius = 18.0;
+    config.warmup = 0;
+    const std::uint64_t every = events_per_rotation_sample(200);
+    ASSERT_EQ(every, 4u);
+    double sum = 0.0, samples = 0.0, whole_sum = 0.0;
+    std::uint64_t events = 0;
+    swirl::Run run(config);
+    while (run.next_event()) {
+        run.pass_event();
+        const double rotation = cluster_rotation(run.snapshot()).individual / config.omega();
+        whole_sum += rotation;
+        if (++events % every != 0) continue;
+        sum += rotation;
+        samples += 1.0;
+    }
+    const double mean = run.result().rotation.by_event.mean;
+    // The same sums in another order, about a centre of mass that is followed.
+    EXPECT_NEAR(mean, sum / samples, 1e-11);
+    // Two discs of 200 change with an event, by Ω or so each: a hundredth of the mean, with either
+    // sign, over thousands of samples.
+    EXPECT_GT(samples, 5000.0);
+    EXPECT_NEAR(mean, whole_sum / static_cast<double>(events), 1e-3);
+}
+
 TEST(Run, TheWarmupIsFoundWhereTheSpinsTakeTheirTime) {
     // Without disc friction only the wall spins the discs up: some 100 swirls. With it the dish
     // forgets its beginning in a few swirls, and the least there is, 50, will do.
