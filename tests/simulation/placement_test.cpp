@@ -169,6 +169,41 @@ TEST(Placement, AMillionDiscsAtPacking070InSeconds) {
 #endif
 }
 
+/// Of the discs begin to end - 1 in a dish of that radius, the share that has one of the next eight
+/// numbers beside it: no farther away than the sides of two squares with one such disc each.
+double neighbours_of_near_number(const std::vector<Vec2>& centres, std::size_t begin,
+                                 std::size_t end, double R) {
+    const auto discs = static_cast<double>(end - begin);
+    const double beside = 2.0 * std::sqrt(3.14159 * R * R / discs);
+    double found = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t k = i + 1; k < std::min(i + 9, end); ++k) {
+            if (std::hypot(centres[i].x - centres[k].x, centres[i].y - centres[k].y) > beside)
+                continue;
+            found += 1.0;
+            break;
+        }
+    return found / discs;
+}
+
+// The curve leaves a square with three sides of four to one beside it. Of numbers drawn at random
+// the next eight lie in 13 such squares' area of several thousand.
+TEST(Placement, InALargeDishNearNumbersAreNearPlaces) {
+    std::vector<double> radii(20000, 1.0);
+    radii.resize(30000, 0.5);
+    const double R = std::sqrt((20000 + 10000 * 0.25) / 0.6);
+    const auto centres = place_discs(radii, R, 1);
+    ASSERT_TRUE(centres);
+    EXPECT_LT(deepest_overlap(*centres, radii, R), rounding);
+    EXPECT_GT(neighbours_of_near_number(*centres, 0, 20000, R), 0.9);
+    EXPECT_GT(neighbours_of_near_number(*centres, 20000, 30000, R), 0.9);
+    // Few are left as they were.
+    const double r = std::sqrt(4000 / 0.6);
+    const auto few = place_discs(std::vector<double>(4000, 1.0), r, 1);
+    ASSERT_TRUE(few);
+    EXPECT_LT(neighbours_of_near_number(*few, 0, 4000, r), 0.1);
+}
+
 TEST(Placement, TheSeedDecides) {
     const std::vector<double> radii(48, 1.0);
     const auto a = place_discs(radii, 8.6, 1), b = place_discs(radii, 8.6, 1),
