@@ -1,16 +1,20 @@
 #!/bin/bash
-# bench/compare.sh COMMIT [ROUNDS] [SECONDS]
+# bench/compare.sh COMMIT [ROUNDS] [SECONDS] [OPTION...]
 #
-# Is the working tree faster than COMMIT? Builds both, runs their `swirl bench` in turns (so that a
-# machine that is busy now and idle later treats both alike), and prints for every scene the median
-# of the ratios of their rates, working tree over COMMIT. Above 1: faster.
+# Is the working tree faster than COMMIT? Builds both, COMMIT's engine with the benchmark of the
+# working tree if it can be had so (or some scenes would be missing), else with its own; runs their
+# `swirl bench` in turns (so that a machine that is busy now and idle later treats both alike); and
+# prints for every scene that both have the median of the ratios of their rates, working tree over
+# COMMIT. Above 1: faster. What is measured besides rates comes after that, new over old, and at the
+# end the names of what only one of them has. OPTIONs go to both, as --full or --width all.
 set -eu
 if [ $# -lt 1 ] || [ "$1" = -h ] || [ "$1" = --help ]; then
     sed -n '2,/^set/p' "$0" | sed -e '$d' -e 's/^# \{0,1\}//'
     [ $# -ge 1 ] && exit 0 || exit 2
 fi
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
-rounds=${2:-5} seconds=${3:-1}
+rounds=${2:-5} seconds=${3:-0.5}
+options=("${@:4}")
 commit=$(git -C "$home" rev-parse --verify --quiet "$1^{commit}") ||
     { echo "compare.sh: there is no commit '$1'." >&2; exit 2; }
 work=$home/build/compare
@@ -21,26 +25,28 @@ if [ ! -d "$work/source-$commit" ]; then
 fi
 
 build() { # source, build folder
-    cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSWIRL_TESTS=OFF >"$2.log"
-    ninja -C "$2" swirl >>"$2.log" || { tail -20 "$2.log" >&2; exit 1; }
+    cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSWIRL_TESTS=OFF >"$2.log" &&
+        ninja -C "$2" swirl >>"$2.log"
+}
+give_todays_benchmark() { # source
+    rm -rf "$1"/src/study/bench* "$1/src/study/rival"
+    cp -r "$home"/src/study/bench* "$home/src/study/rival" "$1/src/study"
+    cp "$home/src/app/command_bench.cpp" "$1/src/app"
 }
 echo "building the working tree and $commit" >&2
-build "$home" "$work/new"
-build "$work/source-$commit" "$work/old-$commit"
+build "$home" "$work/new" || { tail -20 "$work/new.log" >&2; exit 1; }
+old=$work/source-$commit
+give_todays_benchmark "$old"
+if ! build "$old" "$work/old-$commit"; then
+    echo "compare.sh: with its own benchmark; see $work/old-$commit.log" >&2
+    git -C "$old" checkout --quiet -- src
+    git -C "$old" clean --quiet -fd src
+    build "$old" "$work/old-$commit" || { tail -20 "$work/old-$commit.log" >&2; exit 1; }
+fi
 
 for round in $(seq "$rounds"); do
     echo "round $round of $rounds" >&2
-    "$work/old-$commit/swirl" bench --quiet --seconds "$seconds" --json "$work/old-$round.json" >/dev/null
-    "$work/new/swirl" bench --quiet --seconds "$seconds" --json "$work/new-$round.json" >/dev/null
+    "$work/old-$commit/swirl" bench --quiet --seconds "$seconds" "${options[@]}" --json "$work/old-$round.json" >/dev/null
+    "$work/new/swirl" bench --quiet --seconds "$seconds" "${options[@]}" --json "$work/new-$round.json" >/dev/null
 done
-/usr/bin/python3 - "$work" "$rounds" <<'END'
-import json, statistics, sys
-work, rounds = sys.argv[1], int(sys.argv[2])
-ratios = {}
-for k in range(1, rounds + 1):
-    old, new = (json.load(open(f"{work}/{which}-{k}.json")) for which in ("old", "new"))
-    for a, b in zip(old["rows"], new["rows"]):
-        ratios.setdefault((b["scene"], b["discs"]), []).append(b["rate"] / a["rate"])
-for (scene, discs), r in ratios.items():
-    print(f"{scene:<20}{discs:>8}  {statistics.median(r):6.3f}   ({min(r):.3f} to {max(r):.3f})")
-END
+/usr/bin/python3 "$home/bench/ratios.py" "$work" "$rounds"

@@ -15,7 +15,7 @@ namespace {
 
 struct BenchCall {
     bool full = false, quiet = false;
-    std::string width = "best", seconds = "1", json, csv;
+    std::string width = "best", seconds, json, csv;
 };
 
 std::vector<Width> read_widths(const std::string& text) {
@@ -43,7 +43,8 @@ void make_bench(const BenchCall& call) {
     BenchSettings settings;
     settings.full = call.full;
     settings.widths = read_widths(call.width);
-    const auto seconds = read_number(call.seconds);
+    const auto seconds =
+        call.seconds.empty() ? (call.full ? 1.0 : 0.25) : read_number(call.seconds);
     if (!seconds || !(*seconds > 0.0 && *seconds <= 3600.0))
         throw WrongCall(
             fmt::format("The time for each rate cannot be '{}'; it must be a number of "
@@ -72,13 +73,14 @@ void make_bench(const BenchCall& call) {
 
 void add_bench_command(Subcommand& subcommand) {
     const auto call = std::make_shared<BenchCall>();
-    subcommand.add_flag("--full", call->full,
-                        "a million discs, too, and a large dish through a whole swirl");
+    subcommand.add_flag("--full", call->full, "10^5 and 10^6 discs, too");
     subcommand
         .add_option("--width", call->width,
                     "of the vectors: best, all, baseline, avx2 or avx512 [best]")
         ->type_name("NAME");
-    subcommand.add_option("--seconds", call->seconds, "of processor time for each rate [1]")
+    subcommand
+        .add_option("--seconds", call->seconds,
+                    "of processor time for each rate [0.25; 1 with --full]")
         ->type_name("NUMBER");
     subcommand.add_option("--json", call->json, "write the result as JSON (- prints it)")
         ->type_name("FILE");

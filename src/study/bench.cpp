@@ -6,21 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
 
-#include "swirl/files/table.hpp"
-#include "swirl/math/random.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/run/version.hpp"
-#include "swirl/simulation/placement.hpp"
+#include "swirl/study/bench_scenes.hpp"
 #include "swirl/study/rival/plain_lists.hpp"
 #include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
+
+using Kind = BenchScene::Kind;
 
 /// Processor time of this thread in seconds: what else runs here does not count.
 double now() {
@@ -35,159 +33,203 @@ double median(std::vector<double> values) {
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-enum class Kind { dish, gas, large_dish, spheres };
-
-struct BenchScene {
-    const char* name;
-    Kind kind;
-    std::int64_t discs;
-    double packing;  // of what is not in the paper's dish
-    std::optional<double> target, ratio_target;
-    bool plain;
-    bool only_full;
-};
-
-// The paper's dish at N = 48: 48 / 8.6².
-constexpr double paper_packing = 48.0 / (paper_container_radius * paper_container_radius);
-
-// The experiment's at N = 48.
-constexpr double spheres_packing =
-    48.0 / (experiment_container_radius * experiment_container_radius);
-
-constexpr const char* dense_gas = "gas, packing 0.7";
-constexpr const char* spheres = "spheres, mu = 0.2";
-
-const std::vector<BenchScene>& bench_scenes() {
-    static const std::vector<BenchScene> all = {
-        {"dish, mu = 1", Kind::dish, 48, 0, 7e6, 13.0, true, false},
-        {"dish, mu = 1", Kind::dish, 28, 0, 8e6, 6.5, true, false},
-        {"dish, mu = 1", Kind::dish, 5, 0, 16e6, 2.0, true, false},
-        {dense_gas, Kind::gas, 1000, 0.70, 6e6, {}, true, false},
-        {dense_gas, Kind::gas, 10000, 0.70, 5e6, {}, true, false},
-        {dense_gas, Kind::gas, 100000, 0.70, 3e6, {}, true, false},
-        {dense_gas, Kind::gas, 1000000, 0.70, 2e6, {}, true, true},
-        {"gas, packing 0.2", Kind::gas, 1000, 0.20, 2.5e6, {}, true, false},
-        {"gas, packing 0.2", Kind::gas, 100000, 0.20, {}, {}, true, true},
-        {"gas, packing 0.01", Kind::gas, 1000, 0.01, {}, {}, true, false},
-        {"large dish, mu = 1", Kind::large_dish, 100000, paper_packing, 1.5e6, {}, false, false},
-        {spheres, Kind::spheres, 48, spheres_packing, 1.5e6, 10.0, true, false},
-        {spheres, Kind::spheres, 500, spheres_packing, {}, {}, true, false},
-        {spheres, Kind::spheres, 100000, spheres_packing, {}, {}, false, true},
-    };
-    return all;
-}
-
 void check(const std::atomic<bool>* stop) {
     if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
 }
 
-InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
-    const auto n = static_cast<double>(scene.discs);
-    const bool rolls = scene.kind == Kind::spheres;
-    const double mu = scene.kind == Kind::gas ? 0.0 : rolls ? experiment_friction : 1.0;
-    InitialState initial{{}, {}, 0.0, {mu}, {mu}};
-    initial.path = scene.kind == Kind::gas
-                       ? still_path(10.0)
-                       : polygon_path(paper_amplitude, paper_period, paper_sides);
-    if (rolls) {
-        initial.path = polygon_path(experiment_amplitude, experiment_period, paper_sides);
-        for (Surface* surface : {&initial.disc_surface, &initial.wall_surface})
-            *surface = {mu, experiment_restitution, 0.0, RunConfig{}.contact_duration};
-        initial.shape = Shape::sphere;
-        initial.floor.deceleration = experiment_floor_friction * experiment_gravity;
+constexpr int turns = 7;
+
+/// Who takes turns at the processor: the engine, a rival.
+class Contender {
+  public:
+    virtual ~Contender() = default;
+
+    /// Counts per second of the processor over at least `seconds` of it.
+    double rate_over(double seconds) {
+        double counted = 0.0, elapsed = 0.0;
+        do {
+            begin_again();
+            const double begin = now();
+            counted += run();
+            elapsed += now() - begin;
+        } while (elapsed < seconds);
+        return counted / elapsed;
     }
-    initial.container_radius =
-        scene.kind == Kind::dish ? paper_container_radius : square_root(n / scene.packing);
-    const std::vector<double> radii(static_cast<std::size_t>(scene.discs), 1.0);
-    const auto centres =
-        place_discs(radii, initial.container_radius, 1, stopped_by(stop).is_stopped);
-    check(stop);
-    if (!centres) throw Failure("The discs of a benchmark did not fit into their dish.");
-    Random random(2);
-    const Leg& leg = initial.path.legs.front();
-    const double speed = scene.kind == Kind::gas ? 1.0 : 0.1;
-    for (const Vec2& centre : *centres)
-        initial.discs.push_back({leg.start + centre, leg.velocity + random.in_disc(speed), 0.0, 0.0,
-                                 0.0, 1.0, 1.0,
-                                 rolls ? solid_sphere_inertia(1.0, 1.0) : paper_inertia});
-    return initial;
-}
+    void take_a_turn(double seconds) { rates_.push_back(rate_over(seconds)); }
+    const std::vector<double>& rates() const { return rates_; }
 
-/// How many events until the start is forgotten: ten collisions a disc, or a few swirls.
-std::uint64_t settling(const BenchScene& scene) {
-    if (scene.kind == Kind::dish) return scene.discs < 10 ? 5000 : 100000;
-    if (scene.kind == Kind::spheres)
-        return static_cast<std::uint64_t>((scene.discs > 1000 ? 20 : 1000) * scene.discs);
-    return static_cast<std::uint64_t>(5 * scene.discs);
-}
+  protected:
+    /// Not timed.
+    virtual void begin_again() {}
+    /// Some events; says what they count.
+    virtual double run() = 0;
 
-/// Counts per second of the processor over at least `seconds` of it.
-template <class Run, class Count>
-double rate_over(double seconds, const Run& run, const Count& count) {
-    const double begin = now();
-    const double before = count();
-    double elapsed = 0.0;
-    do {
-        run();
-        elapsed = now() - begin;
-    } while (elapsed < seconds);
-    return (count() - before) / elapsed;
-}
-
-/// A rival: the plain loop with vectors of one width, or lists.
-struct PlainRunner {
-    std::string name;  // of the width, or "lists"
-    std::function<Event()> step;
-    bool collisions_only;
-    int batch;  // events between two looks at the clock
-    double events = 0.0;
-    std::vector<double> rates = {};
-
-    void take_a_turn(double seconds) {
-        const auto run = [this] {
-            for (int k = 0; k < batch; ++k) {
-                const bool vertex = step().kind == EventKind::path_vertex;
-                events += vertex && collisions_only ? 0.0 : 1.0;
-            }
-        };
-        rates.push_back(rate_over(seconds, run, [this] { return events; }));
-    }
+  private:
+    std::vector<double> rates_;
 };
 
-/// Of the rival's lists, in diameters: so many discs on each as it is fastest with, of 2 to 24
-/// tried; some 2 in a thin gas and 8 in a dense one.
-double best_reach(double packing) {
-    const double listed = 2.0 + 8.0 * packing;
-    return std::max(1.2, square_root(listed / (4.0 * packing)));
+/// Either it goes on, or it begins again and again and stops after so many swirls.
+class Engine : public Contender {
+  public:
+    Engine(const BenchScene& scene, const InitialState& settled, const Tuning& tuning)
+        : collisions_only_(scene.kind == Kind::gas),
+          swirls_(scene.replayed_swirls),
+          settled_(settled),
+          tuning_(tuning),
+          simulation_(settled_, {}, tuning_) {}
+
+    Simulation& simulation() { return simulation_; }
+
+  private:
+    double counted() const {
+        const EventCounts e = simulation_.events();
+        return static_cast<double>(collisions_only_ ? e.disc_disc + e.disc_wall : e.total());
+    }
+    void begin_again() override {
+        if (swirls_ > 0) simulation_ = Simulation(settled_, {}, tuning_);
+    }
+    double run() override {
+        const double before = counted();
+        if (swirls_ > 0)
+            simulation_.advance_to(swirls_, 0.0);
+        else
+            simulation_.run(2000);
+        return counted() - before;
+    }
+
+    bool collisions_only_;
+    std::int64_t swirls_;
+    InitialState settled_;
+    Tuning tuning_;
+    Simulation simulation_;
+};
+
+/// Counts whole swirls.
+class Swirling : public Contender {
+  public:
+    explicit Swirling(const InitialState& settled)
+        : simulation_(settled), at_once_(settled.discs.size() < 10 ? 100 : 1) {}
+
+  private:
+    double run() override {
+        simulation_.advance_to(simulation_.swirls() + at_once_, 0.0);
+        return static_cast<double>(at_once_);
+    }
+
+    Simulation simulation_;
+    int at_once_;  // a look at the clock takes time, too
+};
+
+class Rival : public Contender {
+  public:
+    explicit Rival(std::string name) : name(std::move(name)) {}
+
+    const std::string name;
+};
+
+template <class Loop>
+class RivalLoop : public Rival {
+  public:
+    RivalLoop(std::string name, const BenchScene& scene, std::function<Loop()> make)
+        : Rival(std::move(name)),
+          collisions_only_(scene.kind == Kind::gas),
+          swirls_(scene.replayed_swirls),
+          batch_(scene.kind == Kind::spheres && scene.discs > 100 ? 1 : 500),
+          make_(std::move(make)),
+          loop_(std::make_unique<Loop>(make_())) {}
+
+  private:
+    void begin_again() override {
+        if (swirls_ > 0) loop_ = std::make_unique<Loop>(make_());
+    }
+    double run() override {
+        double counted = 0.0;
+        const auto step = [&] {
+            const Event event = loop_->step();
+            const bool vertex = event.kind == EventKind::path_vertex;
+            counted += vertex && collisions_only_ ? 0.0 : 1.0;
+            return vertex;
+        };
+        if (swirls_ > 0)
+            for (std::size_t left = static_cast<std::size_t>(swirls_) * paper_sides; left > 0;)
+                left -= step() ? 1 : 0;
+        else
+            for (int k = 0; k < batch_; ++k) step();
+        return counted;
+    }
+
+    bool collisions_only_;
+    std::int64_t swirls_;
+    int batch_;  // events between two looks at the clock
+    std::function<Loop()> make_;
+    std::unique_ptr<Loop> loop_;
+};
+
+/// Of the rival's lists: so that a list has eight discs, which fill one vector. Swirled discs
+/// gather.
+double best_skin(const BenchScene& scene, const InitialState& settled) {
+    if (scene.kind == Kind::dish) return 0.75;
+    double radii = 0.0;
+    for (const Disc& disc : settled.discs) radii += disc.radius;
+    const auto discs = static_cast<double>(settled.discs.size());
+    return std::max(0.2, settled.container_radius * square_root(2.0 / discs) - radii / discs);
 }
 
-/// With every width that the processor has, from the engine's state. The plain loop has no way to
-/// save and resume, so it starts from the discs of the moment, at the beginning of a swirl, where
-/// everybody's clock stands at 0.
-std::vector<PlainRunner> plain_runners(const InitialState& initial, Simulation& engine,
-                                       const BenchScene& scene) {
-    Event last = engine.step();
-    while (last.kind != EventKind::path_vertex || engine.progress().leg != 0) last = engine.step();
-    InitialState settled = initial;
-    for (std::size_t i = 0; i < settled.discs.size(); ++i) settled.discs[i] = engine.disc(i);
-    if (scene.kind == Kind::gas)
-        return {{"lists",
-                 [lists = PlainLists(settled, best_reach(scene.packing))]() mutable {
-                     return lists.step();
-                 },
-                 true, 500}};
-    const int batch = scene.discs > 100 ? 1 : 500;
+/// The one that is fastest in a trial; nobody if there is none.
+std::unique_ptr<Rival> best_rival(const BenchScene& scene, const InitialState& settled,
+                                  double seconds) {
+    std::vector<std::unique_ptr<Rival>> rivals;
+    if (!scene.has_rival) return nullptr;
     if (scene.kind == Kind::spheres)
-        return {{"scalar", [loop = Reference(settled)]() mutable { return loop.step(); }, false,
-                 batch}};
-    std::vector<PlainRunner> runners;
-    for (const auto& [name, width] :
-         {std::pair{"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}})
+        return std::make_unique<RivalLoop<PlainSpheres>>(
+            "loop", scene, [&settled] { return PlainSpheres(settled); });
+    rivals.push_back(std::make_unique<RivalLoop<PlainLists>>(
+        "lists", scene,
+        [settled, skin = best_skin(scene, settled)] { return PlainLists(settled, skin); }));
+    if (scene.discs > 48) return std::move(rivals.front());
+    for (const auto& [name, width] : {std::pair{"loop, baseline", Width::baseline},
+                                      {"loop, avx2", Width::avx2},
+                                      {"loop, avx512", Width::avx512}})
         if (has_width(width))
-            runners.push_back({name,
-                               [loop = PlainLoop(settled, width)]() mutable { return loop.step(); },
-                               false, batch});
-    return runners;
+            rivals.push_back(std::make_unique<RivalLoop<PlainLoop>>(
+                name, scene, [settled, width = width] { return PlainLoop(settled, width); }));
+    std::vector<double> rates;
+    for (const auto& rival : rivals) rates.push_back(rival->rate_over(0.1 * seconds));
+    return std::move(rivals[static_cast<std::size_t>(std::max_element(rates.begin(), rates.end()) -
+                                                     rates.begin())]);
+}
+
+/// How many events until the start of what is not swirled as discs are is forgotten: ten collisions
+/// a disc.
+std::uint64_t settling(const BenchScene& scene) {
+    if (scene.kind == Kind::gas) return static_cast<std::uint64_t>(5 * scene.discs);
+    return static_cast<std::uint64_t>((scene.discs > 1000 ? 20 : 1000) * scene.discs);
+}
+
+/// As it is at the beginning of a swirl, where everybody's clock stands at 0: rivals have no way to
+/// save and resume.
+InitialState settled_state(const BenchScene& scene, const BenchSettings& settings) {
+    InitialState state = state_of(scene, settings.stop);
+    Simulation engine(state, {}, stopped_by(settings.stop));
+    const auto run = [&](std::uint64_t events) {
+        constexpr std::uint64_t at_once = 100'000;
+        for (std::uint64_t done = 0; done < events; done += at_once) {
+            check(settings.stop);
+            engine.run(std::min(at_once, events - done));
+        }
+    };
+    if (scene.kind == Kind::dish)
+        while (check(settings.stop), !engine.advance_to(scene.swirls, 0.0, 100'000)) {
+        }
+    else
+        run(settling(scene));
+    if (scene.kind != Kind::dish) {
+        Event last = engine.step();
+        while (last.kind != EventKind::path_vertex || engine.progress().leg != 0)
+            last = engine.step();
+    }
+    for (std::size_t i = 0; i < state.discs.size(); ++i) state.discs[i] = engine.disc(i);
+    return state;
 }
 
 /// The time of the corners of one swirl, against that of the swirl. A whole one, as the last
@@ -207,118 +249,144 @@ double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSe
     return at_vertices / (now() - begin);
 }
 
+/// What a scene is compared with, and by what.
+struct Comparison {
+    std::unique_ptr<Contender> other;
+    // Of the scene itself; none: its rate counts.
+    std::unique_ptr<Contender> own;
+    const char* name = "";
+    BenchTarget::Sense sense = BenchTarget::Sense::at_least;
+
+    std::optional<BenchTarget> found(const std::vector<double>& rates,
+                                     const std::optional<double>& target) const {
+        if (!other) return {};
+        std::vector<double> ratios;
+        for (std::size_t turn = 0; turn < rates.size(); ++turn)
+            ratios.push_back(own ? other->rates()[turn] / own->rates()[turn]
+                                 : rates[turn] / other->rates()[turn]);
+        return BenchTarget{name, "", median(ratios), sense, target};
+    }
+};
+
+Comparison comparison(const BenchScene& scene, const InitialState& settled,
+                      const BenchSettings& settings, const Tuning& tuning) {
+    BenchScene other = bench_scenes().front();
+    if (scene.compared_with == ComparedWith::paper_dish)
+        return {std::make_unique<Engine>(other, settled_state(other, settings), tuning), nullptr,
+                "rate over that at N = 48", BenchTarget::Sense::at_least};
+    if (scene.compared_with == ComparedWith::polygon) {
+        other = scene;
+        other.sides = paper_sides;
+        return {std::make_unique<Swirling>(settled_state(other, settings)),
+                std::make_unique<Swirling>(settled), "time per swirl over that on the polygon",
+                BenchTarget::Sense::at_most};
+    }
+    return {};
+}
+
 BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& settings) {
-    const InitialState initial = state_of(scene, settings.stop);
+    const InitialState settled = settled_state(scene, settings);
     Tuning tuning = stopped_by(settings.stop);
     tuning.width = width;
-    Simulation engine(initial, {}, tuning);
-    constexpr std::uint64_t at_once = 100'000;
-    for (std::uint64_t done = 0, all = settling(scene); done < all; done += at_once) {
-        check(settings.stop);
-        engine.run(std::min(at_once, all - done));
-    }
-    const bool collisions_only = scene.kind == Kind::gas;
-    const auto counted = [&] {
-        const EventCounts e = engine.events();
-        return static_cast<double>(collisions_only ? e.disc_disc + e.disc_wall : e.total());
-    };
+    Engine engine(scene, settled, tuning);
+    const Comparison compared = comparison(scene, settled, settings, tuning);
+    const double seconds = settings.seconds / turns;
+    const std::unique_ptr<Rival> rival = best_rival(scene, settled, settings.seconds);
 
-    std::vector<PlainRunner> plain;
-    if (scene.plain) plain = plain_runners(initial, engine, scene);
-
-    const EventCounts before = engine.events();
-    const LoopCounts loop_before = engine.loop_counts();
-    constexpr int turns = 7;
-    std::vector<double> rates;
+    engine.rate_over(0.0);  // warms up, and a replay begins to count
+    const bool goes_on = scene.replayed_swirls == 0;
+    const EventCounts before = goes_on ? engine.simulation().events() : EventCounts{};
+    const LoopCounts loop_before = goes_on ? engine.simulation().loop_counts() : LoopCounts{};
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
-        const double seconds = settings.seconds / turns;
-        rates.push_back(rate_over(
-            seconds, [&] { engine.run(2000); }, counted));
-        for (PlainRunner& runner : plain) runner.take_a_turn(seconds);
+        engine.take_a_turn(seconds);
+        if (rival) rival->take_a_turn(seconds);
+        if (compared.other) compared.other->take_a_turn(seconds);
+        if (compared.own) compared.own->take_a_turn(seconds);
     }
 
-    const EventCounts after = engine.events();
-    const LoopCounts loop = engine.loop_counts();
+    Simulation& simulation = engine.simulation();
+    const EventCounts after = simulation.events();
+    const LoopCounts loop = simulation.loop_counts();
     const auto events = static_cast<double>(after.total() - before.total());
     BenchRow row{};
     row.scene = scene.name;
     row.discs = scene.discs;
     row.width = loop.width;
-    row.counts = collisions_only ? "collisions" : "events";
-    row.rate = median(rates);
-    row.target = scene.target;
-    for (const PlainRunner& runner : plain) {
-        const double rate = median(runner.rates);
-        if (rate <= row.plain_rate.value_or(0.0)) continue;
-        row.plain_rate = rate;
-        row.plain_width = runner.name;
+    row.counts = scene.kind == Kind::gas ? "collisions" : "events";
+    row.rate = median(engine.rates());
+    if (rival) {
+        row.rival_rate = median(rival->rates());
+        row.rival = rival->name;
         row.ratio_target = scene.ratio_target;
     }
+    row.comparison = compared.found(engine.rates(), scene.comparison_target);
     row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(scene.discs);
     row.invalidated = static_cast<double>(loop.invalidated - loop_before.invalidated) / events;
     row.list_rebuilds =
         static_cast<double>(loop.list_rebuilds - loop_before.list_rebuilds) / events;
     row.path_vertices = static_cast<double>(after.path_vertex - before.path_vertex) / events;
-
-    if (scene.kind == Kind::large_dish && settings.full)
-        row.vertex_share = vertex_share(engine, initial.path, settings);
+    if (scene.kind == Kind::dish && scene.discs == 100000)
+        row.vertex_share = vertex_share(simulation, settled.path, settings);
     return row;
 }
 
-/// What it costs to look after every event at N = 48: time of step, refresh and look, over that of
-/// the run alone, less one.
-double by_event_cost(const BenchSettings& settings) {
-    const InitialState initial = state_of(bench_scenes().front(), settings.stop);
-    Simulation alone(initial), watched(initial);
-    alone.run(100000);
-    watched.run(100000);
-    Snapshot snapshot = watched.snapshot();
-    ClusterRotation rotation;
-    std::vector<double> ratios;
-    for (int turn = 0; turn < 9; ++turn) {
-        check(settings.stop);
-        const auto batches = static_cast<int>(std::max(1.0, 200.0 * settings.seconds));
-        const double start = now();
-        alone.run(1000 * static_cast<std::uint64_t>(batches));
-        const double middle = now();
-        for (int k = 0; k < 1000 * batches; ++k) {
-            const Event event = watched.step();
-            rotation.sample(snapshot);
-            watched.refresh(snapshot, event);
-            rotation.follow(snapshot, event);
-        }
-        ratios.push_back((now() - middle) / (middle - start));
-    }
-    return median(ratios) - 1.0;
-}
+/// Looks after every event, as the averages by event do.
+class Watched : public Contender {
+  public:
+    explicit Watched(const InitialState& settled)
+        : simulation_(settled), snapshot_(simulation_.snapshot()) {}
 
-/// Both settle, then take turns of whole swirls.
-CircleRow circle_row(std::int64_t discs, const BenchSettings& settings) {
-    const BenchScene scene{
-        "",   discs > 100 ? Kind::large_dish : Kind::dish, discs, paper_packing, {}, {}, false,
-        false};
-    const InitialState on_polygon = state_of(scene, settings.stop);
-    InitialState on_circle = on_polygon;
-    on_circle.path = circular_path(paper_amplitude, paper_period);
-    Simulation polygon(on_polygon), circle(on_circle);
-    for (Simulation* dish : {&polygon, &circle}) dish->run(discs < 10 ? 5000 : 200000);
-    const int at_once = discs < 10 ? 100 : 1;  // a look at the clock takes time, too
-    constexpr int turns = 7;
-    const auto time_per_swirl = [&](Simulation& dish) {
-        const auto begin = static_cast<double>(dish.swirls());
-        const auto swirl = [&] { dish.advance_to(dish.swirls() + at_once, 0.0); };
-        const auto done = [&] { return static_cast<double>(dish.swirls()) - begin; };
-        swirl();
-        return 1.0 / rate_over(settings.seconds / turns, swirl, done);
-    };
+    const Simulation& simulation() const { return simulation_; }
+
+  private:
+    double run() override {
+        constexpr int batch = 2000;
+        for (int k = 0; k < batch; ++k) {
+            const Event event = simulation_.step();
+            rotation_.sample(snapshot_);
+            simulation_.refresh(snapshot_, event);
+            rotation_.follow(snapshot_, event);
+        }
+        return batch;
+    }
+
+    Simulation simulation_;
+    Snapshot snapshot_;
+    ClusterRotation rotation_;
+};
+
+/// The paper's dish at N = 48 with averages by event, beside itself without.
+BenchRow row_by_event(const BenchSettings& settings) {
+    const BenchScene& scene = bench_scenes().front();
+    const InitialState settled = settled_state(scene, settings);
+    Engine alone(scene, settled, {});
+    Watched watched(settled);
     std::vector<double> ratios;
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
-        const double reference = time_per_swirl(polygon);
-        ratios.push_back(time_per_swirl(circle) / reference);
+        alone.take_a_turn(settings.seconds / turns);
+        watched.take_a_turn(settings.seconds / turns);
+        ratios.push_back(alone.rates().back() / watched.rates().back());
     }
-    return {discs, median(ratios)};
+    BenchRow row{};
+    const LoopCounts loop = watched.simulation().loop_counts();
+    const EventCounts events = watched.simulation().events();
+    const auto per_event = [&](std::uint64_t count) {
+        return static_cast<double>(count) / static_cast<double>(events.total());
+    };
+    row.scene = "dish, averages by event";
+    row.discs = scene.discs;
+    row.width = loop.width;
+    row.counts = "events";
+    row.rate = median(watched.rates());
+    row.comparison = BenchTarget{"time over that without", "", median(ratios),
+                                 BenchTarget::Sense::at_most, 1.15};
+    row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(scene.discs);
+    row.invalidated = per_event(loop.invalidated);
+    row.list_rebuilds = per_event(loop.list_rebuilds);
+    row.path_vertices = per_event(events.path_vertex);
+    return row;
 }
 
 std::string processor() {
@@ -328,41 +396,6 @@ std::string processor() {
     return "unknown processor";
 }
 
-std::string millions(const std::optional<double>& rate) {
-    return rate ? fmt::format("{:.3g}", *rate / 1e6) : "-";
-}
-std::string times(const std::optional<double>& ratio) {
-    if (!ratio) return "-";
-    return *ratio < 100.0 ? fmt::format("{:.3g}", *ratio) : fmt::format("{:.0f}", *ratio);
-}
-std::optional<double> ratio(const BenchRow& row) {
-    if (!row.plain_rate) return {};
-    return row.rate / *row.plain_rate;
-}
-std::string verdict(const std::optional<double>& found, const std::optional<double>& target) {
-    return !found || !target ? "" : *found >= *target ? "met" : "missed";
-}
-const char* words(BenchTarget::Sense sense) {
-    return sense == BenchTarget::Sense::at_least  ? "at least"
-           : sense == BenchTarget::Sense::at_most ? "at most"
-                                                  : "below";
-}
-
-std::string row_line(const BenchRow& row) {
-    return fmt::format(
-        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6.0f}{:>7.3f}{:>8.3f}\n",
-        row.scene, row.discs, row.width, millions(row.rate), millions(row.target),
-        verdict(row.rate, row.target), millions(row.plain_rate), row.plain_width, times(ratio(row)),
-        times(row.ratio_target), verdict(ratio(row), row.ratio_target), row.bytes_per_disc,
-        row.invalidated, row.list_rebuilds);
-}
-
-std::string target_line(const BenchTarget& target) {
-    return fmt::format("{:<62}{:>8} {:<7}{:<9}{:<4}{}\n", target.name,
-                       fmt::format("{:.3g}", target.value), target.unit, words(target.sense),
-                       fmt::format("{:g}", target.target), target.met() ? "met" : "missed");
-}
-
 /// The row of the gas that is as dense and has the same width, with so many discs.
 const BenchRow* gas_of(const BenchResult& result, std::int64_t discs, const std::string& width) {
     for (const BenchRow& row : result.rows)
@@ -370,35 +403,8 @@ const BenchRow* gas_of(const BenchResult& result, std::int64_t discs, const std:
     return nullptr;
 }
 
-nlohmann::ordered_json or_null(const std::optional<double>& x) {
-    return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json row_json(const BenchRow& row) {
-    nlohmann::ordered_json r;
-    r["scene"] = row.scene;
-    r["discs"] = row.discs;
-    r["width"] = row.width;
-    r["counts"] = row.counts;
-    r["rate"] = row.rate;
-    r["target"] = or_null(row.target);
-    r["plain_rate"] = or_null(row.plain_rate);
-    r["plain_width"] =
-        row.plain_rate ? nlohmann::ordered_json(row.plain_width) : nlohmann::ordered_json(nullptr);
-    r["ratio"] = or_null(ratio(row));
-    r["ratio_target"] = or_null(row.ratio_target);
-    r["bytes_per_disc"] = row.bytes_per_disc;
-    r["invalidated_per_event"] = row.invalidated;
-    r["list_rebuilds_per_event"] = row.list_rebuilds;
-    r["path_vertices_per_event"] = row.path_vertices;
-    r["vertex_share"] = or_null(row.vertex_share);
-    return r;
-}
-
-nlohmann::ordered_json target_json(const BenchTarget& target) {
-    return {{"name", target.name},     {"value", target.value},
-            {"unit", target.unit},     {"must_be", words(target.sense)},
-            {"target", target.target}, {"met", target.met()}};
+std::string where(const BenchRow& row) {
+    return fmt::format("{}, N = {}, {}", row.scene, row.discs, row.width);
 }
 
 }  // namespace
@@ -409,119 +415,52 @@ BenchResult bench(const BenchSettings& settings) {
     std::vector<BenchScene> chosen;
     for (const BenchScene& scene : bench_scenes())
         if (settings.full || !scene.only_full) chosen.push_back(scene);
-    constexpr std::int64_t on_circle[] = {5, 28, 48, 500};
-    const double pieces =
-        static_cast<double>(chosen.size() * settings.widths.size() + std::size(on_circle) + 1);
-    double done = 0.0;
-    for (const BenchScene& scene : chosen) {
-        for (const Width width : settings.widths) {
-            check(settings.stop);
-            if (settings.progress)
-                settings.progress(done / pieces,
-                                  fmt::format("{}, N = {}", scene.name, scene.discs));
-            result.rows.push_back(bench_row(scene, width, settings));
-            done += 1.0;
-        }
-    }
-    for (const std::int64_t discs : on_circle) {
+    const auto pieces = static_cast<double>(chosen.size() * settings.widths.size() + 1);
+    const auto tell = [&](const std::string& what) {
         check(settings.stop);
         if (settings.progress)
-            settings.progress(done / pieces, fmt::format("circle, N = {}", discs));
-        result.circles.push_back(circle_row(discs, settings));
-        done += 1.0;
-    }
-    if (settings.progress) settings.progress(done / pieces, "averages by event");
-    result.by_event_cost = by_event_cost(settings);
+            settings.progress(static_cast<double>(result.rows.size()) / pieces, what);
+    };
+    for (const BenchScene& scene : chosen)
+        for (const Width width : settings.widths) {
+            tell(fmt::format("{}, N = {}", scene.name, scene.discs));
+            result.rows.push_back(bench_row(scene, width, settings));
+        }
+    tell("averages by event");
+    result.rows.push_back(row_by_event(settings));
     return result;
 }
 
-std::vector<BenchTarget> targets_of_rows(const BenchResult& result) {
-    using enum BenchTarget::Sense;
+std::vector<BenchTarget> targets_of_ratios(const BenchResult& result) {
     std::vector<BenchTarget> targets;
-    for (const BenchRow& row : result.rows) {
-        const std::string where = fmt::format("{}, N = {}, {}", row.scene, row.discs, row.width);
-        if (row.target)
-            targets.push_back({fmt::format("{} per second: {}", row.counts, where), "1/s", row.rate,
-                               at_least, *row.target});
+    for (const BenchRow& row : result.rows)
         if (row.ratio_target)
-            targets.push_back({fmt::format("rate over the plain loop's: {}", where), "",
-                               *ratio(row), at_least, *row.ratio_target});
-    }
+            targets.push_back({fmt::format("rate over the rival's: {}", where(row)), "",
+                               *row.ratio(), BenchTarget::Sense::at_least, *row.ratio_target});
     return targets;
 }
 
-std::vector<BenchTarget> targets_beyond_rates(const BenchResult& result) {
+std::vector<BenchTarget> targets_beyond_rivals(const BenchResult& result) {
     using enum BenchTarget::Sense;
     std::vector<BenchTarget> targets;
+    for (const BenchRow& row : result.rows)
+        if (row.comparison) {
+            targets.push_back(*row.comparison);
+            targets.back().name += ": " + where(row);
+        }
     for (const BenchRow& large : result.rows) {
         const BenchRow* const small = gas_of(result, 1000, large.width);
         if (large.scene != dense_gas || large.discs != 1000000 || !small) continue;
-        targets.push_back({fmt::format("memory per disc at N = 10^6, {}", large.width), "bytes",
+        targets.push_back({fmt::format("memory per disc: {}", where(large)), "bytes",
                            large.bytes_per_disc, at_most, 160.0});
-        targets.push_back(
-            {fmt::format("time per collision at N = 10^6 over that at 10^3, {}", large.width), "",
-             small->rate / large.rate, below, 3.0});
+        targets.push_back({fmt::format("time per collision over that at 10^3: {}", where(large)),
+                           "", small->rate / large.rate, below, 3.0});
     }
     for (const BenchRow& row : result.rows)
         if (row.vertex_share)
-            targets.push_back(
-                {fmt::format("share of the large dish's time at path vertices, {}", row.width), "%",
-                 100.0 * *row.vertex_share, below, 5.0});
-    for (const CircleRow& circle : result.circles)
-        targets.push_back(
-            {fmt::format("time per swirl on the circle over the polygon's, N = {}", circle.discs),
-             "", circle.over_polygon, at_most, 1.3});
-    targets.push_back({"time added by averages by event at N = 48", "%",
-                       100.0 * result.by_event_cost, below, 30.0});
+            targets.push_back({fmt::format("share of time at path vertices: {}", where(row)), "%",
+                               100.0 * *row.vertex_share, below, 5.0});
     return targets;
-}
-
-std::string bench_report(const BenchResult& result) {
-    std::string text = fmt::format(
-        "swirl {} on {}\nOne thread, processor time. The rival in the same run: in a dish the "
-        "plain loop, "
-        "which looks at all\npairs for every event; in a gas lists of neighbours and a calendar of "
-        "events, as hard-sphere codes have them.\n\n",
-        version(), result.machine);
-    text += fmt::format(
-        "{:<19}{:>8}  {:<9}{:>7}{:>8} {:<7}{:>7} {:<9}{:>7}{:>8} {:<7}{:>6}{:>7}{:>8}\n", "scene",
-        "N", "width", "M/s", "target", "", "rival", "", "ratio", "target", "", "B/disc", "inval.",
-        "rebuilt");
-    for (const BenchRow& row : result.rows) text += row_line(row);
-    text += fmt::format("\n{:<62}{:>8} {:<7}{}\n", "besides rates", "value", "", "target");
-    for (const BenchTarget& target : targets_beyond_rates(result)) text += target_line(target);
-    text +=
-        "\nM/s: million events a second in a dish, million collisions in a gas; rival: its rate, "
-        "with the\nvectors that suit it best; ratio: how many times as fast the engine is; "
-        "inval.,\nrebuilt: pending events that were invalidated and neighbour lists rebuilt, per "
-        "event.\n";
-    return text;
-}
-
-std::string bench_json(const BenchResult& result, const std::string& command) {
-    nlohmann::ordered_json json;
-    json["machine"] = result.machine;
-    json["version"] = version();
-    json["build"] = build_description();
-    json["command"] = command;
-    json["by_event_cost"] = result.by_event_cost;
-    json["targets"] = nlohmann::ordered_json::array();
-    for (const auto& targets : {targets_of_rows(result), targets_beyond_rates(result)})
-        for (const BenchTarget& target : targets) json["targets"].push_back(target_json(target));
-    json["rows"] = nlohmann::ordered_json::array();
-    for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row));
-    return json.dump(2) + "\n";
-}
-
-std::string bench_csv(const BenchResult& result, const std::string& command) {
-    Table table({"machine", "version", "command", "scene", "discs", "width", "counts", "rate",
-                 "plain_rate", "plain_width", "bytes_per_disc", "invalidated_per_event",
-                 "list_rebuilds_per_event"});
-    for (const BenchRow& row : result.rows)
-        table.add({result.machine, version(), command, row.scene, row.discs, row.width, row.counts,
-                   row.rate, row.plain_rate.value_or(std::nan("")), row.plain_width,
-                   row.bytes_per_disc, row.invalidated, row.list_rebuilds});
-    return table.csv();
 }
 
 }  // namespace swirl

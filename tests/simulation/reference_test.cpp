@@ -299,34 +299,56 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
         }
 }
 
-// The rival of the benchmark.
-TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
-    for (const InitialState& scene :
-         {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(), gas_at_rest(101, 0.3)}) {
-        Reference plain(scene);
-        PlainLoop rival(scene, GetParam());
-        for (int k = 0; k < 5000; ++k) {
-            const Event expected = plain.step(), found = rival.step();
-            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-            ASSERT_EQ(expected.i, found.i) << "event " << k;
-            ASSERT_EQ(expected.j, found.j) << "event " << k;
-        }
+// The rivals of the benchmark.
+
+/// Events one by one, and everybody at the end.
+template <class Rival>
+void expect_the_same(const InitialState& scene, Rival rival, int events) {
+    Reference plain(scene);
+    for (int k = 0; k < events; ++k) {
+        const Event expected = plain.step(), found = rival.step();
+        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
+        ASSERT_EQ(expected.swirls, found.swirls) << "event " << k;
+        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
+        ASSERT_EQ(expected.i, found.i) << "event " << k;
+        ASSERT_EQ(expected.j, found.j) << "event " << k;
+        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal)) << "event " << k;
+        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
     }
+    for (std::size_t i = 0; i < scene.discs.size(); ++i)
+        expect_same_state(plain.disc(i), rival.disc(i));
 }
 
-TEST(PlainLists, AreTheReferenceBitForBit) {
+TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
+    for (const InitialState& scene : {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(),
+                                      gas_at_rest(101, 0.3), on_circle(paper_dish(28))})
+        expect_the_same(scene, PlainLoop(scene, GetParam()), 5000);
+}
+TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInAGas) {
     // Dense, thin, and with lists that hold nearly everybody; over the end of a swirl, too.
-    for (const auto& [packing, reach] : {std::pair{0.7, 1.6}, {0.2, 3.0}, {0.02, 6.0}}) {
+    for (const auto& [packing, skin] : {std::pair{0.7, 0.6}, {0.2, 2.0}, {0.02, 5.0}}) {
         InitialState scene = gas_at_rest(101, packing);
         scene.path = still_path(3.0);
-        Reference plain(scene);
-        PlainLists rival(scene, reach);
-        for (int k = 0; k < (sanitized ? 1000 : 10000); ++k) {
-            const Event expected = plain.step(), found = rival.step();
-            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-            ASSERT_EQ(expected.i, found.i) << "event " << k;
-            ASSERT_EQ(expected.j, found.j) << "event " << k;
-        }
+        expect_the_same(scene, PlainLists(scene, skin, GetParam()), sanitized ? 1000 : 10000);
+    }
+}
+// Lists that are left at once, and that hold nearly everybody.
+TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInASwirledDish) {
+    InitialState dissipative = paper_dish(40);
+    dissipative.disc_surface = {0.5, 0.9, 0.4, 1e-3};
+    dissipative.wall_surface = {0.8, 0.8, 0.2, 1e-3};
+    const InitialState thin =
+        state_of({unit_disc()}, 101, 45.0, polygon_path(paper_amplitude, paper_period, paper_sides),
+                 1.0, 1.0, 1.0);
+    for (const InitialState& scene : {paper_dish(5), paper_dish(48), dissipative, thin,
+                                      mixture_dish(), large_among_small(4, 60, 0.1, 3.0)})
+        for (const double skin : {0.05, 0.5, 3.0})
+            expect_the_same(scene, PlainLists(scene, skin, GetParam()), sanitized ? 300 : 3000);
+}
+TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitOnTheExactCircle) {
+    for (const std::size_t n : {5u, 48u}) {
+        const InitialState scene = on_circle(paper_dish(n));
+        expect_the_same(scene, PlainLists(scene, 0.4, GetParam()), sanitized ? 300 : 5000);
     }
 }
 

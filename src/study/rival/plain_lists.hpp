@@ -1,49 +1,76 @@
-// The rival of large gases in `swirl bench`: event-driven dynamics with a list of neighbours for
+// The rival of many discs in `swirl bench`: event-driven dynamics with a list of neighbours for
 // every disc and a calendar of events, as hard-sphere codes have it (Smallenburg, Eur. Phys. J. E
 // 45, 22 (2022), doi:10.1140/epje/s10189-022-00180-8; the calendar: Paul, J. Comput. Phys. 221, 615
-// (2007)). Written plainly, one disc after the other; places and velocities stand together and
-// apart from the rest.
+// (2007)), one disc after the other. As fast as such a code is made: what a prediction asks of a
+// disc is one cache line, the rest stands apart; large arrays are on huge pages; what the next
+// events need is fetched early; a √ and a ÷ are taken only of what may come first.
 //
-// A list holds whoever may be met while both discs stay within `skin_` of where their lists were
-// made; who leaves that circle has its own list renewed, and nobody else's. Every disc has one
-// pending event; that a partner has collided in the meantime is found when the event is due. Only
-// for discs of one size in a dish at rest.
+// A list holds whoever may be met while both discs stay within `skin` of where their lists were
+// made, their homes; who leaves that circle has its own list renewed, and nobody else's. Every disc
+// has one pending event; that a partner has collided in the meantime is found when the event is
+// due.
+//
+// In a swirled dish homes rest, or move as all discs do on average, which is asked at each vertex
+// of a polygon; then everybody's way out of its circle is another.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "swirl/simulation/reference.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/initial_state.hpp"
+#include "swirl/study/rival/huge_pages.hpp"
+#include "swirl/study/rival/list_search.hpp"
 
 namespace swirl {
 
 class PlainLists {
   public:
-    /// Two bodies are on each other's lists while their centres are closer than `reach` diameters.
-    PlainLists(const InitialState& initial, double reach);
+    /// Of discs, not of spheres.
+    PlainLists(const InitialState& initial, double skin, Width width = Width::best);
 
     /// Executes the event that comes first.
     Event step();
 
-    const Disc& disc(std::size_t i) const { return discs_.disc(i); }
+    Disc disc(std::size_t i) const;
+    /// So far, for every event.
+    std::uint64_t renewed_lists() const { return renewed_lists_; }
 
   private:
     using Number = std::uint32_t;
     static constexpr Number nobody = 0xffffffffu;
     static constexpr Number own_list = 0xfffffff0u;  // in the place of a partner: leaves its circle
 
-    struct Expected {
+    struct Cold {
+        double angle, spin, mass, inertia, inverse_mass, inverse_inertia;
+    };
+    /// And the links of the calendar.
+    struct alignas(32) Pending {
         double time;
         Number partner;  // the disc itself: the wall
         Number changes;  // of the partner, when it was predicted
+        Number next, previous, bin;
+    };
+    struct alignas(32) Home {
+        Vec2 place;
+        double since;  // at which time it was there
+        Number next, previous;
     };
 
+    const Leg& leg() const { return path_.legs[leg_]; }
+    Event collision(Number i, Number partner, double time);
+    void move_to(Number i, double time);
+    Event end_leg();
+    void begin_leg();
     void begin_swirl();
+
     void predict(Number i);
-    void take_over(Number i);
-    void renew_list(Number i, const Vec2& centre);
+    void predict_again(Number i);
+
+    void renew_list(Number i, double time);
+    void look_out_for_wall(Number i);
+    void clear_list(Number i);
     void forget(Number i, Number j);
     void note(Number i, Number j);
     void widen_lists();
@@ -51,31 +78,40 @@ class PlainLists {
     void leave_cell(Number i);
     void enter_cell(Number i);
 
+    void open_calendar();
     std::size_t bin_at(double time) const;
     void leave_bin(Number i);
     void enter_bin(Number i);
     /// Nobody, if nothing comes before the end of the leg.
     Number first_in_calendar();
     bool comes_before(Number i, Number j) const;
+    void fetch_what_comes() const;
 
-    Reference discs_;  // executes events
+    ListSearch first_on_list_;
+    ContainerPath path_;
+    double container_radius_;
+    Surface disc_surface_, wall_surface_;
     Number size_;
-    double radius_, container_radius_, reach_, skin_;
-    std::vector<Flight<double>> flights_;
-    std::vector<Number> changes_;
-    std::vector<Expected> expected_;
+    std::size_t leg_ = 0;
+    std::int64_t swirls_ = 0;
+    std::uint64_t renewed_lists_ = 0;
 
-    std::vector<Vec2> centres_;  // where lists were made
-    std::vector<char> at_wall_;  // may reach it from there
-    std::size_t room_ = 16;      // of each list
-    std::vector<Number> lists_, lengths_;
-    double cell_width_;
+    double skin_, largest_radius_;
+    double farthest_centre_;  // of the container, from the swirl centre
+
+    OnHugePages<ListedDisc> hot_;
+    OnHugePages<Cold> cold_;
+    OnHugePages<Pending> pending_;
+    OnHugePages<Home> homes_of_;
+    std::size_t room_ = 16;  // of each list
+    OnHugePages<Number> lists_;
+    double half_width_, cells_per_length_;
     std::size_t cells_across_;
-    std::vector<Number> first_in_cell_, next_in_cell_, previous_in_cell_;
+    OnHugePages<Number> first_in_cell_;
 
-    double bin_width_ = 0.0, calendar_begin_ = 0.0;
+    double bin_width_ = 0.0, bins_per_time_ = 0.0, calendar_begin_ = 0.0;
     std::size_t now_ = 0;  // the bin that is being emptied
-    std::vector<Number> first_in_bin_, next_in_bin_, previous_in_bin_, bin_of_;
+    OnHugePages<Number> first_in_bin_;
 };
 
 }  // namespace swirl

@@ -1,0 +1,45 @@
+// What `swirl bench` measures: the scenes, and how they begin.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swirl/physics/container_path.hpp"
+#include "swirl/physics/initial_state.hpp"
+
+namespace swirl {
+
+/// With what else of the engine a scene is compared.
+enum class ComparedWith { nothing, paper_dish, polygon };
+
+struct BenchScene {
+    enum class Kind { dish, gas, spheres };
+    std::string name;
+    Kind kind;
+    std::int64_t discs;
+    double packing = 0.0;     // 0: the paper's dish
+    int sides = paper_sides;  // of the path; 0 is the exact circle
+    double mu_disc = 1.0;
+    double second_radius = 1.0;  // of every second disc
+    std::int64_t swirls = 0;     // done before it is measured; a gas does ten collisions a disc
+    /// Begun again and again from there and left after so many swirls, as it would not stay what it
+    /// is; 0: it goes on.
+    std::int64_t replayed_swirls = 0;
+    std::optional<double> ratio_target = {};
+    ComparedWith compared_with = ComparedWith::nothing;
+    std::optional<double> comparison_target = {};
+    bool has_rival = true;
+    bool only_full = false;
+};
+
+inline constexpr const char* dense_gas = "gas, packing 0.7";
+
+const std::vector<BenchScene>& bench_scenes();
+
+/// Throws Interrupted when stopped.
+InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop);
+
+}  // namespace swirl
