@@ -20,6 +20,8 @@
 //     leg_ended(state, t)                predicts what depends on the container's course anew
 //     stretch_ended(state)               renews what it wanted to at EngineState::stretch_end, if
 //                                        that is before the leg's end
+//     is_outgrown(state)                 whether another search is to take over: this one is still
+//                                        right, but no longer fast
 //     check(state, t)                    asks what the search promises (internal_check.hpp)
 //
 //     Bodies                             Discs; or Spheres (resolve.hpp): their search has this
@@ -142,7 +144,8 @@ static Event step(EngineState& state) {
     return execute<Search>(state, next_event<Search>(state));
 }
 
-/// As many events as asked for, or as come up to (swirls, clock]; says how many.
+/// As many events as asked for, or as come up to (swirls, clock], or until the search is outgrown;
+/// says how many.
 template <class Search>
 static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t swirls,
                          double clock) {
@@ -150,6 +153,9 @@ static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t s
         const PendingEvent next = next_event<Search>(state);
         if (state.swirls > swirls || (state.swirls == swirls && next.time > clock)) return done;
         execute<Search>(state, next);
+        if constexpr (requires { Search::is_outgrown(state); })
+            if (Search::is_outgrown(state)) [[unlikely]]
+                return done + 1;
     }
     return count;
 }

@@ -115,24 +115,61 @@ Radii radii_of(const InitialState& scene) {
     return radii;
 }
 
-/// Of a thin gas, in radii of the smallest disc (linked_cells.hpp).
-constexpr double cell_width = 3.6;
+/// The square over which the container's centre moves: its middle, and half its diagonal.
+struct PathExtent {
+    Vec2 middle;
+    double radius;
 
+    /// As far as the container goes in half a swirl, if the path is round: π/√2 times the radius.
+    double most_drift() const { return 2.25 * radius; }
+    double reach() const { return radius + most_drift(); }
+};
+PathExtent extent_of(const ContainerPath& path) {
+    Vec2 low{never, never}, high{-never, -never};
+    for (const Leg& leg : path.legs)
+        for (const double t : {leg.begin, leg.end}) {
+            const Vec2 at = leg.position_at(t);
+            low = {smaller(low.x, at.x), smaller(low.y, at.y)};
+            high = {larger(high.x, at.x), larger(high.y, at.y)};
+        }
+    const Vec2 half = 0.5 * (high - low);
+    return {low + half, square_root(dot(half, half))};
+}
+
+/// Of linked cells (linked_cells.hpp).
+struct CellWidths {
+    double narrowest, wanted, widest;
+};
+/// Discs in cells that do not touch cannot meet, with room for rounding; and there are not so many
+/// more cells than discs that memory counts. A cell of a thin gas has so many discs that nine just
+/// fit into one vector, and one in four million has more than its room.
+CellWidths cell_widths(const InitialState& scene, const Radii& radii) {
+    constexpr double discs_per_cell = 0.6, cells_per_disc = 16.0;
+    const double R = scene.container_radius, discs = static_cast<double>(scene.discs.size());
+    const double side = 2.0 * (R + extent_of(scene.path).reach());
+    const double least =
+        larger(2.05 * radii.largest, side / square_root(64.0 + cells_per_disc * discs));
+    const double wanted = larger(square_root(discs_per_cell * pi * R * R / discs), least);
+    return {least, wanted, 1.2 * wanted};
+}
+
+/// On paths that turn nobody knows who is far from the wall, and of very unequal discs a cell would
+/// hold too many.
 bool cells_can_be_laid(const InitialState& scene, const Radii& radii) {
-    if (2.01 * radii.largest > cell_width * radii.smallest) return false;
+    if (radii.largest > 1.8 * radii.smallest) return false;
     return std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
                        [](const Leg& leg) { return leg.turning == 0.0; });
 }
 
-/// A gas at rest so thin that lists do not last, and not so thin that cells are mostly empty.
-bool is_thin_gas(const InitialState& scene) {
+/// So thin that lists do not last. In a dish that swirls discs gather, and then they do.
+bool is_thin(const InitialState& scene) {
     double packing = 0.0;
     for (const Disc& d : scene.discs) packing += d.radius * d.radius;
     packing /= scene.container_radius * scene.container_radius;
-    return packing < 0.46 && packing > 0.02 &&
-           std::all_of(scene.path.legs.begin(), scene.path.legs.end(), [](const Leg& leg) {
-               return leg.velocity.x == 0.0 && leg.velocity.y == 0.0;
-           });
+    const bool rests =
+        std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
+                    [](const Leg& leg) { return leg.velocity.x == 0.0 && leg.velocity.y == 0.0; });
+    return packing < (rests ? 0.6 : 0.4);
 }
 
 /// Or coins: what a floor may accelerate.
@@ -160,8 +197,8 @@ NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, co
     }
     if (tuning.cells_per_side != 0) return NeighbourSearch::lists;
     if (few_enough) return NeighbourSearch::all_pairs;
-    return is_thin_gas(scene) && cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
-                                                                 : NeighbourSearch::lists;
+    return is_thin(scene) && cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
+                                                             : NeighbourSearch::lists;
 }
 
 }  // namespace
@@ -177,32 +214,41 @@ const EventLoop& loop_for(const InitialState& scene, NeighbourSearch neighbours,
 
 struct Simulation::Storage {
     const EventLoop* loop;
+    Width vectors;
     std::vector<Leg> legs;
     std::vector<DiscKind> kinds;
     AlignedMemory memory;
     EngineState state{};
 
-    Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning);
+    /// With cells as `outgrown` ones wanted them, if there were any.
+    Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning,
+            const Storage* outgrown = nullptr);
     bool prepare(const InitialState& scene, NeighbourSearch neighbours, const Radii& radii,
-                 int cells_per_side);
+                 int cells_per_side, const Storage* outgrown);
+    Progress progress() const;
+    Disc disc(std::uint32_t i) const;
+    InitialState as_it_stands() const;
     bool stopped() const { return state.stops_at(0); }
     void allocate(const InitialState& scene, NeighbourSearch neighbours);
     void lay_grids(const InitialState& scene, const Radii& radii, int cells_per_side);
     double lay_grid(Grid& grid, double least_width, double side);
     void lay_lists(const InitialState& scene, const Radii& radii);
-    void lay_cells(const InitialState& scene);
+    void lay_cells(const InitialState& scene, const Radii& radii, const CellWidths& widths);
     void place(const InitialState& scene);
     void lay_cells_of_spheres(const InitialState& scene, const Radii& radii);
     void place_spheres(const InitialState& scene);
 };
 
 Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
-                             const Tuning& tuning)
-    : legs(scene.path.legs), memory(tuning.is_stopped) {
+                             const Tuning& tuning, const Storage* outgrown)
+    : vectors(tuning.width), legs(scene.path.legs), memory(tuning.is_stopped) {
     const EventLoops& loops = event_loops(tuning.width);
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
-    const NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
+    NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
+    if (outgrown != nullptr)
+        neighbours =
+            outgrown->state.wanted_cell > 0.0 ? NeighbourSearch::cells : NeighbourSearch::lists;
     loop = &loop_for(scene, neighbours, loops);
     state.legs = legs.data();
     state.leg_count = static_cast<std::uint32_t>(legs.size());
@@ -237,17 +283,17 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
             return (*static_cast<const std::function<bool()>*>(caller))();
         };
     }
-    if (prepare(scene, neighbours, radii, tuning.cells_per_side)) loop->start(state);
+    if (prepare(scene, neighbours, radii, tuning.cells_per_side, outgrown)) loop->start(state);
     if (stopped()) {
         state.size = 0;
-        state.discs_overlap = false;
+        state.cells_are_outgrown = false;
     }
     state.is_stopped = nullptr;
 }
 
 /// All that is there before the first prediction; false if it was stopped on the way.
 bool Simulation::Storage::prepare(const InitialState& scene, NeighbourSearch neighbours,
-                                  const Radii& radii, int cells_per_side) {
+                                  const Radii& radii, int cells_per_side, const Storage* outgrown) {
     allocate(scene, neighbours);
     if (stopped()) return false;
     place(scene);
@@ -258,7 +304,12 @@ bool Simulation::Storage::prepare(const InitialState& scene, NeighbourSearch nei
         lay_grids(scene, radii, cells_per_side);
         lay_lists(scene, radii);
     } else if (neighbours == NeighbourSearch::cells) {
-        lay_cells(scene);
+        CellWidths widths = cell_widths(scene, radii);
+        if (outgrown != nullptr) {
+            widths.wanted = outgrown->state.wanted_cell;
+            widths.widest = outgrown->state.widest_cell;
+        }
+        lay_cells(scene, radii, widths);
     }
     return !stopped();
 }
@@ -392,16 +443,27 @@ void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radi
         if (state.tail_places[i] != 0) state.tail(i).room = tail_room(i);
 }
 
-/// Two cells more than the dish needs on each side, so that a disc in a cell always has eight
-/// around.
-void Simulation::Storage::lay_cells(const InitialState& scene) {
-    const double width = cell_width * state.smallest_radius;
+/// Over all that the container comes to, seen from cells that move as fast as it does; and two
+/// cells more on each side, so that a disc in a cell always has eight around.
+void Simulation::Storage::lay_cells(const InitialState& scene, const Radii& radii,
+                                    const CellWidths& widths) {
+    const PathExtent path = extent_of(scene.path);
+    const double R = scene.container_radius;
     Grid& grid = state.grids[0];
-    grid.cells_per_side = static_cast<std::uint32_t>(2.0 * scene.container_radius / width) + 5;
-    grid.cells_per_length = 1.0 / width;
-    state.cell_origin = -0.5 * width * grid.cells_per_side;
+    grid.cells_per_side = static_cast<std::uint32_t>(2.0 * (R + path.reach()) / widths.wanted) + 5;
+    grid.cells_per_length = 1.0 / widths.wanted;
+    state.narrowest_cell = widths.narrowest;
+    state.widest_cell = widths.widest;
+    state.cell_origin = -0.5 * widths.wanted * grid.cells_per_side;
+    state.middle_of_path = path.middle;
+    state.most_drift = path.most_drift();
     state.cells =
         memory.add<Cell>(static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side);
+    // Half a cell's diagonal, and a hair for the rounding of its centre to single precision.
+    state.reach_of_far_cells =
+        (R - path.radius) * (1.0 - 1e-6) - radii.largest - 0.71 * widths.wanted;
+    state.near_wall = memory.add<std::uint32_t>(state.size + 8);
+    state.strays = memory.add<std::uint32_t>(state.size + 8);
 }
 
 /// Three spheres' worth of area on average, no narrower than one of them (many_spheres.hpp).
@@ -456,22 +518,66 @@ void Simulation::Storage::place_spheres(const InitialState& scene) {
     }
 }
 
+Progress Simulation::Storage::progress() const {
+    return {state.swirls,
+            state.clock,
+            state.leg,
+            {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc,
+             state.begun_to_roll}};
+}
+
+/// Resumed from this, with whatever search, it goes on bit for bit.
+InitialState Simulation::Storage::as_it_stands() const {
+    InitialState scene{
+        {}, {state.period, legs}, state.container_radius, state.disc_surface, state.wall_surface};
+    scene.discs.reserve(state.size);
+    for (std::uint32_t i = 0; i < state.size; ++i) scene.discs.push_back(disc(i));
+    return scene;
+}
+
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
-    if (!storage_->state.discs_overlap) return;
-    // The cells of a thin gas are made for discs that do not; lists take any.
-    Tuning lists = tuning;
-    lists.neighbours = NeighbourSearch::lists;
-    storage_ = std::make_unique<Storage>(scene, progress, lists);
+    while (storage_->state.cells_are_outgrown)
+        storage_ = std::make_unique<Storage>(scene, progress, tuning, storage_.get());
 }
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Event Simulation::step() { return storage_->loop->step(storage_->state); }
+/// Other cells take over, or lists.
+void Simulation::renew_outgrown_cells() {
+    const InitialState scene = storage_->as_it_stands();
+    Tuning tuning;
+    tuning.width = storage_->vectors;
+    while (storage_->state.cells_are_outgrown) {
+        const LoopCounts before = loop_counts();
+        storage_ = std::make_unique<Storage>(scene, progress(), tuning, storage_.get());
+        EngineState& state = storage_->state;
+        state.invalidated = before.invalidated;
+        state.list_rebuilds += before.list_rebuilds;
+        state.entered_before = state.list_rebuilds;
+        state.full_rebuilds = before.full_rebuilds + 1;
+    }
+}
+
+Event Simulation::step() {
+    const Event event = storage_->loop->step(storage_->state);
+    if (storage_->state.cells_are_outgrown) [[unlikely]]
+        renew_outgrown_cells();
+    return event;
+}
+
+std::uint64_t Simulation::run(std::uint64_t count, std::int64_t swirls, double clock) {
+    std::uint64_t done = 0;
+    for (;;) {
+        done += storage_->loop->run(storage_->state, count - done, swirls, clock);
+        if (!storage_->state.cells_are_outgrown) return done;
+        renew_outgrown_cells();
+    }
+}
 
 void Simulation::run(std::uint64_t count) {
-    storage_->loop->run(storage_->state, count, std::numeric_limits<std::int64_t>::max(), never);
+    run(count, std::numeric_limits<std::int64_t>::max(), never);
 }
 
 void Simulation::advance_to(std::int64_t swirls, double clock) {
@@ -479,8 +585,8 @@ void Simulation::advance_to(std::int64_t swirls, double clock) {
 }
 
 bool Simulation::advance_to(std::int64_t swirls, double clock, std::uint64_t most) {
+    if (run(most, swirls, clock) == most) return false;
     EngineState& state = storage_->state;
-    if (storage_->loop->run(state, most, swirls, clock) == most) return false;
     if (state.swirls == swirls && state.clock < clock) state.clock = clock;
     return true;
 }
@@ -488,34 +594,26 @@ bool Simulation::advance_to(std::int64_t swirls, double clock, std::uint64_t mos
 std::int64_t Simulation::swirls() const { return storage_->state.swirls; }
 double Simulation::clock() const { return storage_->state.clock; }
 std::size_t Simulation::size() const { return storage_->state.size; }
-EventCounts Simulation::events() const {
-    const EngineState& state = storage_->state;
-    return {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc,
-            state.begun_to_roll};
-}
-Progress Simulation::progress() const {
-    const EngineState& state = storage_->state;
-    return {state.swirls, state.clock, state.leg, events()};
-}
+EventCounts Simulation::events() const { return storage_->progress().events; }
+Progress Simulation::progress() const { return storage_->progress(); }
 LoopCounts Simulation::loop_counts() const {
     const EngineState& state = storage_->state;
     return {state.invalidated,   state.list_rebuilds,      state.overflows,
             state.full_rebuilds, storage_->memory.bytes(), storage_->loop->width};
 }
 
-Disc Simulation::disc(std::size_t i) const {
-    const EngineState& state = storage_->state;
+Disc Simulation::Storage::disc(std::uint32_t i) const {
     const HotDisc& d = state.discs[i];
     const DiscKind& kind = state.kinds[d.kind];
-    Disc disc{d.position, d.velocity,  state.cold(static_cast<std::uint32_t>(i)).angle,
-              d.spin,     d.time,      kind.radius,
-              kind.mass,  kind.inertia};
+    Disc disc{d.position, d.velocity,  state.cold(i).angle, d.spin,
+              d.time,     kind.radius, kind.mass,           kind.inertia};
     if (state.spheres != nullptr) {
         disc.rolling_spin = state.spheres[i].rolling_spin;
         disc.last_collision = state.spheres[i].last_collision;
     }
     return disc;
 }
+Disc Simulation::disc(std::size_t i) const { return storage_->disc(static_cast<std::uint32_t>(i)); }
 
 Snapshot Simulation::snapshot() const {
     Snapshot s;

@@ -54,7 +54,7 @@ struct LoopCounts {
     std::uint64_t invalidated = 0;    // events whose partner had collided, predicted again
     std::uint64_t list_rebuilds = 0;  // neighbour lists rebuilt, or cells entered
     std::uint64_t overflows = 0;      // of these, with lists around rebuilt to make room
-    std::uint64_t full_rebuilds = 0;  // times all lists were rebuilt for lack of room
+    std::uint64_t full_rebuilds = 0;  // times all lists were rebuilt for lack of room, or all cells
     std::uint64_t bytes = 0;          // memory of the loop
     const char* width = "";
 };
@@ -100,6 +100,8 @@ class Simulation {
 
   private:
     struct Storage;
+    std::uint64_t run(std::uint64_t count, std::int64_t swirls, double clock);
+    void renew_outgrown_cells();
     std::unique_ptr<Storage> storage_;
 };
 

@@ -157,7 +157,7 @@ TEST(TurningPack, HardlyAnyListIsRebuilt) {
         EXPECT_LT(simulation.loop_counts().list_rebuilds, 50u) << angular_velocity;
     }
 }
-// The cells move with the container, here over several swirls.
+// Over several swirls.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInThePaperDish) {
     for (const std::size_t n : {1u, 5u, 48u})
         expect_same_trajectory(paper_dish(n), 20000, tuning(NeighbourSearch::cells));
@@ -271,32 +271,98 @@ TEST(Stop, EndsTheMakingOfASimulationWhereverItIs) {
             }
 }
 
-// More discs on one spot than a cell has room for, flying apart.
+// More discs on one spot than a cell has room for, flying apart: some are strays.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereDiscsOverlapAtTheStart) {
-    InitialState scene = gas_at_rest(60, 0.2);
-    for (std::size_t i = 0; i < 12; ++i) scene.discs[i].position = 0.01 * scene.discs[i].velocity;
-    expect_same_trajectory(scene, 500, tuning(NeighbourSearch::cells));
-    EXPECT_EQ(Simulation(scene, {}, tuning(NeighbourSearch::cells)).loop_counts().bytes,
-              Simulation(scene, {}, tuning(NeighbourSearch::lists)).loop_counts().bytes);
-    // Two are enough for lists to take over.
-    InitialState pair = gas_at_rest(60, 0.2);
-    pair.discs[0].position = pair.discs[1].position + Vec2{1.9, 0.0};
-    expect_same_trajectory(pair, 500, tuning(NeighbourSearch::cells));
-    EXPECT_EQ(Simulation(pair, {}, tuning(NeighbourSearch::cells)).loop_counts().bytes,
-              Simulation(pair, {}, tuning(NeighbourSearch::lists)).loop_counts().bytes);
+    for (const std::size_t on_one_spot : {2u, 12u, 40u}) {
+        InitialState scene = gas_at_rest(60, 0.2);
+        for (std::size_t i = 0; i < on_one_spot; ++i)
+            scene.discs[i].position = 0.01 * scene.discs[i].velocity;
+        expect_same_trajectory(scene, 500, tuning(NeighbourSearch::cells));
+    }
 }
-// A disc that flies along the edges of cells, or through their corners: fourteen cells of
-// 3.6 lie across this dish, so there are edges at 0, 3.6, 7.2 and so on.
+// A disc that flies along the edges of cells, or through their corners: sixteen cells lie across
+// this dish, each for 0.6 discs, so there are edges in its middle.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAlongTheEdgesOfCells) {
-    InitialState scene = gas_at_rest(60, 0.2);
-    scene.discs.resize(1);
-    for (const Vec2 position : {Vec2{0.0, 0.0}, Vec2{3.6, -3.6}, Vec2{1.8, 7.2}})
+    const InitialState gas = gas_at_rest(60, 0.2);
+    for (const double edges : {0.0, 1.0, 2.0})
         for (const Vec2 velocity :
              {Vec2{1.0, 0.0}, Vec2{0.0, -1.0}, Vec2{1.0, 1.0}, Vec2{-1.0, 1.0}}) {
-            scene.discs[0].position = position;
+            InitialState scene = gas;
+            const double R = scene.container_radius;
+            scene.discs.resize(60);
+            const double width = square_root(0.6 * pi * R * R / 60.0);
+            scene.discs[0].position = {edges * width, -edges * width};
             scene.discs[0].velocity = velocity;
+            // Room for it, with as many discs as before.
+            for (std::size_t i = 1; i < 60; ++i) {
+                scene.discs[i].velocity = {0.0, 0.0};
+                const Vec2 apart = scene.discs[i].position - scene.discs[0].position;
+                if (dot(apart, apart) < 4.0)
+                    std::swap(scene.discs[i].position.x, scene.discs[i].position.y);
+            }
             expect_same_trajectory(scene, 500, tuning(NeighbourSearch::cells));
         }
+}
+// In a dish that swirls the cells rest and the wall passes over them. The second and third gather
+// their discs, and cells of another width take over.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInAThinDish) {
+    const int events = sanitized ? 500 : 8000;
+    for (const double container_radius : {90.0, 45.0, 18.0}) {
+        InitialState thin =
+            state_of({unit_disc()}, 101, container_radius,
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 1.0);
+        expect_same_trajectory(thin, events, tuning(NeighbourSearch::cells));
+        thin.disc_surface = {0.5, 0.8, 0.4, 1e-3};
+        expect_same_trajectory(thin, events, tuning(NeighbourSearch::cells));
+    }
+    // Far more of the path than of the dish.
+    expect_same_trajectory(
+        state_of({unit_disc()}, 60, 18.0, polygon_path(200.0, paper_period, paper_sides), 1.0, 1.0),
+        2000, tuning(NeighbourSearch::cells));
+}
+/// Everybody flies to the centre, to be there at one time.
+InitialState imploding(InitialState scene, double time) {
+    for (Disc& disc : scene.discs) disc.velocity = (-1.0 / time) * disc.position;
+    return scene;
+}
+// Twenty discs come to where seven have room, and then far more: narrower cells take over in the
+// middle of a swirl, and in the thinnest gas lists, as cells that are narrow enough would be too
+// many.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhileDiscsGather) {
+    const int events = sanitized ? 300 : 3000;
+    for (const double packing : {0.05, 0.003}) {
+        const InitialState scene = imploding(gas_at_rest(300, packing), 7.0);
+        expect_same_trajectory(scene, events, tuning(NeighbourSearch::cells));
+        const auto simulate = [&](NeighbourSearch search) {
+            Simulation simulation(scene, {}, tuning(search));
+            simulation.run(static_cast<std::uint64_t>(events));
+            return simulation;
+        };
+        const LoopCounts cells = simulate(NeighbourSearch::cells).loop_counts();
+        const LoopCounts lists = simulate(NeighbourSearch::lists).loop_counts();
+        EXPECT_GT(cells.full_rebuilds, 0u);
+        EXPECT_EQ(cells.bytes == lists.bytes, packing < 0.01);
+    }
+}
+// A gas at rest whose discs lose their energy: its cells are laid anew a few times, not for ever.
+TEST(ThinGas, CellsAreLaidAnewAFewTimesWhileItGathers) {
+    InitialState scene = gas_at_rest(2000, 0.1);
+    scene.disc_surface = scene.wall_surface = {0.5, 0.7, 0.4, 1e-3};
+    Simulation simulation(scene);
+    simulation.run(sanitized ? 20000 : 400000);
+    EXPECT_LT(simulation.loop_counts().full_rebuilds, 10u);
+}
+// In a thin dish that swirls nobody is carried from cell to cell by the container.
+TEST(ThinDish, DiscsEnterCellsNoOftenerThanTheyFlyThere) {
+    InitialState scene =
+        state_of({unit_disc()}, 2000, 258.0,
+                 polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.1);
+    for (Disc& disc : scene.discs) disc.velocity = disc.velocity - scene.path.legs[0].velocity;
+    Simulation simulation(scene);
+    simulation.advance_to(3, 0.0);
+    // A disc flies 2.4 radii in that time at the mean speed it starts with, and the container 36;
+    // cells are 8 wide.
+    EXPECT_LT(simulation.loop_counts().list_rebuilds, 2000u);
 }
 
 // The rivals of the benchmark.
@@ -378,6 +444,14 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInADenseGas) {
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinGas) {
     for (const NeighbourSearch neighbours : {NeighbourSearch::lists, NeighbourSearch::cells})
         expect_same_trajectory<PlainGrid>(gas_at_rest(2000, 0.2), 20000, tuning(neighbours));
+}
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
+    if (sanitized) GTEST_SKIP() << "fifty thousand events";
+    for (const double packing : {0.2, 0.03})
+        expect_same_trajectory<PlainGrid>(
+            state_of({unit_disc()}, 2000, square_root(2000.0 / packing),
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3),
+            50000, tuning());
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
     if (sanitized) GTEST_SKIP() << "a million events";

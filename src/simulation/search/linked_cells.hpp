@@ -2,11 +2,18 @@
 // and in the eight around it. For a thin gas, where a disc flies through any skin in a collision or
 // two and its list would not be worth its making.
 //
-// The cells are squares at rest in the frame of the container, wider than two discs, so that discs
-// in cells that do not touch cannot meet; and so narrow that no more discs than a cell has room for
-// can have their centres in one: eight points in a square of side 1 are at most (√6 − √2)/2 apart
-// (Schaer and Meir 1965, Canad. Math. Bull. 8, 21), so eight discs need a side of 3.86 radii.
-// A disc that reaches the edge of its cell enters the next, and what it may meet is looked up anew.
+// The cells are squares, wider than two discs, so that discs in cells that do not touch cannot
+// meet; and so wide that few edges are crossed from one collision to the next, while a prediction
+// still takes one vector. A disc that reaches the edge of its cell enters the next, and what it may
+// meet is looked up anew. Through a swirl the cells move with the mean velocity that the discs had
+// when it began, or rest if that is little against their other motion. The container moves over
+// them: a corner of its path is news only to those in cells to which the wall comes.
+//
+// A cell has room for seven. Who comes eighth is a stray, known to everybody, until it enters
+// another cell. Where discs gather strays become many, and narrower cells take over. There are none
+// in cells below 3.86 radii: eight points in a square of side 1 are at most (√6 − √2)/2 apart
+// (Schaer and Meir 1965, Canad. Math. Bull. 8, 21). In a pack cells for little more than one disc
+// are the fastest.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
 #pragma once
@@ -16,6 +23,7 @@
 #include "swirl/math/lanes.hpp"
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/prediction.hpp"
+#include "swirl/simulation/search/renewed_leaving.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/state_checks.hpp"
 #include "swirl/simulation/search/tournament.hpp"
@@ -25,6 +33,45 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace cells {
+
+SWIRL_INLINE double width(const EngineState& state) {
+    return 1.0 / state.grids[0].cells_per_length;
+}
+
+/// With more strays than this narrower cells are faster; each eight of them cost everybody a
+/// vector.
+inline constexpr std::uint32_t most_strays = 16;
+
+/// Discs would do with cells so much wider. If they have gathered and have no place, these are the
+/// widest from now on; and if there are no narrower ones, lists take over.
+SWIRL_INLINE void outgrow(EngineState& state, double factor, bool for_want_of_room) {
+    state.cells_are_outgrown = true;
+    const double before = width(state);
+    const double wanted = smaller(larger(factor * before, state.narrowest_cell), state.widest_cell);
+    const bool is_narrowest = before < 1.0001 * state.narrowest_cell;
+    if (for_want_of_room) state.widest_cell = wanted;
+    state.wanted_cell = for_want_of_room && is_narrowest ? 0.0 : wanted;
+}
+
+/// To enter a cell takes as long as to look at so many discs; with cells wider by a factor f it is
+/// done 1/f times as often, and f² times as many are looked at. So the best f has the cube
+/// `candidates_per_entry` entries / (2 candidates).
+inline constexpr double candidates_per_entry = 32.0;
+inline constexpr double narrower = 0.7, wider = 1.4;
+/// Asked at the end of a swirl, when so much has happened that laying all anew is little besides.
+static void choose_width(EngineState& state) {
+    if (state.candidates_looked_at < 300 * static_cast<std::uint64_t>(state.size)) return;
+    const auto entered = static_cast<double>(state.list_rebuilds - state.entered_before);
+    const double cube =
+        0.5 * candidates_per_entry * entered / static_cast<double>(state.candidates_looked_at);
+    state.candidates_looked_at = 0;
+    state.entered_before = state.list_rebuilds;
+    const double before = width(state);
+    if (cube < 0.4 && before > 1.1 * state.narrowest_cell)
+        outgrow(state, narrower, false);
+    else if (cube > 2.5 && 1.1 * before < state.widest_cell)
+        outgrow(state, wider, false);
+}
 
 /// The discs of nine cells, the one that asks among them: it never meets itself. After the last
 /// come eight times nobody.
@@ -58,7 +105,7 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
     const Vec2 offset = disc.flight().position_at(t) - frame.position_at(t) - Vec2{mine.X, mine.Y};
     const Vec2 v = disc.velocity - frame.velocity;
     const Lanes<2> speed = two_lanes(v.x, v.y), from = two_lanes(offset.x, offset.y);
-    const Lanes<2> zero(0.0), half(0.5 / state.grids[0].cells_per_length);
+    const Lanes<2> zero(0.0), half(0.5 * width(state));
     const Lanes<2> way = select(speed > zero, half - from, half + from);
     // At rest in one direction, whatever the sign of its zero: never.
     const Lanes<2> rate = larger(select(speed > zero, speed, -speed), zero);
@@ -69,9 +116,21 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
             leaves_skin + (x < y ? across : up)};
 }
 
-/// Everything that may happen to D discs, asked at time t.
+/// The first of the strays that a disc meets, if it meets one before all others.
+[[gnu::noinline]] static PendingEvent earliest_stray(const EngineState& state, PendingEvent first) {
+    const HotDisc& disc = state.discs[first.disc];
+    for (std::uint32_t k = 0; k < state.stray_count; k += 8) {
+        const Others<8> others = load_others<8>(state, state.strays + k);
+        first = earlier<8>(state.strays + k, contact_times<Held::for_a_while>(disc, others, 0.0),
+                           first);
+    }
+    return first;
+}
+
+/// The first of everything that may happen to each of D discs, asked at time t.
 template <Held held, int D>
-[[gnu::noinline]] static void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
+SWIRL_INLINE void find_first(EngineState& state, const std::uint32_t (&who)[D], double t,
+                             PendingEvent (&first)[D]) {
     Candidates candidates[D];
     Lanes<8> contacts[D];
     for (int d = 0; d < D; ++d) collect_candidates(state, who[d], candidates[d]);
@@ -87,35 +146,75 @@ template <Held held, int D>
             meeting =
                 earlier<8>(more, contact_times<held>(state.discs[who[d]], others, t), meeting);
         }
-        put_in(state, first_of(meeting, leaving_times(state, who[d], t)));
+        state.candidates_looked_at += candidates[d].count;
+        if (state.stray_count != 0) [[unlikely]]
+            meeting = earliest_stray(state, meeting);
+        first[d] = first_of(meeting, leaving_times(state, who[d], t));
     }
+}
+template <Held held, int D>
+[[gnu::noinline]] static void predict(EngineState& state, const std::uint32_t (&who)[D], double t) {
+    PendingEvent first[D];
+    find_first<held, D>(state, who, t, first);
+#pragma GCC unroll 2
+    for (int d = 0; d < D; ++d) put_in(state, first[d]);
+}
+
+SWIRL_INLINE bool is_stray(const EngineState& state, std::uint32_t i, std::uint32_t& place) {
+    for (place = 0; place < state.stray_count; ++place)
+        if (state.strays[place] == i) return true;
+    return false;
+}
+[[gnu::noinline]] static void become_stray(EngineState& state, std::uint32_t i) {
+    state.strays[state.stray_count++] = i;
+    if (state.stray_count > most_strays) outgrow(state, narrower, true);
+}
+SWIRL_INLINE bool stray_leaves(EngineState& state, std::uint32_t i) {
+    std::uint32_t place = 0;
+    if (!is_stray(state, i, place)) return false;
+    state.strays[place] = state.strays[--state.stray_count];
+    state.strays[state.stray_count] = state.size;
+    return true;
 }
 
 SWIRL_INLINE void leave(EngineState& state, std::uint32_t i) {
+    if (state.stray_count != 0 && stray_leaves(state, i)) [[unlikely]]
+        return;
     Cell& cell = state.cells[state.skins[i].cell];
     // Of the cell's eight numbers the last is how many there are, but i stands before it.
     const std::uint32_t slot = place_in_list(cell.disc, 8, i);
     cell.disc[slot] = cell.disc[--cell.count];
 }
+SWIRL_INLINE void leave_wall(EngineState& state, std::uint32_t i) {
+    const std::uint32_t place = state.skins[i].near_wall;
+    const std::uint32_t last = state.near_wall[--state.near_wall_count];
+    state.near_wall[place] = last;
+    state.near_wall[state.near_wall_count] = state.size;
+    state.skins[last].near_wall = place;
+}
 
 static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
     Cell& cell = state.cells[number];
-    if (cell.count == Cell::room) {  // geometry forbids it, see above, unless discs overlap
-        state.discs_overlap = true;
-        return;
-    }
-    cell.disc[cell.count++] = i;
+    if (cell.count == Cell::room) [[unlikely]]
+        become_stray(state, i);
+    else
+        cell.disc[cell.count++] = i;
     const std::uint32_t side = state.grids[0].cells_per_side;
-    const double width = 1.0 / state.grids[0].cells_per_length;
     const auto centre = [&](std::uint32_t row) {
-        return static_cast<float>(state.cell_origin + (row + 0.5) * width);
+        return static_cast<float>(state.cell_origin + (row + 0.5) * width(state));
     };
     Skin& place = state.skins[i];
-    place = {
-        centre(number % side), centre(number / side), static_cast<float>(0.71 * width), {number}};
+    place.X = centre(number % side);
+    place.Y = centre(number / side);
+    place.cell = number;
     HotDisc& disc = state.discs[i];
-    disc.far_from_wall = beyond_reach<double>(reach_short_of_wall(state), {place.X, place.Y},
-                                              place.skin_radius, disc.radius) < 0.0;
+    const double X = place.X, Y = place.Y;
+    const bool far = X * X + Y * Y < state.far_from_wall_square;
+    if (far == (disc.far_from_wall != 0)) return;
+    disc.far_from_wall = far & 1u;
+    if (far) return leave_wall(state, i);
+    place.near_wall = state.near_wall_count;
+    state.near_wall[state.near_wall_count++] = i;
 }
 
 /// Disc i has come to an edge and enters the cell beyond.
@@ -129,55 +228,108 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
     predict<Held::for_a_while, 1>(state, {i}, t);
 }
 
-/// Whether disc i lies deeper in another than rounding errors explain.
-static bool overlaps(const EngineState& state, std::uint32_t i) {
-    Candidates candidates;
-    collect_candidates(state, i, candidates);
-    const HotDisc& disc = state.discs[i];
-    for (std::uint32_t n = 0; n < candidates.count; ++n) {
-        const HotDisc& other = state.discs[candidates.disc[n]];
-        const Vec2 s =
-            other.flight().position_at(state.clock) - disc.flight().position_at(state.clock);
-        const double contact = disc.radius + other.radius;
-        if (candidates.disc[n] != i && dot(s, s) < contact * contact * (1.0 - 1e-9)) return true;
-    }
-    return false;
-}
-
+/// Cell after cell, so that who is looked at is still at hand.
+template <Held held>
 static void predict_all(EngineState& state, double t) {
-    empty_queue(state);
-    for (std::uint32_t i = 0; i < state.size; ++i) {
-        if (state.stops_at(i)) return;
-        predict<Held::for_a_while, 1>(state, {i}, t);
+    const std::uint32_t cells = state.grids[0].cells_per_side * state.grids[0].cells_per_side;
+    const auto write_down = [&](std::uint32_t i) {
+        PendingEvent first[1];
+        find_first<held, 1>(state, {i}, t, first);
+        note_partner(state, first[0]);
+        state.level_times[0][i] = first[0].time;
+    };
+    // Far enough ahead for memory.
+    const std::uint32_t ahead = state.grids[0].cells_per_side + 12;
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        if (state.stops_at(c)) return;
+        if (state.prefetches && c + ahead < cells) {
+            const Cell& soon = state.cells[c + ahead];
+            for (std::uint32_t k = 0; k < soon.count; ++k) prefetch_disc(state, soon.disc[k]);
+        }
+        const Cell& cell = state.cells[c];
+        for (std::uint32_t k = 0; k < cell.count; ++k) write_down(cell.disc[k]);
     }
+    for (std::uint32_t k = 0; k < state.stray_count; ++k) write_down(state.strays[k]);
+    hold_tournament(state);
 }
 
-SWIRL_INLINE void rest_with_container(EngineState& state) {
-    state.comoving_frame = {.origin = container_flight(state.legs[state.leg])};
-}
-
-static void start(EngineState& state) {
-    rest_with_container(state);
+/// Everybody enters a cell, from nowhere.
+static void enter_all(EngineState& state) {
     const Grid& grid = state.grids[0];
     for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         state.cells[c].count = 0;
+    for (std::uint32_t k = 0; k < state.size + 8; ++k)
+        state.near_wall[k] = state.strays[k] = state.size;
+    state.near_wall_count = state.stray_count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (state.stops_at(i)) return;
+        state.discs[i].far_from_wall = 1;
         const Vec2 at = state.discs[i].flight().position_at(state.clock) -
                         state.comoving_frame.origin.position_at(state.clock);
         enter(state, i, cell_number(state, grid, at.x, at.y));
     }
-    for (std::uint32_t i = 0; i < state.size && !state.discs_overlap; ++i) {
-        if (state.stops_at(i)) return;
-        state.discs_overlap = overlaps(state, i);
-    }
-    if (!state.discs_overlap) predict_all(state, state.clock);
 }
 
-/// The container, and the cells with it, take another course.
-SWIRL_INLINE void leg_ended(EngineState& state) {
-    rest_with_container(state);
-    predict_all(state, state.clock);
+/// If the discs' energy in their mean motion is less than this, over that in all other motion,
+/// cells might as well rest.
+inline constexpr double bearable_common_motion = 0.1;
+/// The mean velocity of the discs, if that is worth following, through a swirl, and the cells
+/// reach so far.
+static Vec2 velocity_to_follow(const EngineState& state) {
+    Vec2 sum{0.0, 0.0};
+    double squares = 0.0;
+    for (std::uint32_t i = 0; i < state.size; ++i) {
+        const Vec2 v = state.discs[i].velocity;
+        sum = sum + v;
+        squares = squares + dot(v, v);
+    }
+    const Vec2 mean = (1.0 / state.size) * sum;
+    const double common = dot(mean, mean) * state.size;
+    const double drift = 0.5 * state.period * square_root(dot(mean, mean));
+    const bool pays = common > bearable_common_motion * (squares - common);
+    return pays && drift <= state.most_drift ? mean : Vec2{0.0, 0.0};
+}
+/// In the middle of the swirl the cells are where the path is.
+SWIRL_INLINE void begin_frame(EngineState& state, const Vec2& velocity) {
+    const double half = 0.5 * state.period;
+    state.comoving_frame = {.origin = {state.middle_of_path - half * velocity, velocity, 0.0}};
+    const double far = state.reach_of_far_cells - half * square_root(dot(velocity, velocity));
+    state.far_from_wall_square = far > 0.0 ? far * far : 0.0;
+}
+
+static void start(EngineState& state) {
+    empty_queue(state);
+    begin_frame(state, velocity_to_follow(state));
+    enter_all(state);
+    if (!state.cells_are_outgrown) predict_all<Held::for_a_while>(state, state.clock);
+}
+
+/// All clocks restart.
+static void swirl_ended(EngineState& state) {
+    choose_width(state);
+    const Vec2 before = state.comoving_frame.origin.velocity, velocity = velocity_to_follow(state);
+    if (dot(before, before) + dot(velocity, velocity) > 0.0) {
+        begin_frame(state, velocity);
+        enter_all(state);
+    }
+    predict_all<Held::since_now>(state, 0.0);
+}
+
+/// When the eight discs from `begin` on, of those near the wall, reach it on the leg that begins
+/// at time t.
+SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin) {
+    const std::uint32_t* const who = state.near_wall + begin;
+    const Others<8> discs = load_others<8>(state, who);
+    alignas(64) double wall[8];
+    wall_times<8>(state, discs.flight, discs.radius).store(wall);
+    for (std::uint32_t k = 0; k < 8 && begin + k < state.near_wall_count; ++k)
+        renew_leaving(state, who[k], {wall[k], never}, false);
+}
+
+/// The container takes another course.
+static void leg_ended(EngineState& state) {
+    if (state.leg == 0) return swirl_ended(state);
+    for (std::uint32_t k = 0; k < state.near_wall_count; k += 8) renew_walls_of_eight(state, k);
 }
 
 }  // namespace cells
@@ -205,6 +357,9 @@ struct LinkedCells {
     SWIRL_INLINE static void check(const EngineState& state, double t) {
         check_cells(state, t);
         check_tournament(state);
+    }
+    SWIRL_INLINE static bool is_outgrown(const EngineState& state) {
+        return state.cells_are_outgrown;
     }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) { cells::leg_ended(state); }
 };

@@ -68,8 +68,11 @@ inline constexpr std::uint32_t leaves_skin = 0xffffff01u;
 /// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell
 /// (linked_cells.hpp).
 struct Skin {
-    float X, Y;         // its centre, in the co-moving frame (ComovingFrame)
-    float skin_radius;  // h, the circle's radius, 0 while it has none; half the diagonal of a cell
+    float X, Y;  // its centre, in the co-moving frame (ComovingFrame)
+    union {
+        float skin_radius;        // h, the circle's radius, 0 while it has none
+        std::uint32_t near_wall;  // of a disc in a cell: its place in EngineState::near_wall
+    };
     union {
         std::uint32_t next_in_cell;  // the number of a disc, or EngineState::size
         std::uint32_t cell;          // its number
@@ -216,14 +219,26 @@ struct EngineState {
     std::uint32_t grid_count;
     bool has_no_grid;  // few enough to look at all of them when a list is rebuilt
     double cell_origin;
+
+    // Of cells alone (linked_cells.hpp).
     Cell* cells;
+    Vec2 middle_of_path;
+    double most_drift;            // from there, of the cells in half a swirl
+    double reach_of_far_cells;    // if they do not drift: how far they are from the middle, at most
+    double far_from_wall_square;  // of this, if they do
+    std::uint32_t near_wall_count, stray_count;
+    std::uint32_t *near_wall, *strays;  // those who may reach the wall; those without a place
+    double narrowest_cell, widest_cell;
+    std::uint64_t candidates_looked_at, entered_before;  // since when cells have this width
+    // Where another would be faster, or no width is any good: then it is 0.
+    bool cells_are_outgrown;
+    double wanted_cell;
 
     // The ends of lists that are longer than `capacity`, in units of 16 bytes from the first, which
     // has no room and belongs to all whose list has no tail. Null where nobody's has.
     ListTail* tails;
     std::uint32_t* tail_places;
     CandidateColumns candidates;
-    bool discs_overlap;        // at the start: then cells may be too small (linked_cells.hpp)
     bool overlapped_at_start;  // anybody, or with the wall; asked where invariants are checked
     double smallest_radius;
     bool equal_radii;

@@ -146,6 +146,9 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
         const Cell& cell = state.cells[state.skins[i].cell];
         bool found = false;
         for (std::uint32_t slot = 0; slot < cell.count; ++slot) found |= cell.disc[slot] == i;
+        for (std::uint32_t k = 0; k < state.stray_count; ++k) found |= state.strays[k] == i;
+        const HotDisc& disc = state.discs[i];
+        found &= disc.far_from_wall != 0 || state.near_wall[state.skins[i].near_wall] == i;
         promise::discs_are_in_their_cells(found && magnitude(offset.x) <= half &&
                                           magnitude(offset.y) <= half);
     }

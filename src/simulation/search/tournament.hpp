@@ -27,12 +27,14 @@ inline namespace SWIRL_TARGET {
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 
-/// Fetches what a prediction for disc i will read, or, in a thin gas, the first of each cell.
+/// Fetches what a prediction for disc i will read: the discs on its list, or the cells around.
 SWIRL_INLINE void prefetch_neighbours(const EngineState& state, std::uint32_t i) {
     if (state.cells) {
         const Cell* row = state.cells + state.skins[i].cell - state.grids[0].cells_per_side - 1;
-        for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side)
-            for (int x = 0; x < 3; ++x) prefetch(&state.discs[row[x].disc[0]]);
+        for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side) {
+            prefetch(row);
+            prefetch(row + 2);
+        }
         return;
     }
     const std::uint32_t* const list = state.cold(i).neighbours();
@@ -70,6 +72,21 @@ SWIRL_INLINE void empty_queue(EngineState& state) {
         for (std::uint32_t k = 0; k < 8 * rows; ++k) {
             state.level_times[level][k] = never;
             if (level > 0) state.level_winners[level][k] = (k << (3 * level)) % state.size;
+        }
+    }
+}
+
+/// From the times of all discs, which are written down: who wins.
+[[maybe_unused]] static void hold_tournament(EngineState& state) {
+    for (std::uint32_t level = 1; level < state.levels; ++level) {
+        const std::uint32_t rows = ((state.size - 1) >> (3 * level)) + 1;
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            const Lanes<8> times = Lanes<8>::load(state.level_times[level - 1] + 8 * row);
+            const double time = smallest(times);
+            const std::uint32_t place = 8 * row + __builtin_ctz(lanes_equal(times, time));
+            state.level_times[level][row] = time;
+            state.level_winners[level][row] =
+                level > 1 ? state.level_winners[level - 1][place] : place;
         }
     }
 }

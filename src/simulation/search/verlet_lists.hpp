@@ -8,6 +8,7 @@
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/comoving_frame.hpp"
 #include "swirl/simulation/search/prediction.hpp"
+#include "swirl/simulation/search/renewed_leaving.hpp"
 #include "swirl/simulation/search/state.hpp"
 #include "swirl/simulation/search/state_checks.hpp"
 #include "swirl/simulation/search/tournament.hpp"
@@ -145,29 +146,8 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     predict_all(state, state.clock);
 }
 
-/// The container has changed course, so the wall and the skin, whose frame is renewed, come at
-/// other times. An event of theirs that now comes later leaves its disc to be predicted again at
-/// the time it held, which is early enough for whatever comes next. In the middle of a turning leg
-/// only the skin does.
-SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving leaving,
-                                bool in_new_frame = true) {
-    ColdDisc& cold = state.cold(i);
-    const bool turning = state.on_turning_leg();
-    if ((cold.partner == i && !turning) || (cold.partner == leaves_skin && in_new_frame))
-        cold.partner = no_event;
-    const PendingEvent held{pending_time(state, i), i, cold.partner};
-    if (turning) [[unlikely]] {
-        if (cold.partner == i)
-            leaving.wall = held.time;
-        else
-            seek_wall(state, i, smaller(held.time, leaving.skin), leaving);
-    }
-    const PendingEvent first = first_of(held, leaving);
-    if (first.partner != held.partner) put_in(state, first);
-}
-
-/// The same for the eight discs from `begin` on; all of them hold states from before time t, when
-/// the leg begins, or a stretch of it.
+/// Wall and skin of the eight discs from `begin` on; all of them hold states from before time t,
+/// when the leg begins, or a stretch of it.
 SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t) {
     const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
     std::uint32_t who[8];
