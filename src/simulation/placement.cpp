@@ -440,7 +440,7 @@ struct OnCurve {
     std::uint32_t place, disc;
 };
 
-constexpr std::size_t discs_till_asked = 1 << 16;
+constexpr std::size_t discs_till_asked = 1 << 10;
 
 /// Eleven bits at a time, from the last on.
 void sort_by_place(std::vector<OnCurve>& all, Patience& patience) {
