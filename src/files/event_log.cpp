@@ -271,7 +271,8 @@ std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count
     std::vector<Event> events;
     events.reserve(count);
     for (std::size_t k = 0; k < count; ++k) {
-        if (kind[k] > (floor_ ? 3 : 2) || i[k] >= initial_.size() || j[k] >= initial_.size())
+        if (kind[k] > (floor_ ? 3 : 2) || sticks[k] > 1 || i[k] >= initial_.size() ||
+            j[k] >= initial_.size())
             throw FileError(fmt::format("Event {} of the log is damaged.", first + k));
         events.push_back({swirls[k],
                           clock[k],
@@ -279,7 +280,7 @@ std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count
                           i[k],
                           j[k],
                           {normal_x[k], normal_y[k]},
-                          {normal_impulse[k], tangential_impulse[k], sticks[k] != 0, vertical[k]},
+                          {normal_impulse[k], tangential_impulse[k], sticks[k] == 1, vertical[k]},
                           0.0});
     }
     return events;

@@ -18,6 +18,12 @@ using h5md::observables;
 using h5md::parameters;
 using h5md::particles;
 
+bool lie_in_plane(const std::vector<double>& vectors) {
+    for (std::size_t z = 2; z < vectors.size(); z += 3)
+        if (vectors[z] != 0.0) return false;
+    return true;
+}
+
 }  // namespace
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
@@ -39,18 +45,26 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
         rolling_spin_ = file_->column(particles + "/rolling_spin/value");
         orientation_ = file_->column(particles + "/orientation/value");
     }
-    const auto numbers = [&](const char* name) {
-        return file_->column(observables + "/" + name + "/value").read<double>();
+    const auto of_frames = [&](const std::string& name) {
+        Column column = file_->column(name);
+        if (column.row_shape().empty()) return column;
+        throw FileError(
+            fmt::format("'{}' contradicts itself: a frame has one value in {}, and it has a table.",
+                        path.string(), name));
     };
-    swirls_ = file_->column(observables + "/swirls/value").read<std::int64_t>();
-    events_ = file_->column(observables + "/events/value").read<std::int64_t>();
+    const auto observed = [&](const char* name) {
+        return of_frames(observables + "/" + name + "/value");
+    };
+    const auto numbers = [&](const char* name) { return observed(name).read<double>(); };
+    swirls_ = observed("swirls").read<std::int64_t>();
+    events_ = observed("events").read<std::int64_t>();
     clock_ = numbers("clock");
     container_x_ = numbers("container_x");
     container_y_ = numbers("container_y");
     container_vx_ = numbers("container_vx");
     container_vy_ = numbers("container_vy");
-    step_ = file_->column(particles + "/position/step");
-    time_ = file_->column(particles + "/position/time");
+    step_ = of_frames(particles + "/position/step");
+    time_ = of_frames(particles + "/position/time");
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
     std::vector<std::uint64_t> lengths{
         position_.rows(),    velocity_.rows(),    angle_.rows(),       angular_velocity_.rows(),
@@ -158,16 +172,27 @@ std::string TrajectoryReader::contradicted() {
     const auto whole = [&](const std::string& name) {
         return file_->column(particles + "/" + name).read<std::int64_t>();
     };
-    std::vector<std::int64_t> numbers(discs());
-    std::iota(numbers.begin(), numbers.end(), 0);
+    const auto counts = [&](const char* name, std::size_t entries) {
+        std::vector<std::int64_t> numbers(entries);
+        std::iota(numbers.begin(), numbers.end(), 0);
+        return whole(name) == numbers;
+    };
     for (const char* name : {"id", "particle"})
-        if (whole(name) != numbers) return name;
+        if (!counts(name, discs())) return name;
+    if (!counts("xyz", 3)) return "xyz";
+    if (are_spheres_ && !counts("xy", 2)) return "xy";
+    if (are_spheres_ && !counts("wxyz", 4)) return "wxyz";
     if (whole("species") != h5md::species_of(fixed_.radius, fixed_.mass)) return "species";
     const auto step = step_.read<std::int64_t>(0, frames_);
     const auto time = time_.read<double>(0, frames_);
     for (std::uint64_t k = 0; k < frames_; ++k) {
         if (step[k] != std::int64_t(k)) return "step";
         if (time[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return "time";
+    }
+    for (std::uint64_t k = 0; k < frames_; k += block_) {
+        load_block_of(k);
+        if (!lie_in_plane(loaded_.position)) return "position";
+        if (!lie_in_plane(loaded_.velocity)) return "velocity";
     }
     return "";
 }

@@ -96,8 +96,9 @@ class TrajectoryReader {
     bool complete() const { return complete_; }
     Snapshot frame(std::uint64_t k);
     std::uint64_t events_before(std::uint64_t k) const;
-    /// The name of a column that is there for other programs alone (id, particle, species, step,
-    /// time) and is not what follows from the others; "" if there is none.
+    /// The name of a column that is there for other programs alone (id, particle, species, the
+    /// components' numbers, step, time, z of positions and velocities) and is not what follows from
+    /// the others; "" if there is none.
     std::string contradicted();
     /// Half the width of a square about the swirl centre that holds the container at all times.
     double reach() const;

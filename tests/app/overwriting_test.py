@@ -120,18 +120,26 @@ if what == 'centre': f['observables/container_x/value'][7] += 1e-9
 if what == 'no frames':
     cut('particles', 0)
     cut('observables', 0)
-if what in ('id', 'particle', 'species'): f[t + what][2] += 1
+if what in ('id', 'particle', 'species', 'xyz'): f[t + what][2] += 1
+if what == 'height': f[t + 'position/value'][7, 3, 2] = 1.0
+if what == 'rise': f[t + 'velocity/value'][7, 3, 2] = 1.0
 if what in ('step', 'time'): f[t + 'position/' + what][7] += 1
+if what in ('table', 'nothing'):
+    rows = len(f[t + 'position/step'])
+    del f[t + 'position/step']
+    f[t + 'position/step'] = numpy.zeros((rows, 2 if what == 'table' else 0), 'i8')
 if what == 'velocities': f[t + 'velocity/value'].resize(5, axis=0)
 if what == 'impulses': f['events/normal_impulse'].resize(5, axis=0)
+if what == 'sticks': f['events/sticks'][7] = 2
 if what == 'first': f['initial/radius'][0] = numpy.nan
 if what == 'no events': cut('events', 0)
 if what == 'quarter': cut('events', 0.25)
 """
         for name, changes in (("t.h5", ("radius", "mass", "container", "period", "events", "centre",
-                                        "no frames", "id", "particle", "species", "step", "time",
-                                        "velocities")),
-                              ("e.h5", ("first", "container", "period", "no events", "quarter", "impulses"))):
+                                        "no frames", "id", "particle", "species", "xyz", "step", "time",
+                                        "height", "rise", "table", "nothing", "velocities")),
+                              ("e.h5", ("first", "container", "period", "no events", "quarter", "impulses",
+                                        "sticks"))):
             for what in changes:
                 shutil.copy(self.path(name), self.path("changed.h5"))
                 changed = subprocess.run(["/usr/bin/python3", "-c", change, self.path("changed.h5"),
@@ -139,7 +147,9 @@ if what == 'quarter': cut('events', 0.25)
                 if "No module named 'h5py'" in changed.stderr:
                     self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
                 self.assertEqual(changed.returncode, 0, changed.stderr)
-                says = "differ in length" if what in ("velocities", "impulses") else "differs from"
+                says = {"velocities": "differ in length", "impulses": "differ in length",
+                        "table": "it has a table", "nothing": "it has a table",
+                        "sticks": "Event 7 of the log is damaged"}.get(what, "differs from")
                 self.refused("verify", self.path("changed.h5"), says=says)
         for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
             with open(self.path("r.json")) as opened:

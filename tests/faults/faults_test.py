@@ -151,16 +151,17 @@ class Faults(unittest.TestCase):
                     :3 if EVERY else 2]:
                 for k in self.some(range(1, calls + 1), most):
                     where = f"{call} {k} of {calls}, {errno.errorcode[error]}, for ever: {ever}"
-                    self.anew()
-                    done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_EVER=ever,
-                                      FAULT_LOSE="1", **setting(call, k, error))
-                    if done.returncode == 0:
-                        assert_right(where)
-                        right += 1
-                        continue
-                    self.assert_said(done, where)
-                    assert_harmless(where)
-                    said += 1
+                    with self.subTest(where):
+                        self.anew()
+                        done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_EVER=ever,
+                                          FAULT_LOSE="1", **setting(call, k, error))
+                        if done.returncode == 0:
+                            assert_right(where)
+                            right += 1
+                            continue
+                        self.assert_said(done, where)
+                        assert_harmless(where)
+                        said += 1
             tell(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
                  f"{said} said so, {right} right all the same")
 
@@ -172,14 +173,15 @@ class Faults(unittest.TestCase):
         for k in [*self.some(range(before // 2, while_the_call_is_read), most // 3),
                   *self.some(range(while_the_call_is_read, calls + 1), most)]:
             where = f"new {k} of {calls}"
-            self.anew()
-            done = self.swirl(*call, **setting("new", k, errno.ENOMEM))
-            if done.returncode == 0:
-                assert_right(where)
-                right += 1
-            else:
-                self.assert_said(done, where)
-                said += 1
+            with self.subTest(where):
+                self.anew()
+                done = self.swirl(*call, **setting("new", k, errno.ENOMEM))
+                if done.returncode == 0:
+                    assert_right(where)
+                    right += 1
+                else:
+                    self.assert_said(done, where)
+                    said += 1
         tell(f"{call[0]}, new fails: {calls} places, {said + right} tried, {said} said "
              f"so, {right} right all the same")
 
@@ -237,11 +239,11 @@ class Faults(unittest.TestCase):
     def test_memory_that_is_not_given_in_a_run_is_told_or_does_no_harm(self):
         self.undisturbed()
         self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_right,
-                         600 if EVERY else 15)
+                         10**9 if EVERY else 15)
 
     def test_memory_that_is_not_given_in_a_sweep_is_told_or_does_no_harm(self):
         self.undisturbed_sweep()
-        self.fail_memory(self.sweep_call, ["--version"], self.assert_right_sweep, 300 if EVERY else 8)
+        self.fail_memory(self.sweep_call, ["--version"], self.assert_right_sweep, 10**9 if EVERY else 8)
 
     def record_one(self):
         self.anew()

@@ -23,10 +23,15 @@ bool is_of_library(const void* code) {
     return dladdr(code, &about) != 0 && about.dli_fname != nullptr &&
            std::strstr(about.dli_fname, "libhdf5") != nullptr;
 }
+/// Also what the sanitizer puts before memcpy and the like, in this very program.
 bool is_of_system(const void* code) {
     Dl_info about;
     return dladdr(code, &about) == 0 || about.dli_fname == nullptr ||
-           std::strstr(about.dli_fname, "/libc.so") != nullptr;
+           std::strstr(about.dli_fname, "/libc.so") != nullptr ||
+           (about.dli_sname != nullptr &&
+            (std::strncmp(about.dli_sname, "mem", 3) == 0 ||
+             std::strncmp(about.dli_sname, "str", 3) == 0 ||
+             std::strstr(about.dli_sname, "interceptor_") != nullptr));
 }
 
 /// The innermost function that is not the C library's (memcpy and the like) is to blame.
