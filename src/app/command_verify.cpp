@@ -129,7 +129,9 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
                same_bits(frame.angle[i], now.orientation(i)) &&
                same_bits(frame.spin[i], now.spin[i]) && same_bits(frame.radius[i], now.radius[i]) &&
                same_bits(frame.mass[i], now.mass[i]) && same_bits(frame.inertia[i], now.inertia[i]);
-    if (frame.are_spheres() != now.are_spheres()) return false;
+    if (frame.are_spheres() != now.are_spheres() || frame.on_floor != now.on_floor ||
+        frame.lie_flat != now.lie_flat)
+        return false;
     for (std::size_t i = 0; same && now.are_spheres() && i < now.size(); ++i) {
         const Quaternion &a = frame.turned[i], &b = now.turned[i];
         same = same_bits({frame.spin_x[i], frame.spin_y[i]}, {now.spin_x[i], now.spin_y[i]}) &&

@@ -151,6 +151,18 @@ if what == 'quarter': cut('events', 0.25)
                         "table": "it has a table", "nothing": "it has a table",
                         "sticks": "Event 7 of the log is damaged"}.get(what, "differs from")
                 self.refused("verify", self.path("changed.h5"), says=says)
+        floor = """
+import h5py, sys
+kept = h5py.File(sys.argv[1], 'r+')['parameters'].attrs
+kept[sys.argv[2]] = int(sys.argv[3])
+"""
+        self.assertEqual(swirl("run", "--body", "sphere", "--floor", "sliding", "--discs", 5, "--events", 500,
+                               "--trajectory", self.path("spheres.h5"), "--quiet").returncode, 0)
+        for attribute, value in (("floor", 0), ("lie_flat", 1)):
+            shutil.copy(self.path("spheres.h5"), self.path("changed.h5"))
+            subprocess.run(["/usr/bin/python3", "-c", floor, self.path("changed.h5"), attribute, str(value)],
+                           check=True)
+            self.refused("verify", self.path("changed.h5"), says="differs from frame 0")
         for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
             with open(self.path("r.json")) as opened:
                 result = json.load(opened)

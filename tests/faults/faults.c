@@ -254,19 +254,26 @@ int unlink(const char* path) { return removed(path); }
 int remove(const char* path) { return removed(path); }
 
 /* operator new, and what throws std::bad_alloc. */
-void* _Znwm(size_t size) {
+static void ask_for_memory(void) {
     static int wanted = -1;
     if (wanted < 0) wanted = strcmp(setting("FAULT_CALL"), "new") == 0;
-    if (wanted) {
-        pthread_mutex_lock(&lock);
-        const int failed = fails("new", 0);
-        pthread_mutex_unlock(&lock);
-        if (failed) {
-            void (*refuse)(void) = (void (*)(void))dlsym(RTLD_DEFAULT, "_ZSt17__throw_bad_allocv");
-            refuse();
-        }
+    if (!wanted) return;
+    pthread_mutex_lock(&lock);
+    const int failed = fails("new", 0);
+    pthread_mutex_unlock(&lock);
+    if (failed) {
+        void (*refuse)(void) = (void (*)(void))dlsym(RTLD_DEFAULT, "_ZSt17__throw_bad_allocv");
+        refuse();
     }
+}
+void* _Znwm(size_t size) {
+    ask_for_memory();
     return malloc(size ? size : 1);
+}
+/* What asks for aligned memory: the columns of a simulation. */
+void* _ZnwmSt11align_val_t(size_t size, size_t alignment) {
+    ask_for_memory();
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
 
 int close(int file) {
