@@ -164,7 +164,8 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: then there is a search for each\n"
-        "combination.\n");
+        "combination. However few the --events, a run covers a hundred swirls after its warm-up;\n"
+        "near the crossing there are more and longer ones, until --tolerance is reached.\n");
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0 --from 20 --json -"});
