@@ -71,10 +71,12 @@ bool watch_library() {
 
 }  // namespace
 
-/// The library asks malloc for as much as a file says, and loses memory when it cannot open it.
-/// What `new` is asked for in vain still ends the process.
+/// The library asks malloc for as much as a file says, clears gigabytes of it, keeps them for the
+/// next file, and loses memory when it cannot open one; so it gets no more than any good file here
+/// needs. What `new` is asked for in vain still ends the process.
 extern "C" const char* __asan_default_options() {
-    return "allocator_may_return_null=1:detect_leaks=0:" SWIRL_CHEAPER_ALLOCATIONS;
+    return "allocator_may_return_null=1:max_allocation_size_mb=256:"
+           "detect_leaks=0:" SWIRL_CHEAPER_ALLOCATIONS;
 }
 
 /// What the library copies from where it should not (met once, of an attribute) is not a finding of
