@@ -356,19 +356,24 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
         return;
     }
 
-    std::array<double, most_grids> largest{};
+    std::array<double, most_grids> largest{}, smallest{};
+    smallest.fill(never);
     std::array<std::size_t, most_grids> discs{};
     for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         const std::uint32_t size = size_class(d.radius, radii.smallest);
         largest[size] = larger(largest[size], d.radius);
+        smallest[size] = smaller(smallest[size], d.radius);
         ++discs[size];
     }
     std::array<std::uint32_t, most_grids> row{};
     state.grid_count = 0;
     for (std::uint32_t size = 0; size < most_grids; ++size) {
         row[size] = state.grid_count;
-        if (discs[size] > 0) state.grids[state.grid_count++].largest_radius = largest[size];
+        if (discs[size] == 0) continue;
+        Grid& grid = state.grids[state.grid_count++];
+        grid.largest_radius = largest[size];
+        grid.equal_radii = smallest[size] == largest[size];
     }
     for (DiscKind& kind : kinds) kind.grid = row[size_class(kind.radius, radii.smallest)];
 
@@ -376,8 +381,11 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
     double width = larger(2.6 * largest[0], square_root(3.0 * area / state.size));
     if (cells_per_side > 0) width = side / cells_per_side;
     width = lay_grid(state.grids[0], larger(width, 2.1 * largest[0]), side);
-    // A hair less than the cells allow, for the rounding of positions into cells.
+    // A hair less than the cells allow, for the rounding of positions into cells. Of several grids
+    // each is searched as far as the largest skin may reach, and most skins are smaller.
+    constexpr double worth_searching = 0.75;
     state.largest_skin_radius = (0.5 * width - largest[0]) * (1.0 - 1e-6);
+    if (state.grid_count > 1) state.largest_skin_radius *= worth_searching;
     for (std::uint32_t size = 1; size < most_grids; ++size) {
         if (discs[size] == 0) continue;
         const double three = square_root(3.0 * area / static_cast<double>(discs[size]));

@@ -145,6 +145,7 @@ struct Grid {
     std::uint32_t cells_per_side;
     double cells_per_length;
     double largest_radius;
+    bool equal_radii;      // that of all
     std::uint32_t* heads;  // of each cell the first disc, or EngineState::size
 };
 inline constexpr std::uint32_t most_grids = 48;
