@@ -79,7 +79,7 @@ class Stop(InFolder):
         radius = 8.6 * (1e6 / 48) ** 0.5
         self.assertGreaterEqual(
             self.expect_heard([0.1, 0.4, 0.8, 1.2, 1.8, 2.6], "run", "--discs", 1000000,
-                              "--container-radius", radius, "--quiet"), 6)
+                              "--container-radius", radius, "--events", "1e8", "--quiet"), 6)
 
     def test_while_a_small_disc_is_pushed_from_the_gaps(self):
         # So dense that the small ones find no lattice: pairs are pushed apart for seconds.
