@@ -465,19 +465,22 @@ std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
                                        const std::vector<double>& radii, double container_radius,
                                        Patience& patience) {
     std::vector<OnCurve> curve(centres.size());
-    std::map<double, std::vector<std::uint32_t>> numbers;  // of the discs of each radius
+    struct Numbers {
+        std::vector<std::uint32_t> all;
+        std::size_t given = 0;
+    };
+    std::map<double, Numbers> of_radius;
     for (std::uint32_t i = 0; i < centres.size(); ++i) {
         if (i % discs_till_asked == 0 && patience.ended()) return {};
         curve[i] = {place_on_curve(centres[i], container_radius), i};
-        numbers[radii[i]].push_back(i);
+        of_radius[radii[i]].all.push_back(i);
     }
     sort_by_place(curve, patience);
-    std::map<double, std::size_t> given;
     std::vector<Vec2> numbered(centres.size());
     for (std::size_t k = 0; k < curve.size(); ++k) {
         if (k % discs_till_asked == 0 && patience.ended()) return {};
-        const double radius = radii[curve[k].disc];
-        numbered[numbers[radius][given[radius]++]] = centres[curve[k].disc];
+        Numbers& numbers = of_radius[radii[curve[k].disc]];
+        numbered[numbers.all[numbers.given++]] = centres[curve[k].disc];
     }
     return numbered;
 }

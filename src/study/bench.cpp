@@ -211,19 +211,15 @@ std::uint64_t settling(const BenchScene& scene) {
 InitialState settled_state(const BenchScene& scene, const BenchSettings& settings) {
     InitialState state = state_of(scene, settings.stop);
     Simulation engine(state, {}, stopped_by(settings.stop));
-    const auto run = [&](std::uint64_t events) {
-        constexpr std::uint64_t at_once = 100'000;
+    constexpr std::uint64_t at_once = 100'000;
+    if (scene.kind == Kind::dish) {
+        while (!engine.advance_to(scene.swirls, 0.0, at_once)) check(settings.stop);
+    } else {
+        const std::uint64_t events = settling(scene);
         for (std::uint64_t done = 0; done < events; done += at_once) {
             check(settings.stop);
             engine.run(std::min(at_once, events - done));
         }
-    };
-    if (scene.kind == Kind::dish)
-        while (check(settings.stop), !engine.advance_to(scene.swirls, 0.0, 100'000)) {
-        }
-    else
-        run(settling(scene));
-    if (scene.kind != Kind::dish) {
         Event last = engine.step();
         while (last.kind != EventKind::path_vertex || engine.progress().leg != 0)
             last = engine.step();
@@ -284,6 +280,28 @@ Comparison comparison(const BenchScene& scene, const InitialState& settled,
     return {};
 }
 
+/// How far a simulation has come, and what its loop has done for that.
+struct Counted {
+    EventCounts events;
+    LoopCounts loop;
+
+    static Counted by(const Simulation& simulation) {
+        return {simulation.events(), simulation.loop_counts()};
+    }
+};
+void count(BenchRow& row, const Simulation& simulation, const Counted& before) {
+    const Counted after = Counted::by(simulation);
+    const auto per_event = [events = after.events.total() - before.events.total()](
+                               std::uint64_t then, std::uint64_t now) {
+        return static_cast<double>(now - then) / static_cast<double>(events);
+    };
+    row.width = after.loop.width;
+    row.bytes_per_disc = static_cast<double>(after.loop.bytes) / static_cast<double>(row.discs);
+    row.invalidated = per_event(before.loop.invalidated, after.loop.invalidated);
+    row.list_rebuilds = per_event(before.loop.list_rebuilds, after.loop.list_rebuilds);
+    row.path_vertices = per_event(before.events.path_vertex, after.events.path_vertex);
+}
+
 BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& settings) {
     const InitialState settled = settled_state(scene, settings);
     Tuning tuning = stopped_by(settings.stop);
@@ -295,8 +313,7 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
 
     engine.rate_over(0.0);  // warms up, and a replay begins to count
     const bool goes_on = scene.replayed_swirls == 0;
-    const EventCounts before = goes_on ? engine.simulation().events() : EventCounts{};
-    const LoopCounts loop_before = goes_on ? engine.simulation().loop_counts() : LoopCounts{};
+    const Counted before = goes_on ? Counted::by(engine.simulation()) : Counted{};
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
         engine.take_a_turn(seconds);
@@ -305,14 +322,9 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
         if (compared.own) compared.own->take_a_turn(seconds);
     }
 
-    Simulation& simulation = engine.simulation();
-    const EventCounts after = simulation.events();
-    const LoopCounts loop = simulation.loop_counts();
-    const auto events = static_cast<double>(after.total() - before.total());
     BenchRow row{};
     row.scene = scene.name;
     row.discs = scene.discs;
-    row.width = loop.width;
     row.counts = scene.kind == Kind::gas ? "collisions" : "events";
     row.rate = median(engine.rates());
     if (rival) {
@@ -321,13 +333,9 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
         row.ratio_target = scene.ratio_target;
     }
     row.comparison = compared.found(engine.rates(), scene.comparison_target);
-    row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(scene.discs);
-    row.invalidated = static_cast<double>(loop.invalidated - loop_before.invalidated) / events;
-    row.list_rebuilds =
-        static_cast<double>(loop.list_rebuilds - loop_before.list_rebuilds) / events;
-    row.path_vertices = static_cast<double>(after.path_vertex - before.path_vertex) / events;
+    count(row, engine.simulation(), before);
     if (scene.kind == Kind::dish && scene.discs == 100000)
-        row.vertex_share = vertex_share(simulation, settled.path, settings);
+        row.vertex_share = vertex_share(engine.simulation(), settled.path, settings);
     return row;
 }
 
@@ -370,22 +378,13 @@ BenchRow row_by_event(const BenchSettings& settings) {
         ratios.push_back(alone.rates().back() / watched.rates().back());
     }
     BenchRow row{};
-    const LoopCounts loop = watched.simulation().loop_counts();
-    const EventCounts events = watched.simulation().events();
-    const auto per_event = [&](std::uint64_t count) {
-        return static_cast<double>(count) / static_cast<double>(events.total());
-    };
     row.scene = "dish, averages by event";
     row.discs = scene.discs;
-    row.width = loop.width;
     row.counts = "events";
     row.rate = median(watched.rates());
     row.comparison = BenchTarget{"time over that without", "", median(ratios),
                                  BenchTarget::Sense::at_most, 1.15};
-    row.bytes_per_disc = static_cast<double>(loop.bytes) / static_cast<double>(scene.discs);
-    row.invalidated = per_event(loop.invalidated);
-    row.list_rebuilds = per_event(loop.list_rebuilds);
-    row.path_vertices = per_event(events.path_vertex);
+    count(row, watched.simulation(), {});
     return row;
 }
 

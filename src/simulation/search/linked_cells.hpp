@@ -160,21 +160,19 @@ template <Held held, int D>
     for (int d = 0; d < D; ++d) put_in(state, first[d]);
 }
 
-SWIRL_INLINE bool is_stray(const EngineState& state, std::uint32_t i, std::uint32_t& place) {
-    for (place = 0; place < state.stray_count; ++place)
-        if (state.strays[place] == i) return true;
-    return false;
-}
 [[gnu::noinline]] static void become_stray(EngineState& state, std::uint32_t i) {
     state.strays[state.stray_count++] = i;
     if (state.stray_count > most_strays) outgrow(state, narrower, true);
 }
+/// False if disc i is none.
 SWIRL_INLINE bool stray_leaves(EngineState& state, std::uint32_t i) {
-    std::uint32_t place = 0;
-    if (!is_stray(state, i, place)) return false;
-    state.strays[place] = state.strays[--state.stray_count];
-    state.strays[state.stray_count] = state.size;
-    return true;
+    for (std::uint32_t place = 0; place < state.stray_count; ++place) {
+        if (state.strays[place] != i) continue;
+        state.strays[place] = state.strays[--state.stray_count];
+        state.strays[state.stray_count] = state.size;
+        return true;
+    }
+    return false;
 }
 
 SWIRL_INLINE void leave(EngineState& state, std::uint32_t i) {

@@ -235,13 +235,13 @@ static bool collect_within(const EngineState& state, std::uint32_t i, double sca
             for (std::uint32_t x = left; x <= right; ++x)
                 for (std::uint32_t k = grid.heads[y * grid.cells_per_side + x]; k != state.size;
                      k = state.skins[k].next_in_cell) {
-                    // Half of them are too far, in no order: a branch would be mispredicted.
                     if (candidates.count == candidates.room) return false;
                     const Skin& other = state.skins[k];
                     const double dx = other.X - X, dy = other.Y - Y;
                     const double theirs =
                         grid.equal_radii ? grid.largest_radius : state.discs[k].radius;
                     const double gap = scale * square_root(dx * dx + dy * dy) - (radius + theirs);
+                    // Half of them are too far, in no order: a branch would be mispredicted.
                     note(state, candidates, candidates.count, k);
                     candidates.gap[candidates.count] = gap;
                     const bool near = gap < farthest + larger(farthest, double(other.skin_radius));

@@ -3,15 +3,13 @@
 // 45, 22 (2022), doi:10.1140/epje/s10189-022-00180-8; the calendar: Paul, J. Comput. Phys. 221, 615
 // (2007)), one disc after the other. As fast as such a code is made: what a prediction asks of a
 // disc is one cache line, the rest stands apart; large arrays are on huge pages; what the next
-// events need is fetched early; a √ and a ÷ are taken only of what may come first.
+// events need is fetched early; of the wall and the edge of its circle a √ and a ÷ are taken only
+// where they may come first.
 //
 // A list holds whoever may be met while both discs stay within `skin` of where their lists were
 // made, their homes; who leaves that circle has its own list renewed, and nobody else's. Every disc
 // has one pending event; that a partner has collided in the meantime is found when the event is
-// due.
-//
-// In a swirled dish homes rest, or move as all discs do on average, which is asked at each vertex
-// of a polygon; then everybody's way out of its circle is another.
+// due. Homes rest, in a dish that swirls, too.
 #pragma once
 
 #include <cstddef>
