@@ -344,6 +344,28 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhileDiscsGather) {
         EXPECT_EQ(cells.bytes == lists.bytes, packing < 0.01);
     }
 }
+/// An elastic gas in a dish that stands still, with the same mean energy for all.
+InitialState gas_of_two_sizes(std::size_t large, std::size_t small, double small_radius,
+                              double packing, double period = 10.0) {
+    const double area = double(large) + double(small) * small_radius * small_radius;
+    InitialState scene = large_among_small(large, small, small_radius, square_root(area / packing));
+    const Leg before = scene.path.legs.front();
+    scene.path = still_path(period);
+    scene.disc_surface = scene.wall_surface = {0.0};
+    for (Disc& disc : scene.discs) {
+        disc.position = disc.position - before.start + scene.path.legs.front().start;
+        disc.velocity = (10.0 / disc.radius) * (disc.velocity - before.velocity);
+    }
+    return scene;
+}
+// All distances shrink alike, and small discs lie in a lattice: one meets two of them at the same
+// instant, and what another of the three has pending is not what comes first in order.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhereADiscMeetsTwoAtOneInstant) {
+    const InitialState scene = imploding(gas_of_two_sizes(20, 180, 0.1, 0.2), 7.0);
+    for (const NeighbourSearch search : {NeighbourSearch::lists, NeighbourSearch::cells})
+        expect_same_trajectory(scene, 300, tuning(search));
+    expect_same_trajectory(imploding(gas_of_two_sizes(4, 28, 0.1, 0.2), 7.0), 300, tuning());
+}
 // A gas at rest whose discs lose their energy: its cells are laid anew a few times, not for ever.
 TEST(ThinGas, CellsAreLaidAnewAFewTimesWhileItGathers) {
     InitialState scene = gas_at_rest(2000, 0.1);

@@ -220,8 +220,11 @@ template <class Search>
 template <class Search>
 SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& found) {
     const double partner_pending = pending_time(state, found.partner);
+    // That of the partner may be another, which is taken out with it.
+    const bool is_one_event =
+        partner_pending != found.time || state.cold(found.partner).partner == found.disc;
     take_out_both(state, found);
-    if (next_pending(state).time == found.time) [[unlikely]]
+    if (next_pending(state).time == found.time || !is_one_event) [[unlikely]]
         return first_of_simultaneous<Search>(state, found, partner_pending);
     if (state.prefetches && !found.is_with_wall()) prefetch_neighbours(state, found.partner);
     return found;
