@@ -136,6 +136,12 @@ PathExtent extent_of(const ContainerPath& path) {
     return {low + half, square_root(dot(half, half))};
 }
 
+bool rests(const InitialState& scene) {
+    return std::all_of(scene.path.legs.begin(), scene.path.legs.end(), [](const Leg& leg) {
+        return leg.velocity.x == 0.0 && leg.velocity.y == 0.0;
+    });
+}
+
 /// Of linked cells (linked_cells.hpp).
 struct CellWidths {
     double narrowest, wanted, widest;
@@ -152,24 +158,40 @@ CellWidths cell_widths(const InitialState& scene, const Radii& radii) {
     const double wanted = larger(square_root(discs_per_cell * pi * R * R / discs), least);
     return {least, wanted, 1.2 * wanted};
 }
+/// If the discs are spread evenly.
+double discs_per_cell(const InitialState& scene, double width) {
+    const double R = scene.container_radius;
+    return static_cast<double>(scene.discs.size()) * width * width / (pi * R * R);
+}
+/// Small discs among large ones may fill cells. Where they are spread evenly, one cell in a million
+/// is not to overflow. In a dish that swirls discs gather, and where cells overflow lists are
+/// faster.
+std::uint32_t annex_room(const InitialState& scene, double width) {
+    const double mean = discs_per_cell(scene, width);
+    const double annex = mean + 6.0 * square_root(mean) - Cell::room;
+    if (annex <= 0.0 || !rests(scene)) return 0;
+    return static_cast<std::uint32_t>(smaller(annex / 8.0, most_annex_room / 8 - 1.0)) * 8 + 8;
+}
 
-/// On paths that turn nobody knows who is far from the wall, and of very unequal discs a cell would
-/// hold too many.
-bool cells_can_be_laid(const InitialState& scene, const Radii& radii) {
-    if (radii.largest > 1.8 * radii.smallest) return false;
+/// On paths that turn nobody knows who is far from the wall.
+bool cells_can_be_laid(const InitialState& scene) {
     return std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
                        [](const Leg& leg) { return leg.turning == 0.0; });
 }
 
-/// So thin that lists do not last. In a dish that swirls discs gather, and then they do.
-bool is_thin(const InitialState& scene) {
-    double packing = 0.0;
-    for (const Disc& d : scene.discs) packing += d.radius * d.radius;
-    packing /= scene.container_radius * scene.container_radius;
-    const bool rests =
-        std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
-                    [](const Leg& leg) { return leg.velocity.x == 0.0 && leg.velocity.y == 0.0; });
-    return packing < (rests ? 0.6 : 0.4);
+/// So thin that lists do not last. For equal discs that is asked of their packing, for others of
+/// its geometric mean with that of as many discs of the mean radius; and with n discs in a cell
+/// each prediction looks at 9n. In a dish that swirls discs gather, and then lists last.
+bool is_thin(const InitialState& scene, const Radii& radii) {
+    double sum = 0.0, squares = 0.0;
+    for (const Disc& d : scene.discs) {
+        sum += d.radius;
+        squares += d.radius * d.radius;
+    }
+    const double R = scene.container_radius, discs = static_cast<double>(scene.discs.size());
+    const double packing = sum * square_root(squares / discs) / (R * R);
+    const double in_cell = discs_per_cell(scene, cell_widths(scene, radii).wanted);
+    return packing * (0.92 + 0.1 * in_cell) < (rests(scene) ? 0.6 : 0.4);
 }
 
 /// Or coins: what a floor may accelerate.
@@ -188,8 +210,7 @@ NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, co
         case NeighbourSearch::all_pairs:
             return few_enough ? NeighbourSearch::all_pairs : NeighbourSearch::lists;
         case NeighbourSearch::cells:
-            return cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
-                                                   : NeighbourSearch::lists;
+            return cells_can_be_laid(scene) ? NeighbourSearch::cells : NeighbourSearch::lists;
         case NeighbourSearch::lists:
             return NeighbourSearch::lists;
         case NeighbourSearch::best:
@@ -197,7 +218,7 @@ NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, co
     }
     if (tuning.cells_per_side != 0) return NeighbourSearch::lists;
     if (few_enough) return NeighbourSearch::all_pairs;
-    return is_thin(scene) && cells_can_be_laid(scene, radii) ? NeighbourSearch::cells
+    return is_thin(scene, radii) && cells_can_be_laid(scene) ? NeighbourSearch::cells
                                                              : NeighbourSearch::lists;
 }
 
@@ -465,8 +486,10 @@ void Simulation::Storage::lay_cells(const InitialState& scene, const Radii& radi
     state.cell_origin = -0.5 * widths.wanted * grid.cells_per_side;
     state.middle_of_path = path.middle;
     state.most_drift = path.most_drift();
-    state.cells =
-        memory.add<Cell>(static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side);
+    const std::size_t cells = static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side;
+    state.cells = memory.add<Cell>(cells);
+    state.annex_room = annex_room(scene, widths.wanted);
+    state.annexes = memory.add<std::uint32_t>(cells * state.annex_room);
     // Half a cell's diagonal, and a hair for the rounding of its centre to single precision.
     state.reach_of_far_cells =
         (R - path.radius) * (1.0 - 1e-6) - radii.largest - 0.71 * widths.wanted;

@@ -172,8 +172,55 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
         state_of({unit_disc(), large}, 60, 20.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
     expect_same_trajectory(two_sizes, 20000, tuning(NeighbourSearch::cells));
-    // Too unequal for cells: lists take their place.
     expect_same_trajectory(mixture_dish(), 5000, tuning(NeighbourSearch::cells));
+    expect_same_trajectory(large_among_small(20, 20, 0.1, 10.0), 20000,
+                           tuning(NeighbourSearch::cells));
+    // A cell would have to hold eleven: lists take over at once.
+    expect_same_trajectory(large_among_small(4, 60, 0.1, 3.0), 3000,
+                           tuning(NeighbourSearch::cells));
+}
+/// An elastic gas in a dish that stands still, with the same mean energy for all.
+InitialState gas_of_two_sizes(std::size_t large, std::size_t small, double small_radius,
+                              double packing, double period = 10.0) {
+    const double area = double(large) + double(small) * small_radius * small_radius;
+    InitialState scene = large_among_small(large, small, small_radius, square_root(area / packing));
+    const Leg before = scene.path.legs.front();
+    scene.path = still_path(period);
+    scene.disc_surface = scene.wall_surface = {0.0};
+    for (Disc& disc : scene.discs) {
+        disc.position = disc.position - before.start + scene.path.legs.front().start;
+        disc.velocity = (10.0 / disc.radius) * (disc.velocity - before.velocity);
+    }
+    return scene;
+}
+// Cells of half a disc; and of five or ten, which have an annex. Over the ends of swirls.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGasOfUnequalDiscs) {
+    const int events = sanitized ? 1000 : 6000;
+    for (const InitialState& scene :
+         {gas_of_two_sizes(60, 60, 0.1, 0.2, 1.0), gas_of_two_sizes(60, 60, 0.5, 0.5, 2.0),
+          gas_of_two_sizes(20, 180, 0.1, 0.4, 1.0), gas_of_two_sizes(3, 150, 0.05, 0.1, 1.0)})
+        for (const NeighbourSearch search : {NeighbourSearch::lists, NeighbourSearch::cells})
+            expect_same_trajectory(scene, events, tuning(search));
+}
+// Where lists would have to be made anew time and again; not in a denser gas, and not where cells
+// would hold forty.
+TEST(UnequalDiscs, GoByCellsWhereListsDoNotLast) {
+    const auto bytes = [](const InitialState& scene, NeighbourSearch search) {
+        return Simulation(scene, {}, {0, Width::best, search}).loop_counts().bytes;
+    };
+    const auto chosen = [&](const InitialState& scene) {
+        const std::uint64_t best = bytes(scene, NeighbourSearch::best);
+        EXPECT_NE(bytes(scene, NeighbourSearch::cells), bytes(scene, NeighbourSearch::lists));
+        return best == bytes(scene, NeighbourSearch::cells) ? NeighbourSearch::cells
+                                                            : NeighbourSearch::lists;
+    };
+    EXPECT_EQ(chosen(gas_of_two_sizes(500, 500, 0.1, 0.2)), NeighbourSearch::cells);
+    EXPECT_EQ(chosen(gas_of_two_sizes(500, 500, 0.1, 0.6)), NeighbourSearch::cells);
+    EXPECT_EQ(chosen(gas_of_two_sizes(100, 900, 0.1, 0.4)), NeighbourSearch::cells);
+    EXPECT_EQ(chosen(gas_of_two_sizes(500, 500, 0.1, 0.72)), NeighbourSearch::lists);
+    EXPECT_EQ(chosen(gas_of_two_sizes(50, 950, 0.3, 0.55)), NeighbourSearch::lists);
+    const InitialState crowded = large_among_small(20, 2000, 0.1, 8.165);
+    EXPECT_EQ(bytes(crowded, NeighbourSearch::best), bytes(crowded, NeighbourSearch::lists));
 }
 // One reference for all searches and widths: it looks at all pairs for every event.
 void expect_same_trajectories(const InitialState& scene, int events) {
@@ -344,19 +391,16 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhileDiscsGather) {
         EXPECT_EQ(cells.bytes == lists.bytes, packing < 0.01);
     }
 }
-/// An elastic gas in a dish that stands still, with the same mean energy for all.
-InitialState gas_of_two_sizes(std::size_t large, std::size_t small, double small_radius,
-                              double packing, double period = 10.0) {
-    const double area = double(large) + double(small) * small_radius * small_radius;
-    InitialState scene = large_among_small(large, small, small_radius, square_root(area / packing));
-    const Leg before = scene.path.legs.front();
-    scene.path = still_path(period);
-    scene.disc_surface = scene.wall_surface = {0.0};
-    for (Disc& disc : scene.discs) {
-        disc.position = disc.position - before.start + scene.path.legs.front().start;
-        disc.velocity = (10.0 / disc.radius) * (disc.velocity - before.velocity);
-    }
-    return scene;
+// Cells for five discs, and all small ones come to one: they are more than its annex holds.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWhileUnequalDiscsGather) {
+    const int events = sanitized ? 600 : 2000;
+    InitialState scene = imploding(gas_of_two_sizes(20, 180, 0.1, 0.2), 7.0);
+    for (Disc& disc : scene.discs)
+        if (disc.radius == 1.0) disc.velocity = {0.0, 0.0};
+    expect_same_trajectory(scene, events, tuning(NeighbourSearch::cells));
+    Simulation simulation(scene, {}, tuning(NeighbourSearch::cells));
+    simulation.run(static_cast<std::uint64_t>(events));
+    EXPECT_GT(simulation.loop_counts().full_rebuilds, 0u);
 }
 // All distances shrink alike, and small discs lie in a lattice: one meets two of them at the same
 // instant, and what another of the three has pending is not what comes first in order.
@@ -467,6 +511,12 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinGas) {
     for (const NeighbourSearch neighbours : {NeighbourSearch::lists, NeighbourSearch::cells})
         expect_same_trajectory<PlainGrid>(gas_at_rest(2000, 0.2), 20000, tuning(neighbours));
 }
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAGasOfUnequalDiscs) {
+    if (sanitized) GTEST_SKIP() << "forty thousand events";
+    for (const std::size_t large : {1000u, 200u})
+        expect_same_trajectory<PlainGrid>(gas_of_two_sizes(large, 2000 - large, 0.1, 0.3, 3.0),
+                                          20000, tuning(NeighbourSearch::cells));
+}
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
     if (sanitized) GTEST_SKIP() << "fifty thousand events";
     for (const double packing : {0.2, 0.03})
@@ -545,6 +595,18 @@ TEST(Resume, FromTheDiscsAndTheProgressContinuesBitForBit) {
     for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
     Simulation resumed(saved, first.progress());
     resumed.run(60000 - 23456);
+    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
+TEST(Resume, OfUnequalDiscsInCellsContinuesBitForBit) {
+    const InitialState scene = gas_of_two_sizes(50, 450, 0.1, 0.2, 3.0);
+    Simulation whole(scene), first(scene);
+    whole.run(20000);
+    first.run(7654);
+    InitialState saved = scene;
+    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
+    Simulation resumed(saved, first.progress());
+    resumed.run(20000 - 7654);
     EXPECT_EQ(whole.state_hash(), resumed.state_hash());
 }
 

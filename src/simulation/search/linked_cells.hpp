@@ -2,18 +2,21 @@
 // and in the eight around it. For a thin gas, where a disc flies through any skin in a collision or
 // two and its list would not be worth its making.
 //
-// The cells are squares, wider than two discs, so that discs in cells that do not touch cannot
-// meet; and so wide that few edges are crossed from one collision to the next, while a prediction
-// still takes one vector. A disc that reaches the edge of its cell enters the next, and what it may
-// meet is looked up anew. Through a swirl the cells move with the mean velocity that the discs had
-// when it began, or rest if that is little against their other motion. The container moves over
-// them: a corner of its path is news only to those in cells to which the wall comes.
+// The cells are squares, wider than two discs of the largest, so that discs in cells that do not
+// touch cannot meet; and so wide that few edges are crossed from one collision to the next, while a
+// prediction still takes one vector. A disc that reaches the edge of its cell enters the next, and
+// what it may meet is looked up anew. Through a swirl the cells move with the mean velocity that
+// the discs had when it began, or rest if that is little against their other motion. The container
+// moves over them: a corner of its path is news only to those in cells to which the wall comes.
 //
 // A cell has room for seven. Who comes eighth is a stray, known to everybody, until it enters
 // another cell. Where discs gather strays become many, and narrower cells take over. There are none
-// in cells below 3.86 radii: eight points in a square of side 1 are at most (√6 − √2)/2 apart
-// (Schaer and Meir 1965, Canad. Math. Bull. 8, 21). In a pack cells for little more than one disc
-// are the fastest.
+// of equal discs in cells below 3.86 radii: eight points in a square of side 1 are at most (√6 −
+// √2)/2 apart (Schaer and Meir 1965, Canad. Math. Bull. 8, 21). In a pack cells for little more
+// than one disc are the fastest.
+//
+// Of unequal discs the largest says how narrow cells can be. If they hold many of the small ones at
+// rest, each has an annex with more room.
 //
 // Included by one file per vector width, like event_loop.hpp, and under the same rule.
 #pragma once
@@ -77,11 +80,11 @@ static void choose_width(EngineState& state) {
 /// come eight times nobody.
 struct Candidates {
     std::uint32_t count;
-    std::uint32_t disc[9 * Cell::room + 8];
+    std::uint32_t disc[9 * (Cell::room + most_annex_room) + 8];
 };
 
-SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
-                                     Candidates& candidates) {
+template <bool have_annexes>
+SWIRL_INLINE void collect(const EngineState& state, std::uint32_t i, Candidates& candidates) {
     const Cell* row = state.cells + state.skins[i].cell - state.grids[0].cells_per_side - 1;
     std::uint32_t count = 0;
     for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side) {
@@ -89,11 +92,27 @@ SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
             // The whole cell, so that nothing depends on how many there are but the place of the
             // next.
             std::memcpy(candidates.disc + count, &row[x], sizeof(Cell));
+            if (have_annexes && row[x].count > Cell::room) {
+                const auto number = static_cast<std::uint32_t>(row + x - state.cells);
+                for (std::uint32_t k = 0; k < state.annex_room; k += 8)
+                    std::memcpy(candidates.disc + count + Cell::room + k, state.annex(number) + k,
+                                8 * sizeof(std::uint32_t));
+            }
             count += row[x].count;
         }
     }
     for (int k = 0; k < 8; ++k) candidates.disc[count + k] = state.size;
     candidates.count = count;
+}
+[[gnu::noinline]] static void collect_with_annexes(const EngineState& state, std::uint32_t i,
+                                                   Candidates& candidates) {
+    collect<true>(state, i, candidates);
+}
+SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
+                                     Candidates& candidates) {
+    if (state.annex_room != 0) [[unlikely]]
+        return collect_with_annexes(state, i, candidates);
+    collect<false>(state, i, candidates);
 }
 
 /// When disc i, asked at time t, is at an edge of its cell, and at which. Never at once, so that
@@ -175,10 +194,21 @@ SWIRL_INLINE bool stray_leaves(EngineState& state, std::uint32_t i) {
     return false;
 }
 
+/// A cell whose last is in its annex.
+[[gnu::noinline]] static void leave_full(EngineState& state, std::uint32_t number,
+                                         std::uint32_t i) {
+    Cell& cell = state.cells[number];
+    const std::uint32_t last = state.disc_in_cell(number, --cell.count);
+    for (std::uint32_t slot = 0; slot < cell.count; ++slot)
+        if (state.disc_in_cell(number, slot) == i) state.disc_in_cell(number, slot) = last;
+}
 SWIRL_INLINE void leave(EngineState& state, std::uint32_t i) {
     if (state.stray_count != 0 && stray_leaves(state, i)) [[unlikely]]
         return;
-    Cell& cell = state.cells[state.skins[i].cell];
+    const std::uint32_t number = state.skins[i].cell;
+    Cell& cell = state.cells[number];
+    if (cell.count > Cell::room) [[unlikely]]
+        return leave_full(state, number, i);
     // Of the cell's eight numbers the last is how many there are, but i stands before it.
     const std::uint32_t slot = place_in_list(cell.disc, 8, i);
     cell.disc[slot] = cell.disc[--cell.count];
@@ -193,10 +223,12 @@ SWIRL_INLINE void leave_wall(EngineState& state, std::uint32_t i) {
 
 static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
     Cell& cell = state.cells[number];
-    if (cell.count == Cell::room) [[unlikely]]
-        become_stray(state, i);
-    else
+    if (cell.count < Cell::room) [[likely]]
         cell.disc[cell.count++] = i;
+    else if (cell.count < Cell::room + state.annex_room)
+        state.disc_in_cell(number, cell.count++) = i;
+    else
+        become_stray(state, i);
     const std::uint32_t side = state.grids[0].cells_per_side;
     const auto centre = [&](std::uint32_t row) {
         return static_cast<float>(state.cell_origin + (row + 0.5) * width(state));
@@ -238,14 +270,17 @@ static void predict_all(EngineState& state, double t) {
     };
     // Far enough ahead for memory.
     const std::uint32_t ahead = state.grids[0].cells_per_side + 12;
+    std::uint32_t predicted = 0;
     for (std::uint32_t c = 0; c < cells; ++c) {
-        if (state.stops_at(c)) return;
         if (state.prefetches && c + ahead < cells) {
-            const Cell& soon = state.cells[c + ahead];
-            for (std::uint32_t k = 0; k < soon.count; ++k) prefetch_disc(state, soon.disc[k]);
+            const std::uint32_t soon = c + ahead;
+            for (std::uint32_t k = 0; k < state.cells[soon].count; ++k)
+                prefetch_disc(state, state.disc_in_cell(soon, k));
         }
-        const Cell& cell = state.cells[c];
-        for (std::uint32_t k = 0; k < cell.count; ++k) write_down(cell.disc[k]);
+        for (std::uint32_t k = 0; k < state.cells[c].count; ++k) {
+            if (state.stops_at(predicted++)) return;
+            write_down(state.disc_in_cell(c, k));
+        }
     }
     for (std::uint32_t k = 0; k < state.stray_count; ++k) write_down(state.strays[k]);
     hold_tournament(state);

@@ -121,13 +121,14 @@ struct ComovingFrame {
     }
 };
 
-/// The discs in a cell of a thin gas.
+/// The discs in a cell of a thin gas. Those beyond its room are in its annex.
 struct Cell {
     static constexpr std::uint32_t room = 7;
     std::uint32_t disc[room];
     std::uint32_t count;
 };
 static_assert(sizeof(Cell) == 32);  // read and written as one piece of eight numbers
+inline constexpr std::uint32_t most_annex_room = 40;  // a multiple of 8
 
 /// Followed by `room` disc numbers, a multiple of 8, unused ones being `EngineState::size`.
 struct alignas(16) ListTail {
@@ -223,6 +224,8 @@ struct EngineState {
 
     // Of cells alone (linked_cells.hpp).
     Cell* cells;
+    std::uint32_t* annexes;    // of each cell; there are none where cells are not full
+    std::uint32_t annex_room;  // of each, in discs: a multiple of 8
     Vec2 middle_of_path;
     double most_drift;            // from there, of the cells in half a swirl
     double reach_of_far_cells;    // if they do not drift: how far they are from the middle, at most
@@ -282,6 +285,12 @@ struct EngineState {
     /// Asked in loops over all discs, every thousand of them.
     SWIRL_INLINE bool stops_at(std::uint32_t i) const {
         return i % 1024 == 0 && is_stopped != nullptr && is_stopped(caller);
+    }
+    SWIRL_INLINE std::uint32_t* annex(std::uint32_t cell) const {
+        return annexes + static_cast<std::uint64_t>(cell) * annex_room;
+    }
+    SWIRL_INLINE std::uint32_t& disc_in_cell(std::uint32_t cell, std::uint32_t slot) const {
+        return slot < Cell::room ? cells[cell].disc[slot] : annex(cell)[slot - Cell::room];
     }
     SWIRL_INLINE ListTail& tail(std::uint32_t i) const { return tails[tail_places[i]]; }
     /// Whether a pending event happens: its partner has not collided since it was predicted. The

@@ -145,7 +145,8 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
         const Vec2 offset = offset_in_skin(state, i, t);
         const Cell& cell = state.cells[state.skins[i].cell];
         bool found = false;
-        for (std::uint32_t slot = 0; slot < cell.count; ++slot) found |= cell.disc[slot] == i;
+        for (std::uint32_t slot = 0; slot < cell.count; ++slot)
+            found |= state.disc_in_cell(state.skins[i].cell, slot) == i;
         for (std::uint32_t k = 0; k < state.stray_count; ++k) found |= state.strays[k] == i;
         const HotDisc& disc = state.discs[i];
         found &= disc.far_from_wall != 0 || state.near_wall[state.skins[i].near_wall] == i;
