@@ -126,12 +126,19 @@ struct PathExtent {
 };
 PathExtent extent_of(const ContainerPath& path) {
     Vec2 low{never, never}, high{-never, -never};
-    for (const Leg& leg : path.legs)
-        for (const double t : {leg.begin, leg.end}) {
-            const Vec2 at = leg.position_at(t);
-            low = {smaller(low.x, at.x), smaller(low.y, at.y)};
-            high = {larger(high.x, at.x), larger(high.y, at.y)};
-        }
+    const auto reach_to = [&](const Vec2& at) {
+        low = {smaller(low.x, at.x), smaller(low.y, at.y)};
+        high = {larger(high.x, at.x), larger(high.y, at.y)};
+    };
+    for (const Leg& leg : path.legs) {
+        reach_to(leg.position_at(leg.begin));
+        reach_to(leg.position_at(leg.end));
+        if (leg.turning == 0.0) continue;
+        const Vec2 from_centre = (-1.0 / leg.turning) * perpendicular(leg.velocity);
+        const double radius = square_root(dot(from_centre, from_centre));
+        reach_to(leg.start - from_centre + Vec2{radius, radius});
+        reach_to(leg.start - from_centre - Vec2{radius, radius});
+    }
     const Vec2 half = 0.5 * (high - low);
     return {low + half, square_root(dot(half, half))};
 }
@@ -173,9 +180,10 @@ std::uint32_t annex_room(const InitialState& scene, double width) {
     return static_cast<std::uint32_t>(smaller(annex / 8.0, most_annex_room / 8 - 1.0)) * 8 + 8;
 }
 
-/// On paths that turn nobody knows who is far from the wall.
+/// The corners of a path are only told on straight legs (linked_cells.hpp); a circle has none.
 bool cells_can_be_laid(const InitialState& scene) {
-    return std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
+    return scene.path.legs.size() == 1 ||
+           std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
                        [](const Leg& leg) { return leg.turning == 0.0; });
 }
 

@@ -40,8 +40,8 @@ struct Tuning {
     /// Of the grid in which neighbours for the lists are found; 1 is no grid, 0 chooses by density.
     int cells_per_side = 0;
     Width width = Width::best;
-    /// A search that the scene does not allow (all pairs for many, cells on a turning path) gives
-    /// way to lists; of spheres, to cells.
+    /// A search that the scene does not allow (all pairs for many, cells on a path with several
+    /// turning legs) gives way to lists; of spheres, to cells.
     NeighbourSearch neighbours = NeighbourSearch::best;
     /// Asked now and then while a simulation is made, which takes seconds where there are millions
     /// of discs. Once it has said yes it must go on saying so; the simulation is left without

@@ -367,6 +367,30 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInAThinDish) {
         state_of({unit_disc()}, 60, 18.0, polygon_path(200.0, paper_period, paper_sides), 1.0, 1.0),
         2000, tuning(NeighbourSearch::cells));
 }
+// On the true circle, which is one leg: its cells are laid over all of it.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsOnTheExactCircle) {
+    const int events = sanitized ? 1000 : 10000;
+    for (const InitialState& scene :
+         {paper_dish(5), paper_dish(48), mixture_dish(), large_among_small(20, 20, 0.1, 10.0)})
+        expect_same_trajectory(on_circle(scene), events, tuning(NeighbourSearch::cells));
+    for (const double container_radius : {60.0, 45.0, 18.0}) {
+        InitialState thin = on_circle(
+            state_of({unit_disc()}, 101, container_radius,
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 1.0));
+        expect_same_trajectory(thin, events, tuning(NeighbourSearch::cells));
+        thin.disc_surface = {0.5, 0.8, 0.4, 1e-3};
+        expect_same_trajectory(thin, events, tuning(NeighbourSearch::cells));
+    }
+    // Far more of the path than of the dish; and backwards.
+    InitialState far =
+        state_of({unit_disc()}, 60, 18.0, polygon_path(200.0, paper_period, paper_sides), 1.0, 1.0);
+    expect_same_trajectory(on_circle(far, 200.0), 2000, tuning(NeighbourSearch::cells));
+    far = on_circle(far);
+    Leg& leg = far.path.legs.front();
+    leg.velocity = -1.0 * leg.velocity;
+    leg.turning = -leg.turning;
+    expect_same_trajectory(far, 2000, tuning(NeighbourSearch::cells));
+}
 /// Everybody flies to the centre, to be there at one time.
 InitialState imploding(InitialState scene, double time) {
     for (Disc& disc : scene.discs) disc.velocity = (-1.0 / time) * disc.position;
@@ -519,11 +543,13 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAGasOfUnequalDiscs) {
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
     if (sanitized) GTEST_SKIP() << "fifty thousand events";
-    for (const double packing : {0.2, 0.03})
-        expect_same_trajectory<PlainGrid>(
+    for (const double packing : {0.2, 0.03}) {
+        const InitialState scene =
             state_of({unit_disc()}, 2000, square_root(2000.0 / packing),
-                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3),
-            50000, tuning());
+                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3);
+        expect_same_trajectory<PlainGrid>(scene, 50000, tuning());
+        expect_same_trajectory<PlainGrid>(on_circle(scene), 50000, tuning(NeighbourSearch::cells));
+    }
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
     if (sanitized) GTEST_SKIP() << "a million events";

@@ -115,9 +115,24 @@ SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
     collect<false>(state, i, candidates);
 }
 
-/// When disc i, asked at time t, is at an edge of its cell, and at which. Never at once, so that
-/// who stands on an edge and flies along it is not told for ever to cross it.
-SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, double t) {
+/// On a turning leg: when disc i, which does something else at `latest`, reaches the wall before.
+[[gnu::noinline]] static double wall_time_on_turn(const EngineState& state, std::uint32_t i,
+                                                  double latest) {
+    const WallContact contact = seek_wall(state, i, latest);
+    return contact.is_later ? never : contact.time;
+}
+SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i, double latest) {
+    if (state.discs[i].far_from_wall != 0) return never;
+    if (state.on_turning_leg()) [[unlikely]]
+        return wall_time_on_turn(state, i, latest);
+    return swirl::wall_time(state, i);
+}
+
+/// When disc i, asked at time t, is at an edge of its cell, and at which; and at the wall, if
+/// before that and before it meets somebody, at time `meeting`. Never at once at an edge, so that
+/// who stands on one and flies along it is not told for ever to cross it.
+SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, double t,
+                                   double meeting) {
     const HotDisc& disc = state.discs[i];
     const Skin& mine = state.skins[i];
     const Flight<double>& frame = state.comoving_frame.origin;
@@ -131,7 +146,8 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
     const Lanes<2> wait = larger(way, Lanes<2>(1e-9) * half) / rate;
     const double x = lane(wait, 0), y = lane(wait, 1);
     const std::uint32_t across = v.x > 0.0 ? 0 : 1, up = v.y > 0.0 ? 2 : 3;
-    return {disc.far_from_wall ? never : wall_time(state, i), t + smaller(x, y),
+    const double edge = t + smaller(x, y);
+    return {cells::wall_time(state, i, smaller(meeting, edge)), edge,
             leaves_skin + (x < y ? across : up)};
 }
 
@@ -168,7 +184,7 @@ SWIRL_INLINE void find_first(EngineState& state, const std::uint32_t (&who)[D], 
         state.candidates_looked_at += candidates[d].count;
         if (state.stray_count != 0) [[unlikely]]
             meeting = earliest_stray(state, meeting);
-        first[d] = first_of(meeting, leaving_times(state, who[d], t));
+        first[d] = first_of(meeting, leaving_times(state, who[d], t, meeting.time));
     }
 }
 template <Held held, int D>
