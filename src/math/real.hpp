@@ -3,6 +3,7 @@
 // vector width gives the same bits. lanes.hpp overloads them for eight doubles at once.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "swirl/math/vec2.hpp"
@@ -16,6 +17,11 @@ SWIRL_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 SWIRL_INLINE constexpr double select(bool condition, double yes, double no) {
     return condition ? yes : no;
 }
+/// −a or a, by its sign bit, and never by a branch.
+SWIRL_INLINE constexpr double minus_if(bool condition, double a) {
+    return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^
+                                          (static_cast<std::uint64_t>(condition) << 63));
+}
 /// The larger of the two; `b` if they are equal or either is not a number.
 template <class Real>
 SWIRL_INLINE constexpr Real larger(const Real& a, const Real& b) {
@@ -27,7 +33,7 @@ SWIRL_INLINE constexpr Real smaller(const Real& a, const Real& b) {
 }
 template <class Real>
 SWIRL_INLINE constexpr Real magnitude(const Real& a) {
-    return select(a < Real(0.0), -a, a);
+    return larger(-a, a);
 }
 
 }  // namespace swirl

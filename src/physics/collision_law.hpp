@@ -143,7 +143,7 @@ SWIRL_INLINE double size(const TangentialAndVertical& a) {
 }
 /// So much friction against it.
 SWIRL_INLINE constexpr Tangential against(const Tangential& a, double strength) {
-    return {select(a.t > 0.0, -strength, strength)};
+    return {minus_if(a.t > 0.0, strength)};
 }
 SWIRL_INLINE TangentialAndVertical against(const TangentialAndVertical& a, double strength) {
     const double length = size(a);

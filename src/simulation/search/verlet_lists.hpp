@@ -48,6 +48,11 @@ SWIRL_INLINE PendingEvent earliest_beyond_eight(const EngineState& state, Pendin
     return first;
 }
 
+template <int D>
+SWIRL_INLINE bool all_far(const EngineState& state, const std::uint32_t (&who)[D]) {
+    return state.discs[who[0]].far_from_wall != 0 && state.discs[who[D - 1]].far_from_wall != 0;
+}
+
 /// Everything that may happen to D discs, asked at time t; one step at a time for all of them, so
 /// that the processor works on one while it waits for the other.
 template <Held held, int D>
@@ -59,9 +64,7 @@ template <Held held, int D>
     for (int d = 0; d < D; ++d)
         contacts[d] = contact_times<held>(state.discs[who[d]], others[d], t);
     const bool turning = state.on_turning_leg();
-    const bool all_far =
-        state.discs[who[0]].far_from_wall != 0 && state.discs[who[D - 1]].far_from_wall != 0;
-    if (turning && !all_far) [[unlikely]]
+    if (turning && !all_far<D>(state, who)) [[unlikely]]
         find_leaving_on_turn<D>(state, who, t, leaving);
     else
         find_leaving<held, D>(state, who, t, leaving);
