@@ -206,7 +206,10 @@ SWIRL_INLINE Lanes<W> smaller(const Lanes<W>& a, const Lanes<W>& b) {
 }
 
 /// The smallest lane (times: no NaN, no −0).
-SWIRL_INLINE double smallest_of(Double2 a) { return smaller(a[0], a[1]); }
+/// By vectors to the end: of two numbers the compiler may make a branch.
+SWIRL_INLINE double smallest_of(Double2 a) {
+    return smaller_of(a, __builtin_shufflevector(a, a, 1, 1))[0];
+}
 #if SWIRL_REGISTER_BYTES >= 32
 SWIRL_INLINE double smallest_of(Double4 a) {
     return smallest_of(

@@ -17,7 +17,11 @@ SWIRL_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 SWIRL_INLINE constexpr double select(bool condition, double yes, double no) {
     return condition ? yes : no;
 }
-/// −a or a, by its sign bit, and never by a branch.
+/// One number or the other, never by a branch: for what cannot be guessed.
+SWIRL_INLINE constexpr std::uint32_t chosen(bool condition, std::uint32_t yes, std::uint32_t no) {
+    return no ^ ((no ^ yes) & (0u - static_cast<std::uint32_t>(condition)));
+}
+/// −a or a, by its sign bit, and never by a branch either.
 SWIRL_INLINE constexpr double minus_if(bool condition, double a) {
     return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^
                                           (static_cast<std::uint64_t>(condition) << 63));

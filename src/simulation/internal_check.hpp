@@ -31,6 +31,7 @@ SWIRL_PROMISE(friction_obeys_coulombs_law)
 SWIRL_PROMISE(time_never_goes_back)
 SWIRL_PROMISE(the_next_event_is_the_first_of_all)
 SWIRL_PROMISE(winners_are_the_first_of_their_rows)
+SWIRL_PROMISE(the_first_of_all_is_noted)
 // Of all discs.
 SWIRL_PROMISE(no_two_discs_overlap)
 SWIRL_PROMISE(no_disc_is_outside_the_container)

@@ -356,6 +356,8 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
         return;
     }
     state.skins = memory.add<Skin>(size);
+    // A few rows more to look at take less than another level.
+    constexpr std::size_t most_top_rows = 4;
     std::size_t entries = size;
     do {
         const std::size_t padded = (entries + 7) / 8 * 8;
@@ -363,7 +365,8 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
         if (state.levels > 0) state.level_winners[state.levels] = memory.add<std::uint32_t>(padded);
         ++state.levels;
         entries = padded / 8;
-    } while (entries > 1);
+    } while (entries > most_top_rows);
+    state.top_rows = static_cast<std::uint32_t>(entries);
 }
 
 /// Where all discs are of about one size, cells wide enough that the skins of discs in cells that

@@ -80,6 +80,8 @@ struct TwoDiscs {
         state.cold_discs = reinterpret_cast<unsigned char*>(cold);
         state.skins = skins;
         state.levels = 2;
+        state.top_rows = 1;
+        state.first_time = 1.0;
         state.level_times[0] = times;
         state.level_times[1] = top_times;
         state.level_winners[1] = winners;
@@ -115,6 +117,11 @@ TEST_F(BrokenPromise, AWinnerThatIsNotTheFirstIsFound) {
     TwoDiscs two;
     two.winners[0] = 1;
     EXPECT_DEATH(two.check(), "winners_are_the_first_of_their_rows");
+}
+TEST_F(BrokenPromise, AFirstOfAllThatIsNotIsFound) {
+    TwoDiscs two;
+    two.state.first_disc = 1;
+    EXPECT_DEATH(two.check(), "the_first_of_all_is_noted");
 }
 TEST_F(BrokenPromise, AnOverlapIsFound) {
     TwoDiscs two;

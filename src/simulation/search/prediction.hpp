@@ -70,7 +70,26 @@ SWIRL_INLINE PendingEvent earlier(const std::uint32_t* neighbours, const Lanes<W
     return {time, first.disc, partner};
 }
 
-/// The first of a disc's first meeting, the wall and the end of its skin.
+/// The first of W contacts of disc i; never with somebody, if there is none.
+template <int W>
+SWIRL_INLINE PendingEvent first_meeting(const std::uint32_t* neighbours, const Lanes<W>& contact,
+                                        std::uint32_t i) {
+    const double time = smallest(contact);
+    unsigned equal = lanes_equal(contact, time);
+    std::uint32_t partner = neighbours[__builtin_ctz(equal)];
+    // Where nobody is met all are equal.
+    const bool several = (equal & (equal - 1)) != 0;
+    if (several & (time < never)) [[unlikely]] {
+        while (equal &= equal - 1) {
+            const std::uint32_t other = neighbours[__builtin_ctz(equal)];
+            if (other < partner) partner = other;
+        }
+    }
+    return {time, i, partner};
+}
+
+/// The first of a disc's first meeting, the wall and the end of its skin (pending_event.hpp). Each
+/// may be it, in no order: a branch would often be mispredicted.
 SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& leaving) {
     const PendingEvent wall{leaving.wall, meeting.disc, meeting.disc};
     const PendingEvent first = precedes(wall, meeting) ? wall : meeting;
@@ -82,8 +101,7 @@ SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& l
 SWIRL_INLINE void note_partner(EngineState& state, const PendingEvent& event) {
     ColdDisc& cold = state.cold(event.disc);
     cold.partner = event.partner;
-    cold.partner_collisions =
-        event.partner < state.size ? state.discs[event.partner].collisions : 0;
+    cold.partner_collisions = state.discs[state.disc_or_nobody(event.partner)].collisions;
 }
 
 }  // namespace SWIRL_TARGET

@@ -206,10 +206,12 @@ struct EngineState {
     const DiscKind* kinds;
 
     // The tournament (tournament.hpp).
-    std::uint32_t levels;
-    bool prefetches;  // the discs do not all fit into the nearest cache
+    std::uint32_t levels, top_rows;  // top_rows: of the topmost level
+    bool prefetches;                 // the discs do not all fit into the nearest cache
     double* level_times[12];
     std::uint32_t* level_winners[12];
+    double first_time;  // of all pending events, the first
+    std::uint32_t first_disc;
 
     ComovingFrame comoving_frame;     // renewed with every leg, and when the discs have left it
     std::uint64_t rebuilds_in_frame;  // of lists, since it was last asked whether they have
@@ -293,6 +295,10 @@ struct EngineState {
         return slot < Cell::room ? cells[cell].disc[slot] : annex(cell)[slot - Cell::room];
     }
     SWIRL_INLINE ListTail& tail(std::uint32_t i) const { return tails[tail_places[i]]; }
+    /// A disc's number; that of nobody in the place of a mark.
+    SWIRL_INLINE std::uint32_t disc_or_nobody(std::uint32_t partner) const {
+        return partner < size ? partner : size;
+    }
     /// Whether a pending event happens: its partner has not collided since it was predicted. The
     /// wall's always does; that of a disc which leaves its skin is none.
     SWIRL_INLINE bool is_valid(const PendingEvent& event) const {

@@ -98,6 +98,10 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
                                                          state.level_times[0][winner] == first);
         }
     }
+    double first = never;
+    for (std::uint32_t i = 0; i < state.size; ++i) first = smaller(first, state.level_times[0][i]);
+    promise::the_first_of_all_is_noted(state.first_time == first &&
+                                       state.level_times[0][state.first_disc] == first);
 }
 
 SWIRL_INLINE bool is_on_list(const EngineState& state, std::uint32_t i, std::uint32_t k) {

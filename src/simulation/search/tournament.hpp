@@ -1,11 +1,15 @@
 // Speed only, changes no bit: whose event comes first. A tournament of eight: level 0 holds each
 // disc's pending time, in rows of eight; each level above holds the winner of each row below. A row
-// is one vector, so the winner of eight takes one pass of `smaller`.
+// is one vector, so the winner of eight takes one pass of `smaller`. The topmost level has up to
+// four rows.
 //
-// The discs of an event are taken out before it is executed and put in again, with what they do
-// next, when that has been predicted. What remains is known meanwhile; and since what was predicted
-// rarely comes first, the processor goes on to the next event, as far as it looks ahead, while the
-// predictions are still being computed.
+// The discs of an event are taken out before it is executed, and then who comes first of what
+// remains is noted. When it has been predicted what they do next, they are put in again. That
+// rarely comes first of all, so to ask is a branch which the processor guesses right: it goes on to
+// the next event, as far as it looks ahead, while the predictions are still being computed.
+//
+// Who wins a row is anybody's guess, so it is settled without a branch, on all levels. In a large
+// dish that is too much, most of it for nothing: there a disc that does not win its row is done.
 //
 // The rows are read and written whole: eight bytes written into a row that is then read as a vector
 // would wait for the store to leave the processor's store buffer.
@@ -74,6 +78,47 @@ SWIRL_INLINE void empty_queue(EngineState& state) {
             if (level > 0) state.level_winners[level][k] = (k << (3 * level)) % state.size;
         }
     }
+    state.first_time = never;
+    state.first_disc = 0;
+}
+
+SWIRL_INLINE PendingEvent pending_event(const EngineState& state, std::uint32_t disc, double time) {
+    return {time, disc, state.cold(disc).partner};
+}
+/// Of those in a row whose bits are set, who comes first in order. The row has the level below
+/// `level`, and begins at `row`.
+[[gnu::noinline]] static std::uint32_t first_in_order_of(const EngineState& state,
+                                                         std::uint32_t level, std::uint32_t row,
+                                                         std::uint64_t equal, double time) {
+    PendingEvent first{time, state.size, the_floor};
+    for (; equal != 0; equal &= equal - 1) {
+        const std::uint32_t place = row + static_cast<std::uint32_t>(__builtin_ctzll(equal));
+        const std::uint32_t disc = level > 1 ? state.level_winners[level - 1][place] : place;
+        const PendingEvent other = pending_event(state, disc, time);
+        if (is_first_in_order(other, first)) first = other;
+    }
+    return first.disc;
+}
+
+/// Says who comes first of all.
+template <bool in_order = false>
+SWIRL_INLINE void note_first(EngineState& state) {
+    const std::uint32_t top = state.levels - 1;
+    const double* const times = state.level_times[top];
+    Lanes<8> least = Lanes<8>::load(times);
+    for (std::uint32_t row = 1; row < state.top_rows; ++row)
+        least = smaller(least, Lanes<8>::load(times + 8 * row));
+    const double time = smallest(least);
+    std::uint64_t equal = 0;
+    for (std::uint32_t row = 0; row < state.top_rows; ++row)
+        equal |= static_cast<std::uint64_t>(lanes_equal(Lanes<8>::load(times + 8 * row), time))
+                 << (8 * row);
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctzll(equal));
+    std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
+    if (in_order && (equal & (equal - 1)) != 0 && time != never)
+        disc = first_in_order_of(state, top + 1, 0, equal, time);
+    state.first_time = time;
+    state.first_disc = disc;
 }
 
 /// From the times of all discs, which are written down: who wins.
@@ -89,70 +134,79 @@ SWIRL_INLINE void empty_queue(EngineState& state) {
                 level > 1 ? state.level_winners[level - 1][place] : place;
         }
     }
+    note_first(state);
 }
 
-SWIRL_INLINE PendingEvent pending_event(const EngineState& state, std::uint32_t disc, double time) {
-    return {time, disc, state.cold(disc).partner};
-}
-/// Of those in a row whose bits are set, who comes first in order. The row has the level below
-/// `level`, and begins at `row`.
-[[gnu::noinline]] static std::uint32_t first_in_order_of(const EngineState& state,
-                                                         std::uint32_t level, std::uint32_t row,
-                                                         unsigned equal, double time) {
-    PendingEvent first{time, state.size, the_floor};
-    for (; equal != 0; equal &= equal - 1) {
-        const std::uint32_t place = row + __builtin_ctz(equal);
-        const std::uint32_t disc = level > 1 ? state.level_winners[level - 1][place] : place;
-        const PendingEvent other = pending_event(state, disc, time);
-        if (is_first_in_order(other, first)) first = other;
+/// Leaves one disc or two without an event: their places go to the next in their rows, on every
+/// level. Where both have one row, the second sees there what the first has done, and what it
+/// writes is what stays.
+template <int D, bool in_order = false>
+SWIRL_INLINE void take_out(EngineState& state, const std::uint32_t (&who)[D]) {
+    Lanes<8> row[D];
+    std::uint32_t place[D];
+#pragma GCC unroll 2
+    for (int d = 0; d < D; ++d) {
+        place[d] = who[d];
+        double* const times = state.level_times[0] + (place[d] & ~7u);
+        row[d] = with_lane(Lanes<8>::load(times), place[d] & 7u, never);
+        row[d].store(times);
     }
-    return first.disc;
-}
-
-/// Leaves a disc without an event: its place goes to the next in its row, on every level where it
-/// had won.
-template <bool in_order = false>
-SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
-    double* const places = state.level_times[0] + (disc & ~7u);
-    Lanes<8> row = with_lane(Lanes<8>::load(places), disc & 7u, never);
-    row.store(places);
-    std::uint32_t place = disc;
     for (std::uint32_t level = 1; level < state.levels; ++level) {
-        if (state.level_winners[level][place >> 3] != disc) return;
-        const double time = smallest(row);
-        const unsigned equal = lanes_equal(row, time);
-        std::uint32_t winner = (place & ~7u) + __builtin_ctz(equal);
-        if (level > 1) winner = state.level_winners[level - 1][winner];
-        if (in_order && (equal & (equal - 1)) != 0 && time != never)
-            winner = first_in_order_of(state, level, place & ~7u, equal, time);
-        if (state.prefetches) prefetch_winner(state, level, winner);
-        place >>= 3;
-        double* const times = state.level_times[level] + (place & ~7u);
-        row = with_lane(Lanes<8>::load(times), place & 7u, time);
-        row.store(times);
-        state.level_winners[level][place] = winner;
+#pragma GCC unroll 2
+        for (int d = 0; d < D; ++d) {
+            const double time = smallest(row[d]);
+            const unsigned equal = lanes_equal(row[d], time);
+            std::uint32_t winner = (place[d] & ~7u) + __builtin_ctz(equal);
+            if (level > 1) winner = state.level_winners[level - 1][winner];
+            if (in_order && (equal & (equal - 1)) != 0 && time != never)
+                winner = first_in_order_of(state, level, place[d] & ~7u, equal, time);
+            place[d] >>= 3;
+            if (state.prefetches && d == D - 1) prefetch_winner(state, level, winner);
+            double* const times = state.level_times[level] + (place[d] & ~7u);
+            row[d] = with_lane(Lanes<8>::load(times), place[d] & 7u, time);
+            row[d].store(times);
+            state.level_winners[level][place[d]] = winner;
+        }
     }
+    note_first<in_order>(state);
+}
+SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) { take_out<1>(state, {disc}); }
+
+/// The discs of an event.
+template <bool in_order = false>
+SWIRL_INLINE void take_out(EngineState& state, const PendingEvent& event) {
+    if (event.is_with_wall() || (in_order && event.partner >= state.size))
+        take_out<1, in_order>(state, {event.disc});
+    else
+        take_out<2, in_order>(state, {event.partner, event.disc});
 }
 
 /// Gives a disc that has none, or a later one, an event at the given time.
 template <bool in_order = false>
 SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
-    for (std::uint32_t level = 0;; ++level) {
-        double* const times = state.level_times[level] + (place & ~7u);
-        with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
-        if (level > 0) state.level_winners[level][place] = disc;
+    double* const times = state.level_times[0] + (place & ~7u);
+    with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
+    const auto comes_first = [&](double before, std::uint32_t winner) {
+        if (in_order && time == before && winner != disc)
+            return is_first_in_order(pending_event(state, disc, time),
+                                     pending_event(state, winner, time));
+        return time < before;
+    };
+#pragma GCC unroll 1
+    for (std::uint32_t level = 1; level < state.levels; ++level) {
         place >>= 3;
-        if (level + 1 == state.levels) return;
-        const double before = state.level_times[level + 1][place];
-        if (in_order && time == before) {
-            const std::uint32_t winner = state.level_winners[level + 1][place];
-            if (!is_first_in_order(pending_event(state, disc, time),
-                                   pending_event(state, winner, time)))
-                return;
-        } else if (!(time < before)) {
-            return;
-        }
+        double* const row = state.level_times[level] + (place & ~7u);
+        std::uint32_t& winner = state.level_winners[level][place];
+        const bool first = comes_first(state.level_times[level][place], winner);
+        // In this order: the other way round the compiler branches on who is first.
+        if (state.prefetches && !first) return;
+        smaller(with_lane(Lanes<8>(never), place & 7u, time), Lanes<8>::load(row)).store(row);
+        winner = chosen(first, disc, winner);
+    }
+    if (comes_first(state.first_time, state.first_disc)) [[unlikely]] {
+        state.first_time = time;
+        state.first_disc = disc;
     }
 }
 
@@ -161,17 +215,8 @@ SWIRL_INLINE double pending_time(const EngineState& state, std::uint32_t disc) {
 }
 
 /// The pending event that comes first, or one of those that do.
-template <bool in_order = false>
 SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
-    const std::uint32_t top = state.levels - 1;
-    const Lanes<8> row = Lanes<8>::load(state.level_times[top]);
-    const double time = smallest(row);
-    const unsigned equal = lanes_equal(row, time);
-    const std::uint32_t lane = __builtin_ctz(equal);
-    std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
-    if (in_order && (equal & (equal - 1)) != 0 && time != never)
-        disc = first_in_order_of(state, top + 1, 0, equal, time);
-    return pending_event(state, disc, time);
+    return pending_event(state, state.first_disc, state.first_time);
 }
 
 /// Among all pending events that come at the same time as `first`, the first in order; the slow
@@ -191,11 +236,6 @@ SWIRL_INLINE PendingEvent next_pending(const EngineState& state) {
     return first;
 }
 
-SWIRL_INLINE void take_out_both(EngineState& state, const PendingEvent& event) {
-    if (!event.is_with_wall()) take_out(state, event.partner);
-    take_out(state, event.disc);
-}
-
 /// If several events come at the same instant: their first, in order. The discs of the one that was
 /// found have been taken out and are put back; those of the first are taken out.
 template <class Search>
@@ -205,10 +245,11 @@ template <class Search>
     put_in(state, found.partner, partner_pending);
     put_in(state, found.disc, found.time);
     for (;;) {
-        const PendingEvent first =
-            first_of_equals(state, state.levels - 1, 0, {found.time, state.size, state.size});
+        PendingEvent first{found.time, state.size, state.size};
+        for (std::uint32_t row = 0; row < state.top_rows; ++row)
+            first = first_of_equals(state, state.levels - 1, row, first);
         if (state.is_valid(first)) {
-            take_out_both(state, first);
+            take_out(state, first);
             return first;
         }
         Search::predict_again(state, first);
@@ -220,11 +261,12 @@ template <class Search>
 template <class Search>
 SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& found) {
     const double partner_pending = pending_time(state, found.partner);
-    // That of the partner may be another, which is taken out with it.
+    // That of the partner may be another, which is taken out with it. Half of all partners have the
+    // same time, so this is no branch.
     const bool is_one_event =
-        partner_pending != found.time || state.cold(found.partner).partner == found.disc;
-    take_out_both(state, found);
-    if (next_pending(state).time == found.time || !is_one_event) [[unlikely]]
+        (partner_pending != found.time) | (state.cold(found.partner).partner == found.disc);
+    take_out(state, found);
+    if ((state.first_time == found.time) | !is_one_event) [[unlikely]]
         return first_of_simultaneous<Search>(state, found, partner_pending);
     if (state.prefetches && !found.is_with_wall()) prefetch_neighbours(state, found.partner);
     return found;

@@ -71,7 +71,7 @@ template <Held held, int D>
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
         PendingEvent meeting =
-            earlier<8>(state.cold(who[d]).neighbours(), contacts[d], no_meeting(who[d]));
+            first_meeting<8>(state.cold(who[d]).neighbours(), contacts[d], who[d]);
         if (state.discs[who[d]].neighbours > 8) meeting = earliest_beyond_eight(state, meeting, t);
         if (turning) [[unlikely]]
             seek_wall(state, who[d], smaller(meeting.time, leaving[d].skin), leaving[d]);
