@@ -336,6 +336,22 @@ SWIRL_INLINE Lanes<W> with_lane(const Lanes<W>& a, unsigned k, double x) {
     return r;
 }
 
+/// In a row of W doubles number k becomes x, or the smaller of both. Only the register that holds
+/// it is read and written.
+template <int W>
+SWIRL_INLINE void set_lane(double* row, unsigned k, double x) {
+    constexpr unsigned width = Lanes<W>::per_part;
+    double* const part = row + (k & ~(width - 1));
+    with_lane(Lanes<width>::load(part), k & (width - 1), x).store(part);
+}
+template <int W>
+SWIRL_INLINE void lower_lane(double* row, unsigned k, double x) {
+    constexpr unsigned width = Lanes<W>::per_part;
+    double* const part = row + (k & ~(width - 1));
+    smaller(with_lane(Lanes<width>(never), k & (width - 1), x), Lanes<width>::load(part))
+        .store(part);
+}
+
 #if SWIRL_REGISTER_BYTES >= 32
 SWIRL_INLINE Double4 beside(const double* a, const double* b) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(a)), _mm_load_pd(b), 1);

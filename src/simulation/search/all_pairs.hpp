@@ -33,8 +33,7 @@ SWIRL_INLINE Others<8> load_eight(const SideBySide& all, int group) {
 }
 
 SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
-    double* const group = column + (i & ~7u);
-    with_lane(Eight::load(group), i & 7u, x).store(group);
+    set_lane<8>(column + (i & ~7u), i & 7u, x);
 }
 
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {

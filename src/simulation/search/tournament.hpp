@@ -11,8 +11,8 @@
 // Who wins a row is anybody's guess, so it is settled without a branch, on all levels. In a large
 // dish that is too much, most of it for nothing: there a disc that does not win its row is done.
 //
-// The rows are read and written whole: eight bytes written into a row that is then read as a vector
-// would wait for the store to leave the processor's store buffer.
+// The rows are read and written by whole vectors: eight bytes written into a row that is then read
+// as a vector would wait for the store to leave the processor's store buffer.
 //
 // Two equal times are mostly both partners of one collision, each with it as its pending event. If
 // they are different events, their order decides (pending_event.hpp). Of discs that is asked when
@@ -148,8 +148,8 @@ SWIRL_INLINE void take_out(EngineState& state, const std::uint32_t (&who)[D]) {
     for (int d = 0; d < D; ++d) {
         place[d] = who[d];
         double* const times = state.level_times[0] + (place[d] & ~7u);
-        row[d] = with_lane(Lanes<8>::load(times), place[d] & 7u, never);
-        row[d].store(times);
+        set_lane<8>(times, place[d] & 7u, never);
+        row[d] = Lanes<8>::load(times);
     }
     for (std::uint32_t level = 1; level < state.levels; ++level) {
 #pragma GCC unroll 2
@@ -163,8 +163,8 @@ SWIRL_INLINE void take_out(EngineState& state, const std::uint32_t (&who)[D]) {
             place[d] >>= 3;
             if (state.prefetches && d == D - 1) prefetch_winner(state, level, winner);
             double* const times = state.level_times[level] + (place[d] & ~7u);
-            row[d] = with_lane(Lanes<8>::load(times), place[d] & 7u, time);
-            row[d].store(times);
+            set_lane<8>(times, place[d] & 7u, time);
+            row[d] = Lanes<8>::load(times);
             state.level_winners[level][place[d]] = winner;
         }
     }
@@ -185,8 +185,7 @@ SWIRL_INLINE void take_out(EngineState& state, const PendingEvent& event) {
 template <bool in_order = false>
 SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
-    double* const times = state.level_times[0] + (place & ~7u);
-    with_lane(Lanes<8>::load(times), place & 7u, time).store(times);
+    set_lane<8>(state.level_times[0] + (place & ~7u), place & 7u, time);
     const auto comes_first = [&](double before, std::uint32_t winner) {
         if (in_order && time == before && winner != disc)
             return is_first_in_order(pending_event(state, disc, time),
@@ -196,12 +195,11 @@ SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
 #pragma GCC unroll 1
     for (std::uint32_t level = 1; level < state.levels; ++level) {
         place >>= 3;
-        double* const row = state.level_times[level] + (place & ~7u);
         std::uint32_t& winner = state.level_winners[level][place];
         const bool first = comes_first(state.level_times[level][place], winner);
         // In this order: the other way round the compiler branches on who is first.
         if (state.prefetches && !first) return;
-        smaller(with_lane(Lanes<8>(never), place & 7u, time), Lanes<8>::load(row)).store(row);
+        lower_lane<8>(state.level_times[level] + (place & ~7u), place & 7u, time);
         winner = chosen(first, disc, winner);
     }
     if (comes_first(state.first_time, state.first_disc)) [[unlikely]] {
