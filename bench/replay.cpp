@@ -1,0 +1,66 @@
+// replay dish|large|gas: what mispredicted branches cost (docs/performance.md, "Where the limit
+// is"). Runs the same few events again and again, each time from the same state, until the
+// processor knows every branch by heart, and as many events that it has not seen. Prints ns of the
+// processor per event.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <vector>
+
+#include "simulation/scenes.hpp"
+
+namespace {
+
+double now() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+swirl::InitialState large_dish(std::size_t n) {
+    return swirl::state_of(
+        {swirl::unit_disc()}, n,
+        swirl::paper_container_radius * swirl::square_root(static_cast<double>(n) / 48.0),
+        swirl::polygon_path(swirl::paper_amplitude, swirl::paper_period, swirl::paper_sides), 1.0,
+        1.0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    const bool gas = std::strcmp(argv[1], "gas") == 0, large = std::strcmp(argv[1], "large") == 0;
+    swirl::InitialState scene = gas     ? swirl::gas_at_rest(1000, 0.7)
+                                : large ? large_dish(500)
+                                        : swirl::paper_dish(48);
+    constexpr int places = 12, times = 2000, few = 300;
+    swirl::Simulation simulation(scene);
+    std::int64_t swirl = 30;
+    std::vector<double> by_heart, unseen;
+    for (int place = 0; place < places; ++place) {
+        // At the beginning of a swirl, where all clocks stand at 0.
+        simulation.advance_to(swirl += 3, 0.0);
+        for (std::size_t i = 0; i < scene.discs.size(); ++i) scene.discs[i] = simulation.disc(i);
+        std::vector<double> turns;
+        for (int turn = 0; turn < times; ++turn) {
+            swirl::Simulation again(scene);
+            const double begin = now();
+            again.run(few);
+            turns.push_back((now() - begin) / few);
+        }
+        by_heart.push_back(median(turns));
+        swirl::Simulation on(scene);
+        constexpr int many = 100'000;
+        const double begin = now();
+        on.run(many);
+        unseen.push_back((now() - begin) / many);
+    }
+    std::printf("%d events by heart %.1f, unseen %.1f ns per event\n", few, median(by_heart),
+                median(unseen));
+}
