@@ -1,7 +1,7 @@
 // A run interrupted between two events: enough to go on bit for bit. Not the queue of the events to
 // come, which is rebuilt: a prediction depends only on the states of the two partners.
 //
-//   swirl checkpoint 7 NEWLINE
+//   swirl checkpoint 8 NEWLINE
 //   u64 length, JSON: what run it is ("about")
 //   u64 length, bytes: discs, clock, counters, and the sums behind the averages (state_archive.hpp)
 //   u64 CRC-64 of everything before

@@ -35,7 +35,7 @@ class ClusterCentre {
 
     void sample(const MFrameView& view) {
         if (samples_++ % every_ != 0 || view.size() == 0) return;
-        const Vec2 centre = view.centre_of_mass;
+        const Vec2 centre = view.centre_of_mass().position;
         x_.add(centre.x);
         y_.add(centre.y);
         distance_.add(square_root(dot(centre, centre)));

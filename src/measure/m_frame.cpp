@@ -1,7 +1,6 @@
 #include "swirl/measure/m_frame.hpp"
 
 #include "swirl/math/wide.hpp"
-#include "swirl/measure/statistics.hpp"
 
 namespace swirl {
 
@@ -63,20 +62,6 @@ SWIRL_WIDE void turn_all(std::size_t n, const MFrame& frame, double clock,
     }
 }
 
-/// θ and ϖ_i. Turning a frame does not change r × u, nor does the common V: this is ϖ_i in the lab.
-SWIRL_WIDE void turn_rates(std::size_t n, Vec2 centre, Vec2 velocity, double closest_square,
-                           const double* __restrict X, const double* __restrict Y,
-                           const double* __restrict U, const double* __restrict W,
-                           double* __restrict theta, double* __restrict varpi) {
-    for (std::size_t i = 0; i < n; ++i) {
-        theta[i] = 2.0 * pi * turns_of({X[i], Y[i]});
-        const Vec2 r{X[i] - centre.x, Y[i] - centre.y};
-        const double q = dot(r, r);
-        const double rate = cross(r, Vec2{U[i] - velocity.x, W[i] - velocity.y}) / q;
-        varpi[i] = q > closest_square ? rate : not_known;
-    }
-}
-
 }  // namespace
 
 void MFrameView::update(const Snapshot& s) {
@@ -84,7 +69,7 @@ void MFrameView::update(const Snapshot& s) {
     frame = m_frame(s);
     time = s.time();
     container_radius = s.container_radius;
-    for (auto* column : {&x, &y, &ux, &uy, &theta, &varpi}) column->resize(n);
+    for (auto* column : {&x, &y, &ux, &uy}) column->resize(n);
     spin = s.spin;
     radius = s.radius;
     mass = s.mass;
@@ -92,19 +77,19 @@ void MFrameView::update(const Snapshot& s) {
 
     turn_all(n, frame, s.clock, s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(),
              x.data(), y.data(), ux.data(), uy.data());
+}
+
+CentreOfMass MFrameView::centre_of_mass() const {
     double m = 0.0, mx = 0.0, my = 0.0, mu = 0.0, mw = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < size(); ++i) {
         m += mass[i];
         mx += mass[i] * x[i];
         my += mass[i] * y[i];
         mu += mass[i] * ux[i];
         mw += mass[i] * uy[i];
     }
-    centre_of_mass = {mx / m, my / m};
-    centre_of_mass_velocity = {mu / m, mw / m};
     const double closest = 0x1p-40 * container_radius;
-    turn_rates(n, centre_of_mass, centre_of_mass_velocity, closest * closest, x.data(), y.data(),
-               ux.data(), uy.data(), theta.data(), varpi.data());
+    return {{mx / m, my / m}, {mu / m, mw / m}, closest * closest};
 }
 
 }  // namespace swirl

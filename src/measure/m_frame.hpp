@@ -20,8 +20,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "swirl/math/real.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/math/vec2.hpp"
+#include "swirl/measure/statistics.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
@@ -58,6 +60,22 @@ Snapshot seen_from(const MFrame& frame, const Snapshot& lab);
 /// And back. The discs' states are brought up to the clock.
 Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame);
 
+/// Of a view.
+struct CentreOfMass {
+    Vec2 position;  // M-frame
+    Vec2 velocity;  // relative to the container, turned
+    double closest_square;
+
+    /// ϖ_i of cluster_rotation.hpp, lab, of a disc at p with the relative velocity u; NaN on the
+    /// centre of mass. Turning a frame does not change r × u, nor does the common V.
+    SWIRL_INLINE double varpi(const Vec2& p, const Vec2& u) const {
+        const Vec2 r = p - position;
+        const double square = dot(r, r);
+        const double rate = cross(r, u - velocity) / square;
+        return square > closest_square ? rate : not_known;
+    }
+};
+
 /// All discs in the M-frame, as columns: what most measurements start from. Made of a snapshot on
 /// the spot where one is given instead; kept by who looks often.
 class MFrameView {
@@ -71,13 +89,9 @@ class MFrameView {
     MFrame frame{};
     double time = 0.0;  // since the beginning
     double container_radius = 0.0;
-    Vec2 centre_of_mass{};           // M-frame
-    Vec2 centre_of_mass_velocity{};  // relative to the container, turned
 
     std::vector<double> x, y;    // M-frame
     std::vector<double> ux, uy;  // velocity relative to the container, turned
-    std::vector<double> theta;   // 0 ≤ θ < 2π
-    std::vector<double> varpi;   // ϖ_i of cluster_rotation.hpp, lab; NaN on the centre of mass
     std::vector<double> spin, radius, mass, inertia;
 
     Vec2 position(std::size_t i) const { return {x[i], y[i]}; }
@@ -85,16 +99,15 @@ class MFrameView {
     Vec2 velocity(std::size_t i) const {
         return relative_velocity(i) - frame.omega * perpendicular(position(i));
     }
+    /// Summed up when asked for: most measurements do without.
+    CentreOfMass centre_of_mass() const;
 
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(frame);
         visit(time);
         visit(container_radius);
-        visit(centre_of_mass);
-        visit(centre_of_mass_velocity);
-        for (auto* column : {&x, &y, &ux, &uy, &theta, &varpi, &spin, &radius, &mass, &inertia})
-            visit(*column);
+        for (auto* column : {&x, &y, &ux, &uy, &spin, &radius, &mass, &inertia}) visit(*column);
     }
 };
 

@@ -131,6 +131,7 @@ Observation::Observation(double container_radius, double period, std::vector<std
             if (name == row.name) chosen.emplace(row.make(container_radius));
         if (!chosen) return;
         const MeasurementKind kind = kind_of(row);
+        views_samples_ |= TakesView<M> || kind.needs_pinned || kind.needs_cells;
         follows_pinned_ |= same_discs && (kind.needs_pinned || kind.needs_cells);
         finds_cells_ |= kind.needs_cells;
         follows_stays_ |= same_discs && TakesStays<M>;
@@ -144,7 +145,7 @@ Observation::Observation(double container_radius, double period, std::vector<std
 }
 
 void Observation::sample(const Snapshot& lab) {
-    if (!follows_pinned_) view_.update(lab);
+    if (views_samples_ && !follows_pinned_) view_.update(lab);
     const MFrameView& now = follows_pinned_ ? pinned_.sample(lab) : view_;
     const MFrameView* const then = pinned_.earlier();
     const Pinned pinned = pinned_.pinned_loose().pinned();

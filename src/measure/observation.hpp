@@ -169,7 +169,7 @@ class Observation {
     double period_;
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
-    bool follows_pinned_ = false, follows_stays_ = false;
+    bool views_samples_ = false, follows_pinned_ = false, follows_stays_ = false;
     bool finds_cells_ = false, samples_by_event_ = false;
 
     std::int64_t samples_ = 0;

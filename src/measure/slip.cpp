@@ -43,11 +43,12 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     pancake_.add(pancake_rotation(P, P_container));
 
     const double omega = view.frame.omega, factor = P / (P_container * omega);
+    const CentreOfMass centre = view.centre_of_mass();
     const bool hold = held_.empty();
     Rates all, pinned_ones;
     for (std::size_t i = 0; i < view.size(); ++i) {
-        const double rate = view.varpi[i];
-        const Vec2 d = view.position(i) - view.centre_of_mass;
+        const double rate = centre.varpi(view.position(i), view.relative_velocity(i));
+        const Vec2 d = view.position(i) - centre.position;
         if (!(rate == rate) || dot(d, d) < view.radius[i] * view.radius[i]) continue;
         all.add(rate);
         if (i < pinned.size() && pinned[i] != 0) pinned_ones.add(rate);

@@ -43,8 +43,8 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
     rest({2.0, 1e-9});
     rest({-2.0, -2.0 * h - 1e-9});
     const MFrameView view(s);
-    ASSERT_NEAR(view.centre_of_mass.x, 0.0, 1e-14);
-    ASSERT_NEAR(view.centre_of_mass.y, -1.5 * 2.0, 1e-9);
+    ASSERT_NEAR(view.centre_of_mass().position.x, 0.0, 1e-14);
+    ASSERT_NEAR(view.centre_of_mass().position.y, -1.5 * 2.0, 1e-9);
     profile.sample(view);
     profile.close_block();
     EXPECT_NEAR(profile.plain(0).mean, 0.0, 1e-12);

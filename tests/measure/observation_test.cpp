@@ -11,6 +11,9 @@
 namespace swirl {
 namespace {
 
+using ::testing::NanSensitiveDoubleEq;
+using ::testing::Pointwise;
+
 std::vector<std::string> everything() {
     std::vector<std::string> names;
     for (const MeasurementKind& kind : measurement_kinds()) names.emplace_back(kind.name);
@@ -116,6 +119,36 @@ TEST(Observation, MergedHasTheSumOfTheBlocks) {
     EXPECT_EQ(mean(merged).blocks, 5u);
     // The same samples, added up in another order.
     EXPECT_NEAR(mean(merged).mean, mean(expected).mean, 1e-12);
+}
+
+/// Every number of a report, in order.
+std::vector<double> numbers_in(const Report& report) {
+    std::vector<double> numbers;
+    for (const ReportRow& row : report.rows) {
+        numbers.insert(numbers.end(), {row.estimate.mean, row.estimate.error});
+        for (const ReportDetail& detail : row.details) numbers.push_back(detail.value);
+    }
+    for (const ReportTable& table : report.tables)
+        numbers.insert(numbers.end(), table.values.begin(), table.values.end());
+    return numbers;
+}
+
+// What is made for the others it does not need.
+TEST(Observation, AMeasurementAloneReportsWhatItReportsAmongAll) {
+    for (const bool same_discs : {true, false}) {
+        const Snapshot s = random_discs(12, 7);
+        Observation all(s.container_radius, s.period, everything(), same_discs);
+        observe(all, 3, 210);
+        const auto among_all = all.report();
+        for (const std::string& name : everything()) {
+            Observation one(s.container_radius, s.period, {name}, same_discs);
+            observe(one, 3, 210);
+            const auto alone = one.report();
+            EXPECT_THAT(numbers_in(report_of(alone, name)),
+                        Pointwise(NanSensitiveDoubleEq(), numbers_in(report_of(among_all, name))))
+                << name;
+        }
+    }
 }
 
 TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {

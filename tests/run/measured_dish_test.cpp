@@ -164,11 +164,13 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
             seen.slip.sample(view, seen.tracks.pinned());
             seen.frustration.sample(view, seen.tracks.pinned());
             seen.profile.sample(view);
+            const CentreOfMass centre = view.centre_of_mass();
             for (std::size_t i = 0; i < view.size(); ++i) {
-                const Vec2 d = view.position(i) - view.centre_of_mass;
+                const Vec2 d = view.position(i) - centre.position;
                 if (!(dot(d, d) < 1.0)) continue;
                 seen.near += 1.0;
-                seen.near_rotation += view.varpi[i] / view.frame.omega;
+                seen.near_rotation +=
+                    centre.varpi(view.position(i), view.relative_velocity(i)) / view.frame.omega;
             }
         }
         simulation.refresh(s, event);
