@@ -90,13 +90,14 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
 ///     s + d,   d = u τ + ((φ − sin φ) V − (1 − cos φ) W)/Ω,
 ///
 /// and what is below zero inside is f(τ) = |s|² − clearance² + (2s + d)·d, which is no polynomial.
-/// Near any moment it is c + 2b δ + q δ² + k δ³ and at most L δ⁴ more, from place, velocity,
-/// acceleration g and jerk j of the disc as seen from the centre. What is added to f(0) vanishes
-/// with d, so that a short hop along the wall keeps its digits, however fast the container.
+/// Near any moment it is c + 2b δ + q δ² + k δ³ + l δ⁴ and so on, from place, velocity,
+/// acceleration g and jerk j of the disc as seen from the centre; and without the terms behind k δ³
+/// it is wrong by at most L δ⁴. What is added to f(0) vanishes with d, so that a short hop along
+/// the wall keeps its digits, however fast the container.
 class TurningWall {
   public:
     struct Near {
-        double c, b, q, k;
+        double c, b, q, k, l;
     };
 
     SWIRL_INLINE TurningWall(const Flight<double>& disc, const Flight<double>& centre,
@@ -106,14 +107,20 @@ class TurningWall {
           V_(centre.velocity),
           turning_(turning),
           per_turning_(1.0 / turning),
-          square_(clearance * clearance) {
+          square_(clearance * clearance),
+          outside_(dot(s_, s_) - square_),
+          V2_(dot(V_, V_)) {
+        // f⁗/24 = (3 g² + 4 u·j − Ω² s·g)/12, where g is Ω|V| and j Ω²|V|. With v the disc's own
+        // velocity u is |v| + |V| at most, and s no longer than √2 clearances: inside, and as far
+        // outside as a contact could be overlooked. Twice a product is at most the sum of squares.
         const double O2 = turning * turning;
-        // f⁗/24 = (3 g² + 4 u·j + s·(−Ω² g))/12, where g is Ω|V| and j Ω²|V|; u changes by 2|V| at
-        // most, s is no longer than the clearance, and twice a product at most the sum of squares.
-        L_ = (O2 * (1.0 / 12.0)) * (2.0 * dot(u_, u_) + 13.5 * dot(V_, V_) + (0.5 * O2) * square_);
+        L_ = (O2 * (1.0 / 12.0)) *
+             (2.0 * dot(disc.velocity, disc.velocity) + 10.0 * V2_ + (0.5 * O2) * square_);
     }
 
     SWIRL_INLINE double square() const { return square_; }
+    SWIRL_INLINE double L() const { return L_; }
+    SWIRL_INLINE double turning() const { return turning_; }
     SWIRL_INLINE Near first() const { return near({0.0, 0.0}, u_, V_); }
     /// At the time τ.
     SWIRL_INLINE Near at(double tau) const {
@@ -122,6 +129,10 @@ class TurningWall {
         const Vec2 d = tau * u_ + per_turning_ * (turn.lag * V_ - turn.versine * W);
         const Vec2 turned = turn.sine * W - turn.versine * V_;
         return near(d, u_ - turned, V_ + turned);
+    }
+    /// How far inside, and at the least, as in time_to_leave, if the disc is not approaching.
+    SWIRL_INLINE double room(const Near& f) const {
+        return larger(-f.c, f.b > 0.0 ? 0.0 : 0x1p-52 * square_);
     }
     /// Up to δ = h, f is at most c + 2b δ + M δ².
     SWIRL_INLINE double steepest(const Near& f, double h) const {
@@ -135,14 +146,16 @@ class TurningWall {
   private:
     /// With the disc d away from where it was, seen with velocity u from the centre, which has V.
     SWIRL_INLINE Near near(const Vec2& d, const Vec2& u, const Vec2& V) const {
+        const double O2 = turning_ * turning_;
         const Vec2 s = s_ + d, g = (-turning_) * perpendicular(V);
-        const double c = (dot(s_, s_) - square_) + dot(s_ + s, d);
-        return {c, dot(s, u), dot(u, u) + dot(s, g),
-                dot(u, g) + (turning_ * turning_ * (1.0 / 3.0)) * dot(s, V)};
+        const double sg = dot(s, g);
+        return {outside_ + dot(s_ + s, d), dot(s, u), dot(u, u) + sg,
+                dot(u, g) + (O2 * (1.0 / 3.0)) * dot(s, V),
+                (O2 * (1.0 / 12.0)) * (3.0 * V2_ + 4.0 * dot(u, V) - sg)};
     }
 
     Vec2 s_, u_, V_;
-    double turning_, per_turning_, square_, L_;
+    double turning_, per_turning_, square_, outside_, V2_, L_;
 };
 
 /// When a disc reaches the wall; or, if not by the time asked for, a time before which it does not.
@@ -151,35 +164,71 @@ struct WallContact {
     bool is_later;
 };
 
-/// When a disc reaches the wall on a turning leg, if by `latest`. Static: each width's event loop
-/// must have a copy of its own (simulation/event_loop.hpp).
+/// Whether the disc stays inside from the start until τ = h, where it is at the wall and f rises
+/// by `slope` per time. The cubic with f's values and slopes at both ends is, with x = τ/h,
 ///
-/// The root of the steepest parabola never oversteps the contact, since f is below it up to h; and
-/// it comes as near as the square of the way times what h costs, so h is made as short as what is
-/// left to go. Three parabolas are usual. A disc that creeps along the wall takes more; after the
-/// limit it is at the wall to all digits that matter.
+///     (1 − x) (f(0) (1 − x) (1 + 2x) + f'(0) h x (1 − x) − f'(h) h x²),
 ///
-/// At the wall and approaching means now. Otherwise a disc counts as 2⁻⁵² clearance² inside
-/// (time_to_leave). Once f is that close to zero it is as zero as its rounding lets it be.
-[[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(const Flight<double>& disc,
-                                                                        const Leg& leg,
-                                                                        double clearance,
-                                                                        double latest) {
-    const double eighth = (0.25 * pi) / magnitude(leg.turning), now = larger(disc.time, leg.begin);
-    const TurningWall wall(disc, leg.flight_at(now), leg.turning, clearance);
+/// and f differs from it by no more than L h⁴ x² (1 − x)². So with A = −3 f(0) − f'(0) h,
+/// B = f'(h) h and C = L h⁴ it is below zero all the way if none of A and B is and
+/// A (1 − x) + B x > C x (1 − x), that is, √A + √B > √C.
+SWIRL_INLINE bool is_first_contact(const TurningWall& wall, const TurningWall::Near& start,
+                                   double room, double h, double slope) {
+    const double A = 3.0 * room - 2.0 * start.b * h, B = slope * h;
+    const double C = wall.L() * ((h * h) * (h * h)), more = C - (A + B);
+    return h > 0.0 && A >= 0.0 && B > 0.0 && (more < 0.0 || 4.0 * A * B > more * more);
+}
+
+/// The time until the contact, or `never` where it takes `slow_turning_wall_contact` to find it. A
+/// guess is made from the first terms at the start, and corrected by those where it leads.
+SWIRL_INLINE double quick_turning_wall_contact(const TurningWall& wall,
+                                               const TurningWall::Near& start) {
+    const bool approaching = start.b > 0.0;
+    const double room = wall.room(start), discriminant = start.b * start.b + start.q * room;
+    if (!(discriminant > 0.0 && (approaching || start.q > 0.0))) return never;
+    const double counted_inside = room + start.c, root = square_root(discriminant);
+    const double p =
+        (approaching ? room : root - start.b) / (approaching ? start.b + root : start.q);
+    double tau = p - (start.k + start.l * p) * (p * p * p) /
+                         (2.0 * root + (3.0 * start.k + 4.0 * start.l * p) * (p * p));
+    for (int corrections = 0; corrections < 4 && tau > 0.0; ++corrections) {
+        const TurningWall::Near f = wall.at(tau);
+        // With y = −c/2b the root is y (1 − e + 2e² − g − 5e³ + 5eg − i …).
+        const double r = 0.5 / f.b, c = f.c - counted_inside, y = -c * r;
+        const double e = r * f.q * y, g = r * f.k * (y * y), i = r * f.l * (y * y * y);
+        const double next = tau + y * ((1.0 - e) + (2.0 * e * e - g) + (5.0 * e * (g - e * e) - i));
+        const double e2 = e * e + magnitude(g), L3 = wall.L() * magnitude(r * y) * (y * y);
+        const double left =
+            magnitude(c) *
+            (40.0 * e2 * e2 + L3 * (10.0 * magnitude(e) + magnitude(wall.turning() * y)));
+        if (left <= 0x1p-52 * wall.square())
+            return is_first_contact(wall, start, room, next, 2.0 * (f.b + f.q * y)) ? next : never;
+        tau = next;
+    }
+    return never;
+}
+
+/// The slower way goes by parabolas. The root of the steepest one never oversteps the contact,
+/// since f is below it up to h; and it comes as near as the square of the way times what h costs,
+/// so h is made as short as what is left to go. Three parabolas are usual. A disc that creeps along
+/// the wall takes more; after the limit it is at the wall to all digits that matter.
+///
+/// Once f is as close to zero as 2⁻⁵² clearance² it is as zero as its rounding lets it be.
+[[maybe_unused, gnu::noinline]] static WallContact slow_turning_wall_contact(
+    const TurningWall& wall, double now, double eighth, double end, double latest) {
     double tau = 0.0, h = eighth;
     TurningWall::Near f = wall.first();
     for (int parabolas = 0; parabolas < 1000; ++parabolas) {
         const bool approaching = f.b > 0.0;
         if (approaching && f.c >= 0.0) break;
-        const double room = larger(-f.c, approaching ? 0.0 : 0x1p-52 * wall.square());
+        const double room = wall.room(f);
         const double M = wall.steepest(f, h);
         const double discriminant = f.b * f.b + M * room;
         const double root = square_root(larger(discriminant, 0.0));
         const double wait = (approaching ? room : root - f.b) / (approaching ? f.b + root : M);
         const bool touches = (approaching ? discriminant >= 0.0 : M > 0.0) && wait < h;
         const double next = tau + (touches ? wait : h), t = now + next;
-        if (t >= leg.end) return {never, false};
+        if (t >= end) return {never, false};
         if (t > latest) return {t, true};
         double next_h = eighth;
         if (touches) {
@@ -192,6 +241,27 @@ struct WallContact {
         f = wall.at(tau);
     }
     return {now + tau, false};
+}
+
+/// When a disc reaches the wall on a turning leg, if by `latest`. Static: each width's event loop
+/// must have a copy of its own (simulation/event_loop.hpp).
+///
+/// At the wall and approaching means now. Otherwise a disc counts as 2⁻⁵² clearance² inside
+/// (time_to_leave).
+[[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(const Flight<double>& disc,
+                                                                        const Leg& leg,
+                                                                        double clearance,
+                                                                        double latest) {
+    const double now = larger(disc.time, leg.begin);
+    const TurningWall wall(disc, leg.flight_at(now), leg.turning, clearance);
+    const TurningWall::Near start = wall.first();
+    if (start.b > 0.0 && start.c >= 0.0) return {now, false};
+    const double wait = quick_turning_wall_contact(wall, start), t = now + wait;
+    if (wait == never) [[unlikely]]
+        return slow_turning_wall_contact(wall, now, (0.25 * pi) / magnitude(leg.turning), leg.end,
+                                         latest);
+    if (t >= leg.end) return {never, false};
+    return {t, t > latest};
 }
 SWIRL_INLINE double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
                                                  double clearance) {

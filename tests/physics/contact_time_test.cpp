@@ -7,6 +7,7 @@
 
 #include "random_cases.hpp"
 #include "swirl/math/lanes.hpp"
+#include "swirl/math/random.hpp"
 
 namespace swirl {
 namespace {
@@ -212,6 +213,35 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
         const bool kept = asked.is_later ? asked.time <= t : asked.time == t;
         RC_ASSERT(kept);
     }
+}
+
+// The quick way gives an answer only where it is the first contact, and to discs near the wall
+// mostly gives one.
+TEST(TimeOfWallContact, OnTheCircleTheQuickWayFindsWhatTheParabolasFind) {
+    Random random(5);
+    const auto draw_in = [&random](double from, double to) {
+        return from + (to - from) * random.uniform();
+    };
+    const Leg leg = circular_path(1.892, 11.866071).legs[0];
+    const double clearance = 7.6, eighth = (0.25 * pi) / leg.turning;
+    int quick = 0;
+    constexpr int asked = 20000;
+    for (int k = 0; k < asked; ++k) {
+        Disc d{{}, {}, 0.0, 0.0, draw_in(0.0, 6.0), 1.0, 1.0, 1.0, {}, 0.0};
+        d.position = leg.position_at(d.time) +
+                     draw_in(0.7, 0.999) * clearance * unit_circle(random.uniform());
+        d.velocity = leg.velocity_at(d.time) + draw_in(0.0, 1.0) * unit_circle(random.uniform());
+        const TurningWall wall(d.flight(), leg.flight_at(d.time), leg.turning, clearance);
+        const double wait = quick_turning_wall_contact(wall, wall.first());
+        if (wait == never) continue;
+        ++quick;
+        const double t = slow_turning_wall_contact(wall, d.time, eighth, never, never).time;
+        // Where the disc grazes the wall its distance is what is known, not the time.
+        const Inside in{d, clearance + d.radius};
+        EXPECT_LT(std::abs(wall_distance(in, leg, 0.5 * (d.time + wait + t))), 1e-12) << k;
+        EXPECT_NEAR(d.time + wait, t, 1e-5) << k;
+    }
+    EXPECT_GT(quick, asked / 2);
 }
 
 // Hop after hop along the wall, in which the centre does little more than push: each is as long as

@@ -372,7 +372,7 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin) 
     alignas(64) double wall[8];
     wall_times<8>(state, discs.flight, discs.radius).store(wall);
     for (std::uint32_t k = 0; k < 8 && begin + k < state.near_wall_count; ++k)
-        renew_leaving(state, who[k], {wall[k], never}, false);
+        renew_leaving(state, who[k], state.clock, {wall[k], never}, false);
 }
 
 /// The container takes another course.

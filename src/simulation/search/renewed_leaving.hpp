@@ -16,7 +16,7 @@ inline namespace SWIRL_TARGET {
 /// other times. An event of theirs that now comes later leaves its disc to be predicted again at
 /// the time it held, which is early enough for whatever comes next. In the middle of a turning leg
 /// only the skin does.
-SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving leaving,
+SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, double t, Leaving leaving,
                                 bool in_new_frame = true) {
     ColdDisc& cold = state.cold(i);
     const bool turning = state.on_turning_leg();
@@ -24,10 +24,10 @@ SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, Leaving lea
         cold.partner = no_event;
     const PendingEvent held{pending_time(state, i), i, cold.partner};
     if (turning) [[unlikely]] {
-        if (cold.partner == i)
-            leaving.wall = held.time;
+        if (cold.partner == i || cold.partner == approaches_wall)
+            leaving.wall = never;
         else
-            seek_wall(state, i, smaller(held.time, leaving.skin), leaving);
+            approach_wall(state, i, t, smaller(held.time, leaving.skin), leaving);
     }
     const PendingEvent first = first_of(held, leaving);
     if (first.partner != held.partner) put_in(state, first);

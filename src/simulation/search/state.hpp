@@ -64,6 +64,8 @@ static_assert(sizeof(ColdDisc) == 16);
 inline constexpr std::uint32_t no_event = 0xffffff00u;  // the wall event that was here is void
 /// Its skin; or its cell, and then by which edge: + 0 to 3 is right, left, up, down.
 inline constexpr std::uint32_t leaves_skin = 0xffffff01u;
+/// On a turning leg: it is not at the wall before then, and has to be asked again (wall_times.hpp).
+inline constexpr std::uint32_t approaches_wall = 0xffffff05u;
 
 /// Where those a disc may meet were looked up: a circle (verlet_skin.hpp), or a cell
 /// (linked_cells.hpp).
@@ -191,6 +193,7 @@ struct TurningBound {
     double turning, per_turning;
     double horizon;  // a time for which the parabolas hold
     double lasts;    // before and after centre.time
+    double soon;     // who comes to the wall so soon is mostly there before it meets somebody
     double L, L_of_u2, L_of_square;
     double margin;  // against rounding errors, as a fraction
 };

@@ -74,7 +74,7 @@ template <Held held, int D>
             first_meeting<8>(state.cold(who[d]).neighbours(), contacts[d], who[d]);
         if (state.discs[who[d]].neighbours > 8) meeting = earliest_beyond_eight(state, meeting, t);
         if (turning) [[unlikely]]
-            seek_wall(state, who[d], smaller(meeting.time, leaving[d].skin), leaving[d]);
+            approach_wall(state, who[d], t, smaller(meeting.time, leaving[d].skin), leaving[d]);
         put_in(state, first_of(meeting, leaving[d]));
     }
 }
@@ -182,7 +182,7 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     for (std::uint32_t k = 0; k < count; ++k) {
         const unsigned is_far = far >> k & 1u;
         state.discs[begin + k].far_from_wall = is_far & 1u;
-        renew_leaving(state, begin + k, {wall[k] + far_wait[is_far], skin[k]});
+        renew_leaving(state, begin + k, t, {wall[k] + far_wait[is_far], skin[k]});
     }
 }
 
@@ -221,7 +221,7 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin,
         const auto k = static_cast<std::uint32_t>(__builtin_ctz(near));
         const unsigned is_far = far >> k & 1u;
         state.discs[begin + k].far_from_wall = is_far & 1u;
-        renew_leaving(state, begin + k, {wall[k] + far_wait[is_far], never}, false);
+        renew_leaving(state, begin + k, t, {wall[k] + far_wait[is_far], never}, false);
     }
 }
 

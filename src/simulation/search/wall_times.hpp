@@ -59,6 +59,7 @@ SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
     bound.turning = O;
     bound.per_turning = 1.0 / O;
     bound.lasts = turn / 30.0;
+    bound.soon = turn / 90.0;
     bound.horizon = state.side_by_side ? turn / 6.0 : turn / 30.0;
     bound.L = O2 * (8.7 / 12.0) * speed2;
     bound.L_of_u2 = O2 * (2.0 / 12.0);
@@ -268,10 +269,15 @@ SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i, do
     return turning_wall_contact(disc.flight(), state.legs[state.leg],
                                 state.container_radius - disc.radius, latest);
 }
-/// The same, where it may not reach the wall before leaving.wall.
-SWIRL_INLINE void seek_wall(const EngineState& state, std::uint32_t i, double latest,
-                            Leaving& leaving) {
+/// The same, asked at time t, where it does not reach the wall before leaving.wall. If that is soon
+/// the contact is sought; else the disc is asked again then, as most meet somebody before.
+SWIRL_INLINE void approach_wall(const EngineState& state, std::uint32_t i, double t, double latest,
+                                Leaving& leaving) {
     if (leaving.wall > latest) return;
+    if (leaving.wall - t > state.turning_bound.soon) {
+        leaving = {never, leaving.wall, approaches_wall};
+        return;
+    }
     const WallContact contact = seek_wall(state, i, latest);
     leaving.wall = contact.is_later ? never : contact.time;
 }
