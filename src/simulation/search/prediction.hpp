@@ -88,8 +88,7 @@ SWIRL_INLINE PendingEvent first_meeting(const std::uint32_t* neighbours, const L
     return {time, i, partner};
 }
 
-/// The first of a disc's first meeting, the wall and the end of its skin (pending_event.hpp). Each
-/// may be it, in no order: a branch would often be mispredicted.
+/// The first of a disc's first meeting, the wall and the end of its skin.
 SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& leaving) {
     const PendingEvent wall{leaving.wall, meeting.disc, meeting.disc};
     const PendingEvent first = precedes(wall, meeting) ? wall : meeting;
