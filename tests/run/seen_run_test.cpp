@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "swirl/measure/statistics.hpp"
 #include "swirl/run/json.hpp"
 
 namespace swirl {
@@ -32,15 +34,24 @@ TEST(SeenRun, ManyExactPicturesSayWhatTheRunSays) {
 }
 
 TEST(SeenRun, PoorPlacesHeatTheDiscsByWhatTheyAdd) {
-    const auto temperature = [](double error) {
-        return seen_run(small_dish(), {64, error},
+    RunConfig config = small_dish();
+    config.path = PathShape::polygon;
+    const auto temperature = [&config](double error) {
+        return seen_run(config, {64, error},
                         {"temperature"})["measured"]["temperature"]["granular"]["mean"]
             .get<double>();
     };
     // A velocity over two steps of T/64 has the variance 2σ²/(2T/64)² a coordinate.
-    const double step = small_dish().period / 64.0, error = 0.02;
+    const double step = config.period / 64.0, error = 0.02;
     const double added = 2.0 * error * error / (4.0 * step * step);
-    EXPECT_NEAR(temperature(error) - temperature(0.0), added, 0.15 * added);
+    // One run tells it to a sixth or so: its discs are seen in other cells than with exact places.
+    std::vector<double> shares;
+    for (config.seed = 1; config.seed <= 16; ++config.seed)
+        shares.push_back((temperature(error) - temperature(0.0)) / added);
+    const Estimate share = estimate_of(shares);
+    // Of some 4000 places seen, each of up to 314 cells of the dish takes one for its mean flow.
+    EXPECT_NEAR(share.mean, 0.96, 0.04 + 3.0 * share.error);
+    EXPECT_LT(share.error, 0.06);
 }
 
 }  // namespace
