@@ -56,7 +56,8 @@ class Started:
 
 
 class Stop(InFolder):
-    def expect_heard(self, moments, *arguments, sent=signal.SIGTERM):
+    def expect_heard(self, moments, *arguments, sent=signal.SIGTERM, saving=0.0):
+        """`saving`: seconds besides, for what is written once the signal has been heard."""
         heard = 0
         for moment in moments:
             with self.subTest(arguments=arguments, moment=moment):
@@ -67,7 +68,7 @@ class Stop(InFolder):
                 code, errors, used = started.stop(sent)
                 self.assertEqual(code, 130, errors)
                 self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
-                self.assertLess(used, 1.0)
+                self.assertLess(used, 1.0 + saving)
                 heard += 1
         return heard
 
@@ -77,9 +78,11 @@ class Stop(InFolder):
 
     def test_while_a_million_discs_are_made_ready_and_run(self):
         radius = 8.6 * (1e6 / 48) ** 0.5
+        # The checkpoint has 104 MB. To put it together, sum it and write it took up to 1.3 s of the
+        # processor where memory was slow, more than half of it in the kernel.
         self.assertGreaterEqual(
             self.expect_heard([0.1, 0.4, 0.8, 1.2, 1.8, 2.6], "run", "--discs", 1000000,
-                              "--container-radius", radius, "--events", "1e8", "--quiet"), 6)
+                              "--container-radius", radius, "--events", "1e8", "--quiet", saving=2.0), 6)
 
     def test_while_a_small_disc_is_pushed_from_the_gaps(self):
         # So dense that the small ones find no lattice: pairs are pushed apart for seconds.
