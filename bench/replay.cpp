@@ -2,7 +2,6 @@
 // is"). Runs the same few events again and again, each time from the same state, until the
 // processor knows every branch by heart, and as many events that it has not seen. Prints ns of the
 // processor per event.
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "simulation/scenes.hpp"
+#include "swirl/math/median.hpp"
 
 namespace {
 
@@ -17,10 +17,6 @@ double now() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 swirl::InitialState large_dish(std::size_t n) {
@@ -54,13 +50,13 @@ int main(int argc, char** argv) {
             again.run(few);
             turns.push_back((now() - begin) / few);
         }
-        by_heart.push_back(median(turns));
+        by_heart.push_back(swirl::median(turns));
         swirl::Simulation on(scene);
         constexpr int many = 100'000;
         const double begin = now();
         on.run(many);
         unseen.push_back((now() - begin) / many);
     }
-    std::printf("%d events by heart %.1f, unseen %.1f ns per event\n", few, median(by_heart),
-                median(unseen));
+    std::printf("%d events by heart %.1f, unseen %.1f ns per event\n", few, swirl::median(by_heart),
+                swirl::median(unseen));
 }

@@ -613,27 +613,11 @@ TEST(Observation, RefreshedSnapshotEqualsANewOne) {
 }
 
 TEST(Resume, FromTheDiscsAndTheProgressContinuesBitForBit) {
-    const InitialState scene = paper_dish(48);
-    Simulation whole(scene), first(scene);
-    whole.run(60000);
-    first.run(23456);
-    InitialState saved = scene;
-    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
-    Simulation resumed(saved, first.progress());
-    resumed.run(60000 - 23456);
-    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+    expect_resumed_bit_for_bit(paper_dish(48), 60000, 23456);
 }
 
 TEST(Resume, OfUnequalDiscsInCellsContinuesBitForBit) {
-    const InitialState scene = gas_of_two_sizes(50, 450, 0.1, 0.2, 3.0);
-    Simulation whole(scene), first(scene);
-    whole.run(20000);
-    first.run(7654);
-    InitialState saved = scene;
-    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
-    Simulation resumed(saved, first.progress());
-    resumed.run(20000 - 7654);
-    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+    expect_resumed_bit_for_bit(gas_of_two_sizes(50, 450, 0.1, 0.2, 3.0), 20000, 7654);
 }
 
 }  // namespace

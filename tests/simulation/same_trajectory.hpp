@@ -79,4 +79,18 @@ inline std::string width_name(const ::testing::TestParamInfo<Width>& width) {
     }
 }
 
+/// Saved after so many events and resumed, a run ends as one that went through.
+inline void expect_resumed_bit_for_bit(const InitialState& scene, std::uint64_t events,
+                                       std::uint64_t saved_after) {
+    Simulation whole(scene), first(scene);
+    whole.run(events);
+    first.run(saved_after);
+    InitialState saved = scene;
+    for (std::size_t i = 0; i < saved.discs.size(); ++i) saved.discs[i] = first.disc(i);
+    Simulation resumed(saved, first.progress());
+    resumed.run(events - saved_after);
+    EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+    EXPECT_EQ(whole.events().begins_to_roll, resumed.events().begins_to_roll);
+}
+
 }  // namespace swirl

@@ -115,16 +115,11 @@ SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
     collect<false>(state, i, candidates);
 }
 
-/// On a turning leg: when disc i, which does something else at `latest`, reaches the wall before.
-[[gnu::noinline]] static double wall_time_on_turn(const EngineState& state, std::uint32_t i,
-                                                  double latest) {
-    const WallContact contact = seek_wall(state, i, latest);
-    return contact.is_later ? never : contact.time;
-}
+/// When disc i, which does something else at `latest`, reaches the wall, if before.
 SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i, double latest) {
     if (state.discs[i].far_from_wall != 0) return never;
     if (state.on_turning_leg()) [[unlikely]]
-        return wall_time_on_turn(state, i, latest);
+        return wall_time_by(state, i, latest);
     return swirl::wall_time(state, i);
 }
 

@@ -269,6 +269,12 @@ SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i, do
     return turning_wall_contact(disc.flight(), state.legs[state.leg],
                                 state.container_radius - disc.radius, latest);
 }
+/// The same as a time, which does not come if it is later.
+[[maybe_unused, gnu::noinline]] static double wall_time_by(const EngineState& state,
+                                                           std::uint32_t i, double latest) {
+    const WallContact contact = seek_wall(state, i, latest);
+    return contact.is_later ? never : contact.time;
+}
 /// The same, asked at time t, where it does not reach the wall before leaving.wall. If that is soon
 /// the contact is sought; else the disc is asked again then, as most meet somebody before.
 SWIRL_INLINE void approach_wall(const EngineState& state, std::uint32_t i, double t, double latest,
@@ -278,8 +284,7 @@ SWIRL_INLINE void approach_wall(const EngineState& state, std::uint32_t i, doubl
         leaving = {never, leaving.wall, approaches_wall};
         return;
     }
-    const WallContact contact = seek_wall(state, i, latest);
-    leaving.wall = contact.is_later ? never : contact.time;
+    leaving.wall = wall_time_by(state, i, latest);
 }
 
 }  // namespace SWIRL_TARGET
