@@ -28,6 +28,14 @@ concept HasFields = requires(T& value, Visitor& visitor) {
     value.fields(visitor);
 };
 
+/// Many of them are kept as they lie in memory, which is what they are one by one: numbers, and
+/// plain structures of them.
+template <class T, class Visitor>
+concept KeptAsBytes =
+    std::is_trivially_copyable_v<T> && !HasFields<T, Visitor> && !std::same_as<T, bool> &&
+    (std::is_arithmetic_v<T> ||
+     (std::is_aggregate_v<T> && !requires { std::tuple_size<T>::value; }));
+
 class StateWriter {
   public:
     template <class T>
@@ -50,7 +58,7 @@ class StateWriter {
     template <class T>
     void operator()(std::vector<T>& values) {
         size(values.size());
-        if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) {
+        if constexpr (KeptAsBytes<T, StateWriter>) {
             bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
         } else if constexpr (std::same_as<T, bool>) {
             for (const bool value : values) bytes_ += value ? '\1' : '\0';
@@ -83,7 +91,18 @@ class StateWriter {
     template <class... Parts>
     requires(sizeof...(Parts) > 1) void operator()(Parts&... parts) { ((*this)(parts), ...); }
 
-    const std::string& bytes() const { return bytes_; }
+    /// What `write` adds, readable as one std::string.
+    template <class Write>
+    void as_text(Write&& write) {
+        size(0);
+        const std::size_t begin = bytes_.size();
+        write(*this);
+        const std::uint64_t n = bytes_.size() - begin;
+        std::memcpy(bytes_.data() + begin - sizeof n, &n, sizeof n);
+    }
+
+    const std::string& bytes() const& { return bytes_; }
+    std::string bytes() && { return std::move(bytes_); }
 
   private:
     void size(std::uint64_t n) { bytes_.append(reinterpret_cast<const char*>(&n), sizeof n); }
@@ -109,7 +128,7 @@ class StateReader {
     template <class T>
     void operator()(std::vector<T>& values) {
         const std::uint64_t n = size();
-        if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) {
+        if constexpr (KeptAsBytes<T, StateReader>) {
             if (n > rest_.size() / sizeof(T)) too_short();
             values.resize(n);
             const std::string_view bytes = take(n * sizeof(T));

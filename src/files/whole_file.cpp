@@ -140,9 +140,14 @@ void WholeFile::empty_buffer() {
 }
 
 void WholeFile::append(std::string_view bytes) {
-    buffer_ += bytes;
+    if (buffer_.size() + bytes.size() < buffer_size) {
+        buffer_ += bytes;
+        size_ += bytes.size();
+        return;
+    }
+    empty_buffer();
+    if (!write_at(file_, size_, bytes)) fail();
     size_ += bytes.size();
-    if (buffer_.size() >= buffer_size) empty_buffer();
 }
 
 void WholeFile::replace(std::uint64_t offset, std::string_view bytes) {

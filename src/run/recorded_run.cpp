@@ -208,7 +208,7 @@ class Recorder {
     void keep(Run& run) {
         if (files_.checkpoint.empty() || given_up_) return;
         try {
-            write(run.state());
+            write(run);
         } catch (const FileError& error) {
             if (files_.checkpoint_needed) throw;
             given_up_ = true;
@@ -219,19 +219,19 @@ class Recorder {
     }
 
     /// What the checkpoint counts on must be on the disk before it.
-    void write(const std::string& run_state) {
+    void write(Run& run) {
         if (trajectory_) trajectory_->flush();
         if (event_log_) event_log_->flush();
         StateWriter state;
         std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
         std::uint64_t logged = event_log_ ? event_log_->events() : 0;
         state(frames, logged, events_, frame_times_);
-        state(run_state);
+        state.as_text([&](StateWriter& kept) { run.write(kept); });
         const Json about{{"version", version()},
                          {"identity", identity(config_, files_, observation_)},
                          {"run", run_name_},
                          {"call", files_.call}};
-        write_checkpoint(files_.checkpoint, {about.dump(), state.bytes()});
+        write_checkpoint(files_.checkpoint, {about.dump(), std::move(state).bytes()});
         last_kept_ = Clock::now();
     }
 

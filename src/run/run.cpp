@@ -22,6 +22,7 @@ struct Moment {
 
     static Moment of(const Simulation& simulation) {
         Moment m{simulation.progress(), {}};
+        m.discs.reserve(simulation.size());
         for (std::size_t i = 0; i < simulation.size(); ++i) m.discs.push_back(simulation.disc(i));
         return m;
     }
@@ -77,14 +78,18 @@ void Run::fields(Visitor&& visit) {
     if (control_.observation) visit(*control_.observation);
 }
 
-std::string Run::state() {
-    StateWriter state;
+void Run::write(StateWriter& state) {
     Moment moment = Moment::of(run_.simulation());
     state(moment);
     const double before = std::exchange(seconds_before_, seconds());
     fields(state);
     seconds_before_ = before;
-    return state.bytes();
+}
+
+std::string Run::state() {
+    StateWriter state;
+    write(state);
+    return std::move(state).bytes();
 }
 
 std::optional<std::string> Run::trouble_with_length(const RunConfig& shorter) const {

@@ -18,6 +18,8 @@
 
 namespace swirl {
 
+class StateWriter;
+
 struct RunProgress {
     double fraction;       // of the run
     std::uint64_t events;  // so far
@@ -91,6 +93,8 @@ class Run {
 
     /// For RunControl::resume; between pass_event() and next_event().
     std::string state();
+    /// The same, in its place among what else is kept of the run.
+    void write(StateWriter& state);
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -157,6 +157,60 @@ TEST(StateArchive, GivesBackWhatItGot) {
     }
 }
 
+struct Plain {
+    double a;
+    std::int64_t b;
+    friend bool operator==(const Plain&, const Plain&) = default;
+};
+
+TEST(StateArchive, KeepsManyAsItKeepsThemOneByOne) {
+    // What has its own way of being kept, as a number that may be missing has, is kept in that way.
+    std::vector<Plain> plain{{0.5, -3}, {-0.0, 7}};
+    std::vector<std::optional<double>> gaps{1.5, {}, 2.5};
+    std::vector<std::pair<double, bool>> pairs{{1.0, true}, {2.0, false}};
+    std::vector<std::array<std::optional<int>, 2>> arrays{{{1, {}}}};
+    StateWriter many, single;
+    many(plain, gaps, pairs, arrays);
+    const auto one_by_one = [&](auto& values) {
+        std::uint64_t n = values.size();
+        single(n);
+        for (auto& value : values) single(value);
+    };
+    one_by_one(plain), one_by_one(gaps), one_by_one(pairs), one_by_one(arrays);
+    EXPECT_EQ(many.bytes(), single.bytes());
+
+    std::vector<Plain> plain2;
+    std::vector<std::optional<double>> gaps2;
+    std::vector<std::pair<double, bool>> pairs2;
+    std::vector<std::array<std::optional<int>, 2>> arrays2;
+    StateReader reader(many.bytes());
+    reader(plain2, gaps2, pairs2, arrays2);
+    reader.expect_end();
+    EXPECT_EQ(plain2, plain);
+    EXPECT_EQ(gaps2, gaps);
+    EXPECT_EQ(pairs2, pairs);
+    EXPECT_EQ(arrays2, arrays);
+}
+
+TEST(StateArchive, ReadsAsOneTextWhatWasWrittenInItsPlace) {
+    double before = 1.0, inside = 2.0, after = 3.0;
+    StateWriter writer;
+    writer(before);
+    writer.as_text([&](StateWriter& in) { in(inside, inside); });
+    writer(after);
+
+    double before2, inside2, after2;
+    std::string text;
+    StateReader reader(writer.bytes());
+    reader(before2, text, after2);
+    reader.expect_end();
+    EXPECT_EQ(after2, after);
+    StateReader in_text(text);
+    in_text(inside2, inside2);
+    in_text.expect_end();
+    EXPECT_EQ(inside2, inside);
+}
+
 std::string refusal(const std::filesystem::path& path) {
     try {
         read_checkpoint(path);

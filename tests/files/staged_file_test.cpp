@@ -177,6 +177,23 @@ TEST(WholeFile, StandsUnderItsNameOnlyWhenItIsComplete) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.folder()), {}), 1);
 }
 
+TEST(WholeFile, HoldsSmallAndLargePiecesInTheirOrder) {
+    // Pieces wait in a buffer of a mebibyte; who does not fit goes past it.
+    const Scratch scratch;
+    std::string all;
+    WholeFile file(scratch / "f");
+    for (const std::size_t size : {3, 1 << 20, 5, (1 << 20) - 5, 4, 3 << 20, 0, 700'000, 700'000}) {
+        const std::string piece(size, char('a' + all.size() % 23));
+        file.append(piece);
+        all += piece;
+        EXPECT_EQ(file.size(), all.size());
+    }
+    file.replace(2, "changed");
+    all.replace(2, 7, "changed");
+    file.finish();
+    EXPECT_TRUE(read_whole_file(scratch / "f") == all);
+}
+
 TEST(WholeFile, SaysWhereItCouldNotBeWritten) {
     const Scratch scratch;
     try {
