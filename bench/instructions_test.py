@@ -18,8 +18,8 @@ PROGRAM = os.environ["SWIRL_COUNT_INSTRUCTIONS"]
 ALLOWED = {
     "dish": (20000, 40000, 2460),  # N = 48, mu = 1, corners included
     "few": (20000, 40000, 3670),   # N = 28, all pairs
-    "circle": (20000, 40000, 2730),  # N = 48 on the exact circle
-    "few, circle": (20000, 40000, 4480),  # N = 28
+    "circle": (20000, 40000, 2660),  # N = 48 on the exact circle
+    "few, circle": (20000, 40000, 3910),  # N = 28
     "gas": (10000, 20000, 2860),   # N = 1000, packing 0.7
     "thin": (10000, 20000, 5550),  # N = 1000, packing 0.2, cells
 }

@@ -74,9 +74,47 @@ SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
     return quarter_turns(k, {c, s});
 }
 
+/// For |φ| ≤ 2: Taylor's series, whose first terms left out are below 2²⁵/25! = 2·10⁻¹⁸ and
+/// 2²⁴/24! = 3·10⁻¹⁷. Neither division nor branch.
+SWIRL_INLINE constexpr Turn wide_turn(double phi) {
+    // One over n!.
+    constexpr double s[] = {1.0 / 6.0,
+                            1.0 / 120.0,
+                            1.0 / 5040.0,
+                            1.0 / 362880.0,
+                            1.0 / 39916800.0,
+                            1.0 / 6227020800.0,
+                            1.0 / 1307674368000.0,
+                            1.0 / 355687428096000.0,
+                            1.0 / 121645100408832000.0,
+                            1.0 / 51090942171709440000.0,
+                            1.0 / 25852016738884976640000.0};
+    constexpr double c[] = {0.5,
+                            1.0 / 24.0,
+                            1.0 / 720.0,
+                            1.0 / 40320.0,
+                            1.0 / 3628800.0,
+                            1.0 / 479001600.0,
+                            1.0 / 87178291200.0,
+                            1.0 / 20922789888000.0,
+                            1.0 / 6402373705728000.0,
+                            1.0 / 2432902008176640000.0,
+                            1.0 / 1124000727777607680000.0};
+    const double q = phi * phi, q2 = q * q, q4 = q2 * q2;
+    const auto pair = [&q](double a, double b) { return a - q * b; };
+    const auto sum = [&](const double(&n)[11]) {
+        const double first = pair(n[0], n[1]) + q2 * pair(n[2], n[3]);
+        const double then = pair(n[4], n[5]) + q2 * pair(n[6], n[7]);
+        const double last = pair(n[8], n[9]) + q2 * n[10];
+        return first + q4 * (then + q4 * last);
+    };
+    const double lag = (phi * q) * sum(s);
+    return {phi - lag, q * sum(c), lag};
+}
+
 /// For any angle.
 SWIRL_INLINE constexpr Turn turn_by(double phi) {
-    if (phi <= pi / 4.0 && phi >= -pi / 4.0) return small_turn(phi);
+    if (phi <= 2.0 && phi >= -2.0) return wide_turn(phi);
     const Vec2 u = quick_unit_circle(phi * (0.5 / pi));
     return {u.y, 1.0 - u.x, phi - u.y};
 }

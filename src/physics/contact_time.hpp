@@ -90,14 +90,19 @@ SWIRL_INLINE Real time_of_wall_contact(const Flight<Real>& disc,
 ///     s + d,   d = u τ + ((φ − sin φ) V − (1 − cos φ) W)/Ω,
 ///
 /// and what is below zero inside is f(τ) = |s|² − clearance² + (2s + d)·d, which is no polynomial.
-/// Near any moment it is c + 2b δ + q δ² + k δ³ + l δ⁴ and so on, from place, velocity,
-/// acceleration g and jerk j of the disc as seen from the centre; and without the terms behind k δ³
-/// it is wrong by at most L δ⁴. What is added to f(0) vanishes with d, so that a short hop along
-/// the wall keeps its digits, however fast the container.
+/// What is added to f(0) vanishes with d, so that a short hop along the wall keeps its digits,
+/// however fast the container.
+///
+/// Near any moment it is c + 2b δ + q δ² + k δ³ + l δ⁴ + m δ⁵ + n δ⁶ + o δ⁷ + p δ⁸ and so on. With
+/// acceleration g and jerk j of the disc as seen from the centre, and as j' = −Ω² g, the
+/// derivatives of f/2 are
+///
+///     s·u,  u² + s·g,  3 u·g + s·j,  3 g² + 4 u·j − Ω² s·g,  −Ω² (5 u·g + s·j),
+///     −Ω² (5 g² + 6 u·j − Ω² s·g),  Ω⁴ (7 u·g + s·j),  Ω⁴ (7 g² + 8 u·j − Ω² s·g).
 class TurningWall {
   public:
     struct Near {
-        double c, b, q, k, l;
+        double c, b, q, k, l, m, n, o, p;
     };
 
     SWIRL_INLINE TurningWall(const Flight<double>& disc, const Flight<double>& centre,
@@ -109,18 +114,21 @@ class TurningWall {
           per_turning_(1.0 / turning),
           square_(clearance * clearance),
           outside_(dot(s_, s_) - square_),
-          V2_(dot(V_, V_)) {
-        // f⁗/24 = (3 g² + 4 u·j − Ω² s·g)/12, where g is Ω|V| and j Ω²|V|. With v the disc's own
-        // velocity u is |v| + |V| at most, and s no longer than √2 clearances: inside, and as far
-        // outside as a contact could be overlooked. Twice a product is at most the sum of squares.
-        const double O2 = turning * turning;
-        L_ = (O2 * (1.0 / 12.0)) *
-             (2.0 * dot(disc.velocity, disc.velocity) + 10.0 * V2_ + (0.5 * O2) * square_);
-    }
+          V2_(dot(V_, V_)),
+          v2_(dot(disc.velocity, disc.velocity)) {}
 
     SWIRL_INLINE double square() const { return square_; }
-    SWIRL_INLINE double L() const { return L_; }
     SWIRL_INLINE double turning() const { return turning_; }
+    /// Without the terms behind k δ³ it is wrong by at most L δ⁴. f⁗/24 = (3 g² + 4 u·j −
+    /// Ω² s·g)/12, where g is Ω|V| and j Ω²|V|. With v the disc's own velocity u is |v| + |V| at
+    /// most, and s no longer than √2 clearances: inside, and as far outside as a contact could be
+    /// overlooked. Twice a product is at most the sum of squares.
+    SWIRL_INLINE double L() const {
+        const double O2 = turning_ * turning_;
+        return O2 * (1.0 / 12.0) * (2.0 * v2_ + 10.0 * V2_ + 0.5 * O2 * square_);
+    }
+    /// No more than K is |f″/2| = |u² + s·g|, in the same way.
+    SWIRL_INLINE double K() const { return 2.0 * v2_ + 2.5 * V2_ + turning_ * turning_ * square_; }
     SWIRL_INLINE Near first() const { return near({0.0, 0.0}, u_, V_); }
     /// At the time τ.
     SWIRL_INLINE Near at(double tau) const {
@@ -136,26 +144,35 @@ class TurningWall {
     }
     /// Up to δ = h, f is at most c + 2b δ + M δ².
     SWIRL_INLINE double steepest(const Near& f, double h) const {
-        return f.q + h * (larger(f.k, 0.0) + h * L_);
+        return f.q + h * (larger(f.k, 0.0) + h * L());
     }
     /// And by no more than so much less at δ ≤ h.
     SWIRL_INLINE double below_steepest(const Near& f, double M, double delta) const {
-        return ((M - f.q) - delta * (f.k - L_ * delta)) * (delta * delta);
+        return ((M - f.q) - delta * (f.k - L() * delta)) * (delta * delta);
     }
 
   private:
     /// With the disc d away from where it was, seen with velocity u from the centre, which has V.
     SWIRL_INLINE Near near(const Vec2& d, const Vec2& u, const Vec2& V) const {
-        const double O2 = turning_ * turning_;
-        const Vec2 s = s_ + d, g = (-turning_) * perpendicular(V);
-        const double sg = dot(s, g);
-        return {outside_ + dot(s_ + s, d), dot(s, u), dot(u, u) + sg,
-                dot(u, g) + (O2 * (1.0 / 3.0)) * dot(s, V),
-                (O2 * (1.0 / 12.0)) * (3.0 * V2_ + 4.0 * dot(u, V) - sg)};
+        const double O2 = turning_ * turning_, O4 = O2 * O2;
+        const Vec2 s = s_ + d, g = -turning_ * perpendicular(V);
+        const double ug = dot(u, g), sj = O2 * dot(s, V);
+        const double sg = dot(s, g), uj = O2 * dot(u, V);
+        const double g2 = O2 * V2_, Osg = O2 * sg;
+        return {outside_ + dot(s_ + s, d),
+                dot(s, u),
+                dot(u, u) + sg,
+                (1.0 / 3.0) * (3.0 * ug + sj),
+                (1.0 / 12.0) * (3.0 * g2 + (4.0 * uj - Osg)),
+                -O2 * (1.0 / 60.0) * (5.0 * ug + sj),
+                -O2 * (1.0 / 360.0) * (5.0 * g2 + (6.0 * uj - Osg)),
+                O4 * (1.0 / 2520.0) * (7.0 * ug + sj),
+                O4 * (1.0 / 20160.0) * (7.0 * g2 + (8.0 * uj - Osg))};
     }
 
     Vec2 s_, u_, V_;
-    double turning_, per_turning_, square_, outside_, V2_, L_;
+    double turning_, per_turning_;
+    double square_, outside_, V2_, v2_;
 };
 
 /// When a disc reaches the wall; or, if not by the time asked for, a time before which it does not.
@@ -179,31 +196,78 @@ SWIRL_INLINE bool is_first_contact(const TurningWall& wall, const TurningWall::N
     return h > 0.0 && A >= 0.0 && B > 0.0 && (more < 0.0 || 4.0 * A * B > more * more);
 }
 
+/// As far as the terms to the eighth suffice for all digits.
+inline constexpr double short_turn = 0.0625;
+
+/// A guess from the terms at the start: the parabola's root, and from there a step of Halley's
+/// towards that of all terms to the sixth. 0 where the parabola has none.
+SWIRL_INLINE double guess_turning_wall_contact(const TurningWall::Near& f, double room) {
+    const bool approaching = f.b > 0.0;
+    const double discriminant = f.b * f.b + f.q * room;
+    if (!(discriminant > 0.0 && (approaching || f.q > 0.0))) return 0.0;
+    const double root = square_root(discriminant);
+    const double p = (approaching ? room : root - f.b) / (approaching ? f.b + root : f.q);
+    const double p2 = p * p, p3 = p2 * p;
+    const double P =
+        ((2.0 * f.b * p - room) + p2 * f.q) + p3 * ((f.k + f.l * p) + p2 * (f.m + f.n * p));
+    const double P1 = (2.0 * f.b + 2.0 * f.q * p) +
+                      p2 * ((3.0 * f.k + 4.0 * f.l * p) + p2 * (5.0 * f.m + 6.0 * f.n * p));
+    const double P2 =
+        (f.q + 3.0 * f.k * p) + p2 * ((6.0 * f.l + 10.0 * f.m * p) + p2 * (15.0 * f.n));
+    return p - P * P1 / (P1 * P1 - P * P2);
+}
+
+/// Where the root is near a moment at which it is so far to it that it counts as c. With y = −c/2b
+/// it is y (1 − e + 2e² − g − 5e³ + 5eg − i …).
+SWIRL_INLINE double near_root(const TurningWall::Near& f, double c) {
+    const double r = 0.5 / f.b, y = -c * r, y2 = y * y;
+    const double e = r * f.q * y, g = r * f.k * y2, i = r * f.l * (y2 * y), e2 = e * e;
+    return y * ((1.0 - e) + ((2.0 * e2 - g) + (5.0 * e * (g - e2) - i)));
+}
+
+/// A step of Newton's from δ = x, with all terms to the eighth. So much is left of f at most:
+/// behind the step K times its square; and of the terms that were left out, as f⁽⁹⁾/2 = −Ω⁶ (9 u·g
+/// + s·j) is no more than 5.6 K Ω⁷ (TurningWall::K), 3·10⁻⁵ K (Ωδ)⁷ δ².
+struct NewtonStep {
+    double delta, slope, left;
+
+    SWIRL_INLINE NewtonStep(const TurningWall& wall, const TurningWall::Near& f, double c,
+                            double x) {
+        const double x2 = x * x, x4 = x2 * x2;
+        const double P =
+            (c + 2.0 * f.b * x) +
+            x2 * ((f.q + f.k * x) + (x2 * (f.l + f.m * x) + x4 * ((f.n + f.o * x) + x2 * f.p)));
+        slope = (2.0 * f.b + 2.0 * f.q * x) +
+                x2 * ((3.0 * f.k + 4.0 * f.l * x) +
+                      (x2 * (5.0 * f.m + 6.0 * f.n * x) + x4 * (7.0 * f.o + 8.0 * f.p * x)));
+        const double step = P / slope;
+        delta = x - step;
+        const double phi = wall.turning() * delta, phi2 = phi * phi;
+        const double rest = 3.1e-5 * magnitude(phi) * (phi2 * phi2 * phi2) * (delta * delta);
+        left = wall.K() * (step * step + rest);
+    }
+};
+
 /// The time until the contact, or `never` where it takes `slow_turning_wall_contact` to find it. A
-/// guess is made from the first terms at the start, and corrected by those where it leads.
+/// guess is made from the first terms at the start. If it is not far, they lead to the contact;
+/// else those where it leads.
 SWIRL_INLINE double quick_turning_wall_contact(const TurningWall& wall,
                                                const TurningWall::Near& start) {
-    const bool approaching = start.b > 0.0;
-    const double room = wall.room(start), discriminant = start.b * start.b + start.q * room;
-    if (!(discriminant > 0.0 && (approaching || start.q > 0.0))) return never;
-    const double counted_inside = room + start.c, root = square_root(discriminant);
-    const double p =
-        (approaching ? room : root - start.b) / (approaching ? start.b + root : start.q);
-    double tau = p - (start.k + start.l * p) * (p * p * p) /
-                         (2.0 * root + (3.0 * start.k + 4.0 * start.l * p) * (p * p));
-    for (int corrections = 0; corrections < 4 && tau > 0.0; ++corrections) {
+    const double room = wall.room(start), enough = 0x1p-52 * wall.square();
+    double tau = guess_turning_wall_contact(start, room);
+    if (!(tau > 0.0)) return never;
+    if (magnitude(wall.turning()) * tau < short_turn) {
+        const NewtonStep step(wall, start, -room, tau);
+        if (step.left <= enough && is_first_contact(wall, start, room, step.delta, step.slope))
+            return step.delta;
+    }
+    for (int steps = 0; steps < 4 && tau > 0.0; ++steps) {
         const TurningWall::Near f = wall.at(tau);
-        // With y = −c/2b the root is y (1 − e + 2e² − g − 5e³ + 5eg − i …).
-        const double r = 0.5 / f.b, c = f.c - counted_inside, y = -c * r;
-        const double e = r * f.q * y, g = r * f.k * (y * y), i = r * f.l * (y * y * y);
-        const double next = tau + y * ((1.0 - e) + (2.0 * e * e - g) + (5.0 * e * (g - e * e) - i));
-        const double e2 = e * e + magnitude(g), L3 = wall.L() * magnitude(r * y) * (y * y);
-        const double left =
-            magnitude(c) *
-            (40.0 * e2 * e2 + L3 * (10.0 * magnitude(e) + magnitude(wall.turning() * y)));
-        if (left <= 0x1p-52 * wall.square())
-            return is_first_contact(wall, start, room, next, 2.0 * (f.b + f.q * y)) ? next : never;
-        tau = next;
+        const double c = f.c - (room + start.c);
+        const NewtonStep step(wall, f, c, near_root(f, c));
+        tau = tau + step.delta;
+        if (step.left <= enough)
+            return is_first_contact(wall, start, room, tau, step.slope) ? tau : never;
     }
     return never;
 }
@@ -243,17 +307,17 @@ SWIRL_INLINE double quick_turning_wall_contact(const TurningWall& wall,
     return {now + tau, false};
 }
 
-/// When a disc reaches the wall on a turning leg, if by `latest`. Static: each width's event loop
-/// must have a copy of its own (simulation/event_loop.hpp).
+/// When a disc reaches the wall on a turning leg, if by `latest`; `centre` holds when the disc
+/// begins on the leg. Static: each width's event loop must have a copy of its own
+/// (simulation/event_loop.hpp).
 ///
 /// At the wall and approaching means now. Otherwise a disc counts as 2⁻⁵² clearance² inside
 /// (time_to_leave).
-[[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(const Flight<double>& disc,
-                                                                        const Leg& leg,
-                                                                        double clearance,
-                                                                        double latest) {
-    const double now = larger(disc.time, leg.begin);
-    const TurningWall wall(disc, leg.flight_at(now), leg.turning, clearance);
+[[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(
+    const Flight<double>& disc, const Flight<double>& centre, const Leg& leg, double clearance,
+    double latest) {
+    const double now = centre.time;
+    const TurningWall wall(disc, centre, leg.turning, clearance);
     const TurningWall::Near start = wall.first();
     if (start.b > 0.0 && start.c >= 0.0) return {now, false};
     const double wait = quick_turning_wall_contact(wall, start), t = now + wait;
@@ -261,11 +325,16 @@ SWIRL_INLINE double quick_turning_wall_contact(const TurningWall& wall,
         return slow_turning_wall_contact(wall, now, (0.25 * pi) / magnitude(leg.turning), leg.end,
                                          latest);
     if (t >= leg.end) return {never, false};
-    return {t, t > latest};
+    return {t, false};
+}
+/// From when on the disc is on this leg.
+SWIRL_INLINE double beginning_on(const Leg& leg, const Flight<double>& disc) {
+    return larger(disc.time, leg.begin);
 }
 SWIRL_INLINE double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
                                                  double clearance) {
-    return turning_wall_contact(disc, leg, clearance, never).time;
+    return turning_wall_contact(disc, leg.flight_at(beginning_on(leg, disc)), leg, clearance, never)
+        .time;
 }
 
 /// The answer of what can be told without solving a quartic: it cannot.

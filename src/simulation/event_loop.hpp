@@ -93,6 +93,7 @@ SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
 /// What is to be known of the leg before anybody predicts.
 SWIRL_INLINE void begin_leg(EngineState& state) {
     state.stretch_end = state.legs[state.leg].end;
+    state.turning_centre.time = -never;
     if (state.on_turning_leg()) renew_turning_bound(state, state.clock);
 }
 

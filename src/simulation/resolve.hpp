@@ -183,6 +183,7 @@ template <class Bodies>
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
     using Body = typename Bodies::Body;
     const Flight<double> centre = state.legs[state.leg].flight_at(t);
+    if (state.on_turning_leg()) state.turning_centre = centre;
     const Vec2 at = Bodies::position_at(state, i, t);
     const Body before = Bodies::body_at(state, i, t);
     Body body = before, wall = Bodies::wall(centre.velocity);

@@ -42,22 +42,23 @@ RC_GTEST_PROP(QuickUnitCircle, IsCosineAndSineToTheLastDigits, ()) {
     RC_ASSERT(std::abs(static_cast<double>(std::sin(angle) - found.y)) <= 2.0 * ulp_of_one);
 }
 
-// 1 − cos φ = 2 sin² φ/2, in which nothing cancels.
+// 1 − cos φ = 2 sin² φ/2, in which nothing cancels. Without a reduction of the angle the largest of
+// the terms that are summed up is 1.4 times the sum at φ = 2, and rounded a few times.
 RC_GTEST_PROP(TurnBy, KeepsTheDigitsOfSmallAngles, ()) {
-    const double phi = draw(-0.25 * pi, 0.25 * pi) * std::exp2(-draw(0.0, 100.0));
+    const double phi = draw(-2.0, 2.0) * std::exp2(-draw(0.0, 100.0));
     const Turn turn = turn_by(phi);
     const long double half = std::sin(0.5L * phi);
     RC_ASSERT(std::abs(static_cast<double>(std::sin(static_cast<long double>(phi)) - turn.sine)) <=
-              2.0 * ulp_of_one * std::abs(phi));
+              3.0 * ulp_of_one * std::abs(phi));
     RC_ASSERT(std::abs(static_cast<double>(2.0L * half * half - turn.versine)) <=
-              2.0 * ulp_of_one * turn.versine);
+              3.0 * ulp_of_one * turn.versine);
     // φ − sin φ = φ³/6 − φ⁵/120 …
     const long double q = static_cast<long double>(phi) * phi;
     long double lag = 0.0L;
-    for (int n = 19; n >= 3; n -= 2) lag = q / (n * (n - 1.0L)) * (1.0L - lag);
+    for (int n = 33; n >= 3; n -= 2) lag = q / (n * (n - 1.0L)) * (1.0L - lag);
     lag *= phi;
     RC_ASSERT(std::abs(static_cast<double>(lag - turn.lag)) <=
-              2.0 * ulp_of_one * std::abs(turn.lag));
+              3.0 * ulp_of_one * std::abs(turn.lag));
 }
 
 RC_GTEST_PROP(TurnBy, IsTheUnitCircleForLargeAngles, ()) {

@@ -203,7 +203,8 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
     const double clearance = in.radius - in.disc.radius;
     const double t = time_of_wall_contact(in.disc, leg, in.radius);
     const double latest = in.disc.time + draw(0.0, 1.5) * (std::min(t, leg.end) - in.disc.time);
-    const WallContact asked = turning_wall_contact(in.disc.flight(), leg, clearance, latest);
+    const WallContact asked =
+        turning_wall_contact(in.disc.flight(), leg.flight_at(in.disc.time), leg, clearance, latest);
     if (t <= latest) {
         RC_ASSERT(asked.time == t);
         RC_ASSERT(!asked.is_later);
@@ -213,6 +214,25 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
         const bool kept = asked.is_later ? asked.time <= t : asked.time == t;
         RC_ASSERT(kept);
     }
+}
+
+// What is left at τ + δ is told by the terms at τ, but for what follows the eighth.
+RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheTermsNearAMomentTellWhatFollows, ()) {
+    const Leg leg = circular_path(draw(0.1, 3.0), 11.866071).legs[0];
+    const Inside in = draw_inside(leg);
+    const TurningWall wall(in.disc.flight(), leg.flight_at(in.disc.time), leg.turning,
+                           in.radius - in.disc.radius);
+    const double tau = draw(0.0, 1.0) / leg.turning, phi = draw(-0.5, 0.5);
+    const double x = phi / leg.turning;
+    const TurningWall::Near f = wall.at(tau);
+    const double told =
+        f.c + x * (2.0 * f.b +
+                   x * (f.q + x * (f.k + x * (f.l + x * (f.m + x * (f.n + x * (f.o + x * f.p)))))));
+    // The bound, in which |s|² is at most 2 clearance², holds for as long.
+    const TurningWall::Near there = wall.at(tau + x);
+    RC_PRE(larger(f.c, there.c) < wall.square());
+    const double rest = 3.1e-5 * wall.K() * std::pow(std::abs(phi), 7.0) * x * x;
+    RC_ASSERT(std::abs(there.c - told) <= rest + 1e-13 * (wall.square() + wall.K() * x * x));
 }
 
 // The quick way answers only where what it has found is the first contact: of discs that fly anyhow

@@ -33,7 +33,7 @@ inline std::vector<GoldenRun> golden_runs() {
         {"48 discs, mu = 1", paper_dish(48), 50000, 0xfa8f17a6b78853c0u},
         {"28 discs, mu = 1", paper_dish(28), 50000, 0x6eb38e0dd0a3178bu},
         {"mixture", mixture_dish(), 50000, 0x54d636010ea73d68u},
-        {"exact circle", golden_circle(), 5000, 0x7db1f1c80d41b8eu},
+        {"exact circle", golden_circle(), 5000, 0xf40e59448fab6240u},
         {"restitution", golden_walton(), 20000, 0xb89cac39392593cfu},
         {"gas of 2000", gas_at_rest(2000, 0.7), 50000, 0x802cf8bbd151c318u},
         {"48 spheres on a floor", sphere_dish(48), 20000, 0x203461e79ea59aa4u},

@@ -70,29 +70,34 @@ SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&w
 }
 
 /// On a turning leg: not before when the first of discs that have just collided meets the wall.
-template <int D>
+template <int G, int D>
 SWIRL_INLINE double predict_turning_wall(EngineState& state, const std::uint32_t (&who)[D],
                                          double t) {
     SideBySide& all = *state.side_by_side;
-    const Lanes<2> time = earliest_wall_times<D>(state, who, t);
+    const bool is_kept = D == 1 || G == 1;
+    const Flight<double> centre = is_kept ? turning_centre_at(state, t) : container_near(state, t);
+    const Lanes<2> time = earliest_wall_times<D>(state, centre, who);
     for (int d = 0; d < D; ++d) {
+        if (is_kept) all.centre[who[d]] = centre;
         set(all.wall, who[d], lane(time, d));
         all.wall_is_earliest |= std::uint64_t{1} << who[d];
     }
     return smallest(time);
 }
 /// When a disc that has just collided, at time t, meets the wall.
+template <int G>
 SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double t) {
     if (state.on_turning_leg()) [[unlikely]]
-        return predict_turning_wall(state, who, t);
+        return predict_turning_wall<G>(state, who, t);
     const double time = wall_time(state, who[0]);
     set(state.side_by_side->wall, who[0], time);
     return time;
 }
 /// When the first of two does.
+template <int G>
 SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[2], double t) {
     if (state.on_turning_leg()) [[unlikely]]
-        return predict_turning_wall(state, who, t);
+        return predict_turning_wall<G>(state, who, t);
     const Lanes<2> time = wall_times_from_now(state, state.discs[who[0]], state.discs[who[1]], t);
     set(state.side_by_side->wall, who[0], lane(time, 0));
     set(state.side_by_side->wall, who[1], lane(time, 1));
@@ -105,6 +110,11 @@ SWIRL_INLINE void predict_all_walls(EngineState& state) {
     const bool turning = state.on_turning_leg();
     all.wall_is_earliest = turning ? ~std::uint64_t{0} : 0;
     all.walls_asked_at = state.clock;
+    if (turning) {
+        // Of those who collided before, who are on the leg from now on.
+        const Flight<double> centre = turning_centre_at(state, state.clock);
+        for (std::uint32_t i = 0; i < state.size; ++i) all.centre[i] = centre;
+    }
     for (int g = 0; g < G; ++g) {
         const Others<8> discs = load_eight(all, g);
         const Eight time = soonest_wall_times<8>(state, discs.flight, discs.radius, state.clock);
@@ -120,10 +130,11 @@ template <int G>
     const Eight then(time);
     if (time - all.walls_asked_at > 0.5 * state.turning_bound.horizon) {
         all.walls_asked_at = time;
+        const Flight<double> centre = container_near(state, time);
         for (int g = 0; g < G; ++g) {
             const Others<8> discs = load_eight(all, g);
             const Eight no_sooner = earliest_wall_times<8>(
-                state, discs.flight.position_at(then), discs.flight.velocity, discs.radius, time);
+                state, centre, discs.flight.position_at(then), discs.flight.velocity, discs.radius);
             // What is known better stays.
             larger(no_sooner, Eight::load(all.wall + 8 * g)).store(all.wall + 8 * g);
         }
@@ -134,8 +145,8 @@ template <int G>
     for (int g = 0; g < G; ++g)
         least = smaller(least,
                         smaller(Eight::load(all.meeting + 8 * g), Eight::load(all.wall + 8 * g)));
-    const WallContact contact =
-        seek_wall(state, i, smallest(least) + state.turning_bound.horizon * (1.0 / 16.0));
+    const WallContact contact = seek_wall(
+        state, i, all.centre[i], smallest(least) + state.turning_bound.horizon * (1.0 / 16.0));
     set(all.wall, i, contact.time);
     if (!contact.is_later) all.wall_is_earliest &= ~(std::uint64_t{1} << i);
 }
@@ -228,7 +239,7 @@ struct AllPairs {
     SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
                                              double t) {
         for (int d = 0; d < D; ++d) all_pairs::copy(state, who[d]);
-        const double wall = all_pairs::predict_wall(state, who, t);
+        const double wall = all_pairs::predict_wall<G>(state, who, t);
         const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
         if (smaller(meeting, wall) <= state.side_by_side->next.time) [[unlikely]]
             all_pairs::find_next<G>(state);

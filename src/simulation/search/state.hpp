@@ -172,6 +172,8 @@ struct alignas(64) SideBySide {
     // On a turning leg (wall_times.hpp): bit i is set where wall[i] is the earliest time possible.
     std::uint64_t wall_is_earliest;
     double walls_asked_at;
+    // The container's when each disc collided last, if that is its time.
+    Flight<double> centre[most];
 };
 
 /// The same of a few spheres (few_spheres.hpp), with their accelerations and when they begin to
@@ -261,7 +263,8 @@ struct EngineState {
     std::uint32_t leg, leg_count;
     // Of the leg; or sooner, if the search has something to do by then that is no event.
     double stretch_end;
-    TurningBound turning_bound;  // of a turning leg
+    TurningBound turning_bound;     // of a turning leg
+    Flight<double> turning_centre;  // there: of the container, when it was asked for last
     double period, container_radius;
     Surface disc_surface, wall_surface;
 

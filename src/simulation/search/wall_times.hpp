@@ -68,6 +68,12 @@ SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
     bound.margin = 1e-8 + 1e-12 * square_root(speed2 / O2) / state.container_radius;
 }
 
+/// The container at time t, of a turning leg. Several ask within an event.
+SWIRL_INLINE const Flight<double>& turning_centre_at(EngineState& state, double t) {
+    if (state.turning_centre.time != t) state.turning_centre = state.legs[state.leg].flight_at(t);
+    return state.turning_centre;
+}
+
 /// The container near time t: cosine and sine of a turn by at most π/15, to the eighth and ninth
 /// power; what is left out is below (π/15)¹⁰/10! = 5·10⁻¹⁴.
 SWIRL_INLINE Flight<double> container_near(EngineState& state, double t) {
@@ -172,10 +178,11 @@ SWIRL_INLINE Lanes<W> wait_for_parabola(const Lanes<W>& a, const Lanes<W>& b,
 /// to be a little nearer and all to come a little earlier, which is far more than rounding errors
 /// (TurningBound::margin).
 template <int W>
-SWIRL_INLINE Lanes<W> earliest_wall_times(EngineState& state, const BasicVec2<Lanes<W>>& position,
+SWIRL_INLINE Lanes<W> earliest_wall_times(const EngineState& state, const Flight<double>& centre,
+                                          const BasicVec2<Lanes<W>>& position,
                                           const BasicVec2<Lanes<W>>& velocity,
-                                          const Lanes<W>& radius, double t) {
-    const Flight<double> centre = container_near(state, t);
+                                          const Lanes<W>& radius) {
+    const double t = centre.time;
     const TurningBound& bound = state.turning_bound;
     const BasicVec2<Lanes<W>> s = position - in_lanes<W>(centre.position);
     const BasicVec2<Lanes<W>> u = velocity - in_lanes<W>(centre.velocity);
@@ -199,20 +206,21 @@ template <int W>
 SWIRL_INLINE Lanes<W> soonest_wall_times(EngineState& state, const Flight<Lanes<W>>& flights,
                                          const Lanes<W>& radii, double t) {
     if (!state.on_turning_leg()) return wall_times<W>(state, flights, radii);
-    return earliest_wall_times<W>(state, flights.position_at(Lanes<W>(t)), flights.velocity, radii,
-                                  t);
+    return earliest_wall_times<W>(state, container_near(state, t), flights.position_at(Lanes<W>(t)),
+                                  flights.velocity, radii);
 }
 
 /// Of one disc or two.
 template <int D>
-SWIRL_INLINE Lanes<2> earliest_wall_times(EngineState& state, const std::uint32_t (&who)[D],
-                                          double t) {
+SWIRL_INLINE Lanes<2> earliest_wall_times(const EngineState& state, const Flight<double>& centre,
+                                          const std::uint32_t (&who)[D]) {
+    const double t = centre.time;
     const HotDisc &a = state.discs[who[0]], &b = state.discs[who[D - 1]];
     const Vec2 p = a.flight().position_at(t), q = b.flight().position_at(t);
     return earliest_wall_times<2>(
-        state, {two_lanes(p.x, q.x), two_lanes(p.y, q.y)},
+        state, centre, {two_lanes(p.x, q.x), two_lanes(p.y, q.y)},
         {two_lanes(a.velocity.x, b.velocity.x), two_lanes(a.velocity.y, b.velocity.y)},
-        two_lanes(a.radius, b.radius), t);
+        two_lanes(a.radius, b.radius));
 }
 
 /// find_leaving on a turning leg: the wall is no parabola, but bounded by one. The second of each
@@ -220,7 +228,9 @@ SWIRL_INLINE Lanes<2> earliest_wall_times(EngineState& state, const std::uint32_
 template <int D>
 SWIRL_INLINE void find_leaving_on_turn(EngineState& state, const std::uint32_t (&who)[D], double t,
                                        Leaving (&leaving)[D]) {
-    const Flight<double> centre = container_near(state, t);
+    // After a collision with the wall it is known.
+    const Flight<double> centre =
+        D == 1 && state.turning_centre.time == t ? state.turning_centre : container_near(state, t);
     const TurningBound& bound = state.turning_bound;
     Double2 x[D], y[D], vx[D], vy[D], clearance[D];
 #pragma GCC unroll 2
@@ -263,16 +273,20 @@ SWIRL_INLINE void find_leaving_on_turn(EngineState& state, const std::uint32_t (
     }
 }
 
-/// On a turning leg: when disc i reaches the wall, if it does by `latest`.
-SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i, double latest) {
+/// On a turning leg: when disc i reaches the wall, if it does by `latest`. If `known` is how the
+/// container was when it collided last, it need not be computed again.
+SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i,
+                                   const Flight<double>& known, double latest) {
     const HotDisc& disc = state.discs[i];
-    return turning_wall_contact(disc.flight(), state.legs[state.leg],
+    const Leg& leg = state.legs[state.leg];
+    const double now = beginning_on(leg, disc.flight());
+    return turning_wall_contact(disc.flight(), known.time == now ? known : leg.flight_at(now), leg,
                                 state.container_radius - disc.radius, latest);
 }
-/// The same as a time, which does not come if it is later.
+/// The same as a time; if it is later, that or never.
 [[maybe_unused, gnu::noinline]] static double wall_time_by(const EngineState& state,
                                                            std::uint32_t i, double latest) {
-    const WallContact contact = seek_wall(state, i, latest);
+    const WallContact contact = seek_wall(state, i, state.turning_centre, latest);
     return contact.is_later ? never : contact.time;
 }
 /// The same, asked at time t, where it does not reach the wall before leaving.wall. If that is soon
