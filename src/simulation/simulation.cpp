@@ -249,11 +249,12 @@ struct Simulation::Storage {
     AlignedMemory memory;
     EngineState state{};
 
-    /// With cells as `outgrown` ones wanted them, if there were any.
+    /// With the search that an outgrown one wanted, if there was one.
     Storage(const InitialState& scene, const Progress& progress, const Tuning& tuning,
             const Storage* outgrown = nullptr);
     bool prepare(const InitialState& scene, NeighbourSearch neighbours, const Radii& radii,
                  int cells_per_side, const Storage* outgrown);
+    NeighbourSearch take_over(const EngineState& outgrown);
     Progress progress() const;
     Disc disc(std::uint32_t i) const;
     InitialState as_it_stands() const;
@@ -275,9 +276,9 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
     NeighbourSearch neighbours = neighbours_for(scene, radii, tuning, loops.few);
-    if (outgrown != nullptr)
-        neighbours =
-            outgrown->state.wanted_cell > 0.0 ? NeighbourSearch::cells : NeighbourSearch::lists;
+    state.chooses_search =
+        neighbours == NeighbourSearch::cells && tuning.neighbours == NeighbourSearch::best;
+    if (outgrown != nullptr) neighbours = take_over(outgrown->state);
     loop = &loop_for(scene, neighbours, loops);
     state.legs = legs.data();
     state.leg_count = static_cast<std::uint32_t>(legs.size());
@@ -315,9 +316,20 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     if (prepare(scene, neighbours, radii, tuning.cells_per_side, outgrown)) loop->start(state);
     if (stopped()) {
         state.size = 0;
-        state.cells_are_outgrown = false;
+        state.is_outgrown = false;
     }
     state.is_stopped = nullptr;
+}
+
+/// After lists come cells as wide as those before, after cells others or lists.
+NeighbourSearch Simulation::Storage::take_over(const EngineState& outgrown) {
+    const bool from_cells = outgrown.cells != nullptr;
+    const bool to_lists = from_cells && outgrown.wanted_cell == 0.0;
+    state.wanted_cell = to_lists ? 1.0 / outgrown.grids[0].cells_per_length : outgrown.wanted_cell;
+    state.widest_cell = outgrown.widest_cell;
+    state.chooses_search = outgrown.chooses_search;
+    state.returns_to_cells = outgrown.returns_to_cells;
+    return to_lists ? NeighbourSearch::lists : NeighbourSearch::cells;
 }
 
 /// All that is there before the first prediction; false if it was stopped on the way.
@@ -335,8 +347,8 @@ bool Simulation::Storage::prepare(const InitialState& scene, NeighbourSearch nei
     } else if (neighbours == NeighbourSearch::cells) {
         CellWidths widths = cell_widths(scene, radii);
         if (outgrown != nullptr) {
-            widths.wanted = outgrown->state.wanted_cell;
-            widths.widest = outgrown->state.widest_cell;
+            widths.wanted = state.wanted_cell;
+            widths.widest = state.widest_cell;
         }
         lay_cells(scene, radii, widths);
     }
@@ -410,7 +422,10 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
     for (DiscKind& kind : kinds) kind.grid = row[size_class(kind.radius, radii.smallest)];
 
     const double area = pi * reach * reach;
-    double width = larger(2.6 * largest[0], square_root(3.0 * area / state.size));
+    // Where a thin dish has gathered, wider cells than for seven discs would hold more.
+    const double for_one = square_root(area / state.size), for_seven = 4.4 * largest[0];
+    double width = smaller(square_root(3.0) * for_one, larger(for_seven, for_one));
+    width = larger(2.6 * largest[0], width);
     if (cells_per_side > 0) width = side / cells_per_side;
     width = lay_grid(state.grids[0], larger(width, 2.1 * largest[0]), side);
     // A hair less than the cells allow, for the rounding of positions into cells. Of several grids
@@ -431,8 +446,11 @@ double Simulation::Storage::lay_grid(Grid& grid, double least_width, double side
     grid.cells_per_side =
         static_cast<std::uint32_t>(larger(1.0, smaller(side / least_width, 30000.0)));
     grid.cells_per_length = grid.cells_per_side / side;
-    grid.heads = memory.add<std::uint32_t>(static_cast<std::size_t>(grid.cells_per_side) *
-                                           grid.cells_per_side);
+    const std::size_t cells = static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side;
+    constexpr std::uint32_t too_many_for_room = 200000;
+    if (state.spheres == nullptr && state.grid_count == 1 && state.size < too_many_for_room)
+        grid.cells = memory.add<Cell>(cells);
+    grid.heads = memory.add<std::uint32_t>(cells);
     return side / grid.cells_per_side;
 }
 
@@ -579,7 +597,7 @@ InitialState Simulation::Storage::as_it_stands() const {
 
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
-    while (storage_->state.cells_are_outgrown)
+    while (storage_->state.is_outgrown)
         storage_ = std::make_unique<Storage>(scene, progress, tuning, storage_.get());
 }
 Simulation::~Simulation() = default;
@@ -587,25 +605,25 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 /// Other cells take over, or lists.
-void Simulation::renew_outgrown_cells() {
+void Simulation::renew_outgrown() {
     const InitialState scene = storage_->as_it_stands();
     Tuning tuning;
     tuning.width = storage_->vectors;
-    while (storage_->state.cells_are_outgrown) {
+    while (storage_->state.is_outgrown) {
         const LoopCounts before = loop_counts();
         storage_ = std::make_unique<Storage>(scene, progress(), tuning, storage_.get());
         EngineState& state = storage_->state;
         state.invalidated = before.invalidated;
         state.list_rebuilds += before.list_rebuilds;
-        state.entered_before = state.list_rebuilds;
+        state.rebuilds_when_asked = state.entered_before = state.list_rebuilds;
         state.full_rebuilds = before.full_rebuilds + 1;
     }
 }
 
 Event Simulation::step() {
     const Event event = storage_->loop->step(storage_->state);
-    if (storage_->state.cells_are_outgrown) [[unlikely]]
-        renew_outgrown_cells();
+    if (storage_->state.is_outgrown) [[unlikely]]
+        renew_outgrown();
     return event;
 }
 
@@ -613,8 +631,8 @@ std::uint64_t Simulation::run(std::uint64_t count, std::int64_t swirls, double c
     std::uint64_t done = 0;
     for (;;) {
         done += storage_->loop->run(storage_->state, count - done, swirls, clock);
-        if (!storage_->state.cells_are_outgrown) return done;
-        renew_outgrown_cells();
+        if (!storage_->state.is_outgrown) return done;
+        renew_outgrown();
     }
 }
 

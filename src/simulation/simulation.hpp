@@ -101,7 +101,7 @@ class Simulation {
   private:
     struct Storage;
     std::uint64_t run(std::uint64_t count, std::int64_t swirls, double clock);
-    void renew_outgrown_cells();
+    void renew_outgrown();
     std::unique_ptr<Storage> storage_;
 };
 

@@ -541,15 +541,44 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAGasOfUnequalDiscs) {
         expect_same_trajectory<PlainGrid>(gas_of_two_sizes(large, 2000 - large, 0.1, 0.3, 3.0),
                                           20000, tuning(NeighbourSearch::cells));
 }
+InitialState thin_dish(std::size_t n, double packing) {
+    return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing),
+                    polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3);
+}
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
     if (sanitized) GTEST_SKIP() << "fifty thousand events";
     for (const double packing : {0.2, 0.03}) {
-        const InitialState scene =
-            state_of({unit_disc()}, 2000, square_root(2000.0 / packing),
-                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3);
+        const InitialState scene = thin_dish(2000, packing);
         expect_same_trajectory<PlainGrid>(scene, 50000, tuning());
         expect_same_trajectory<PlainGrid>(on_circle(scene), 50000, tuning(NeighbourSearch::cells));
     }
+}
+// Its discs gather in the third swirl, and fly again in the sixth: then the search is another.
+TEST_P(EveryWidth, EngineIsThePlainGridBitForBitWhereListsTakeOverAndCellsComeBack) {
+    if (sanitized) GTEST_SKIP() << "thirty thousand events";
+    expect_same_trajectory<PlainGrid>(thin_dish(500, 0.38), 32000, tuning());
+}
+TEST(ThinDish, GoesByListsWhileItsDiscsHaveGatheredAndByCellsElse) {
+    const InitialState scene = thin_dish(500, 0.38);
+    const auto bytes = [&](NeighbourSearch search) {
+        return Simulation(scene, {}, {0, Width::best, search}).loop_counts().bytes;
+    };
+    const std::uint64_t cells = bytes(NeighbourSearch::cells),
+                        lists = bytes(NeighbourSearch::lists);
+    ASSERT_NE(cells, lists);
+    Simulation best(scene), by_cells(scene, {}, {0, Width::best, NeighbourSearch::cells});
+    const auto advance = [&](std::uint64_t events) {
+        best.run(events);
+        by_cells.run(events);
+        EXPECT_EQ(best.state_hash(), by_cells.state_hash());
+    };
+    EXPECT_EQ(best.loop_counts().bytes, cells);
+    advance(22000);
+    EXPECT_EQ(best.loop_counts().bytes, lists);
+    advance(10000);
+    EXPECT_EQ(best.loop_counts().bytes, cells);
+    // Who is told to keep to cells does.
+    EXPECT_EQ(by_cells.loop_counts().bytes, cells);
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
     if (sanitized) GTEST_SKIP() << "a million events";

@@ -25,6 +25,7 @@
 
 #include "swirl/math/lanes.hpp"
 #include "swirl/simulation/pending_event.hpp"
+#include "swirl/simulation/search/lists_or_cells.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/renewed_leaving.hpp"
 #include "swirl/simulation/search/state.hpp"
@@ -48,12 +49,15 @@ inline constexpr std::uint32_t most_strays = 16;
 /// Discs would do with cells so much wider. If they have gathered and have no place, these are the
 /// widest from now on; and if there are no narrower ones, lists take over.
 SWIRL_INLINE void outgrow(EngineState& state, double factor, bool for_want_of_room) {
-    state.cells_are_outgrown = true;
+    state.is_outgrown = true;
     const double before = width(state);
     const double wanted = smaller(larger(factor * before, state.narrowest_cell), state.widest_cell);
     const bool is_narrowest = before < 1.0001 * state.narrowest_cell;
     if (for_want_of_room) state.widest_cell = wanted;
-    state.wanted_cell = for_want_of_room && is_narrowest ? 0.0 : wanted;
+    state.wanted_cell = wanted;
+    if (!for_want_of_room || !is_narrowest) return;
+    state.wanted_cell = 0.0;
+    state.chooses_search = false;  // and these lists remain
 }
 
 /// To enter a cell takes as long as to look at so many discs; with cells wider by a factor f it is
@@ -61,6 +65,18 @@ SWIRL_INLINE void outgrow(EngineState& state, double factor, bool for_want_of_ro
 /// `candidates_per_entry` entries / (2 candidates).
 inline constexpr double candidates_per_entry = 32.0;
 inline constexpr double narrower = 0.7, wider = 1.4;
+/// Asked whenever so many have been looked at for each disc, some four events.
+inline constexpr std::uint64_t candidates_till_asked = 100;
+SWIRL_INLINE void ask_about_lists(EngineState& state, double t) {
+    if (state.candidates_looked_at < state.candidates_till_asked) [[likely]]
+        return;
+    state.candidates_till_asked += candidates_till_asked * state.size;
+    const bool last = state.chooses_search && lists_would_last(state, width(state), t);
+    begin_to_count(state);
+    if (!last) return;
+    state.is_outgrown = true;
+    state.wanted_cell = 0.0;
+}
 /// Asked at the end of a swirl, when so much has happened that laying all anew is little besides.
 static void choose_width(EngineState& state) {
     if (state.candidates_looked_at < 300 * static_cast<std::uint64_t>(state.size)) return;
@@ -68,6 +84,7 @@ static void choose_width(EngineState& state) {
     const double cube =
         0.5 * candidates_per_entry * entered / static_cast<double>(state.candidates_looked_at);
     state.candidates_looked_at = 0;
+    state.candidates_till_asked = candidates_till_asked * state.size;
     state.entered_before = state.list_rebuilds;
     const double before = width(state);
     if (cube < 0.4 && before > 1.1 * state.narrowest_cell)
@@ -261,6 +278,7 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
 /// Disc i has come to an edge and enters the cell beyond.
 [[gnu::noinline]] static void enter_next_cell(EngineState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
+    ask_about_lists(state, t);
     const std::uint32_t side = state.grids[0].cells_per_side;
     const std::uint32_t step[4] = {1u, 0u - 1u, side, 0u - side};
     const std::uint32_t to = state.skins[i].cell + step[state.cold(i).partner - leaves_skin];
@@ -343,9 +361,11 @@ SWIRL_INLINE void begin_frame(EngineState& state, const Vec2& velocity) {
 
 static void start(EngineState& state) {
     empty_queue(state);
+    begin_to_count(state);
+    state.candidates_till_asked = candidates_till_asked * state.size;
     begin_frame(state, velocity_to_follow(state));
     enter_all(state);
-    if (!state.cells_are_outgrown) predict_all<Held::for_a_while>(state, state.clock);
+    if (!state.is_outgrown) predict_all<Held::for_a_while>(state, state.clock);
 }
 
 /// All clocks restart.
@@ -402,9 +422,7 @@ struct LinkedCells {
         check_cells(state, t);
         check_tournament(state);
     }
-    SWIRL_INLINE static bool is_outgrown(const EngineState& state) {
-        return state.cells_are_outgrown;
-    }
+    SWIRL_INLINE static bool is_outgrown(const EngineState& state) { return state.is_outgrown; }
     SWIRL_INLINE static void leg_ended(EngineState& state, double) { cells::leg_ended(state); }
 };
 

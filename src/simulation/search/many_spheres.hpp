@@ -150,8 +150,7 @@ static void begin_stretch(EngineState& state, double t) {
     state.stretch_end = smaller(state.legs[state.leg].end, t + stretch_worth_while(state, t));
     state.largest_skin_radius = 0.0;
     const Grid& grid = state.grids[0];
-    for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
-        grid.heads[c] = state.size;
+    empty_cells(state, grid);
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (state.stops_at(i)) return;
         find_place(state, i, t);

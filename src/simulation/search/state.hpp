@@ -123,7 +123,7 @@ struct ComovingFrame {
     }
 };
 
-/// The discs in a cell of a thin gas. Those beyond its room are in its annex.
+/// The discs in a cell. In a thin gas those beyond its room are in its annex.
 struct Cell {
     static constexpr std::uint32_t room = 7;
     std::uint32_t disc[room];
@@ -148,8 +148,11 @@ struct Grid {
     std::uint32_t cells_per_side;
     double cells_per_length;
     double largest_radius;
-    bool equal_radii;      // that of all
-    std::uint32_t* heads;  // of each cell the first disc, or EngineState::size
+    bool equal_radii;  // that of all
+    // The discs of each cell that it has no room for: the first, or EngineState::size. There is
+    // room for seven, but not where memory counts, nor in grids for each size.
+    std::uint32_t* heads;
+    Cell* cells;
 };
 inline constexpr std::uint32_t most_grids = 48;
 
@@ -240,10 +243,15 @@ struct EngineState {
     std::uint32_t near_wall_count, stray_count;
     std::uint32_t *near_wall, *strays;  // those who may reach the wall; those without a place
     double narrowest_cell, widest_cell;
-    std::uint64_t candidates_looked_at, entered_before;  // since when cells have this width
-    // Where another would be faster, or no width is any good: then it is 0.
-    bool cells_are_outgrown;
+    // Since the width was last asked about; and when lists are asked about again.
+    std::uint64_t candidates_looked_at, entered_before, candidates_till_asked;
+
+    // Whether lists or cells (lists_or_cells.hpp), and how wide cells are to be; 0: lists.
+    bool is_outgrown;     // another search is to take over
+    bool chooses_search;  // or cells stay cells as long as they have room
     double wanted_cell;
+    std::uint32_t returns_to_cells;  // from lists that did not last
+    std::uint64_t rebuilds_when_asked, collisions_when_asked;
 
     // The ends of lists that are longer than `capacity`, in units of 16 bytes from the first, which
     // has no room and belongs to all whose list has no tail. Null where nobody's has.

@@ -7,6 +7,7 @@
 #include "swirl/math/lanes.hpp"
 #include "swirl/simulation/pending_event.hpp"
 #include "swirl/simulation/search/comoving_frame.hpp"
+#include "swirl/simulation/search/lists_or_cells.hpp"
 #include "swirl/simulation/search/prediction.hpp"
 #include "swirl/simulation/search/renewed_leaving.hpp"
 #include "swirl/simulation/search/state.hpp"
@@ -99,7 +100,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     const double rounding = rounding_of_centre * state.container_radius;
     narrow.largest = larger(0.02 * state.smallest_radius, 2.0 * rounding);
     narrow.least = larger(0.001 * state.smallest_radius, rounding);
-    rebuild_all_lists(state, t, narrow);
+    rebuild_all_lists(state, t, 0.0, narrow);
 }
 
 /// A new frame, in which the discs rest, in the middle of the leg.
@@ -110,9 +111,21 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     predict_all(state, t);
 }
 
+/// Of lists that took over from cells: whether these are to come back. Asked when all lists have
+/// been rebuilt once, on average.
+SWIRL_INLINE void ask_whether_lists_last(EngineState& state) {
+    if (rebuilds_since_asked(state) < state.size) return;
+    if (rebuilds_since_asked(state) > bearable_rebuilds * collisions_since_asked(state)) {
+        if (state.returns_to_cells < most_returns_counted) ++state.returns_to_cells;
+        state.is_outgrown = true;
+    }
+    begin_to_count(state);
+}
+
 /// Disc i, which has no event pending, gets a new skin and list.
 [[gnu::noinline]] static void rebuild_list(EngineState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
+    if (state.chooses_search) ask_whether_lists_last(state);
     if (++state.rebuilds_in_frame > 8 * static_cast<std::uint64_t>(state.size)) [[unlikely]] {
         state.rebuilds_in_frame = 0;
         if (frame_is_left_behind(state, t)) return follow_the_discs(state, t);
@@ -136,16 +149,11 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 }
 
 [[gnu::noinline]] static void start(EngineState& state) {
+    begin_to_count(state);
     begin_comoving_frame(state, state.clock);
-    rebuild_all_narrow(state, state.clock);
-    for (std::uint32_t i = 0; i < state.size; ++i) {
-        if (state.stops_at(i)) return;
-        if (build_list(state, i, state.clock, recentre_skin(state, i, state.clock),
-                       skin_radius_range(state)))
-            continue;
+    const double usual = 0.2 * state.smallest_radius;
+    if (!rebuild_all_lists(state, state.clock, usual, skin_radius_range(state)))
         rebuild_all_narrow(state, state.clock);
-        break;
-    }
     predict_all(state, state.clock);
 }
 
@@ -291,6 +299,7 @@ struct VerletLists {
         check_lists(state, t);
         check_tournament(state);
     }
+    SWIRL_INLINE static bool is_outgrown(const EngineState& state) { return state.is_outgrown; }
     SWIRL_INLINE static void leg_ended(EngineState& state, double t) { lists::leg_ended(state, t); }
     SWIRL_INLINE static void stretch_ended(EngineState& state) { lists::stretch_ended(state); }
 };

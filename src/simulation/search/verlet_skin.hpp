@@ -21,6 +21,8 @@
 // hierarchical grids).
 #pragma once
 
+#include <cstring>
+
 #include "swirl/math/lanes.hpp"
 #include "swirl/physics/contact_time.hpp"
 #include "swirl/simulation/search/state.hpp"
@@ -106,19 +108,43 @@ SWIRL_INLINE std::uint32_t cell_number(const EngineState& state, const Grid& gri
 SWIRL_INLINE const Grid& grid_of(const EngineState& state, std::uint32_t i) {
     return state.grids[state.grid_count == 1 ? 0 : state.kinds[state.discs[i].kind].grid];
 }
-SWIRL_INLINE std::uint32_t& cell_head(const EngineState& state, std::uint32_t i) {
-    const Grid& grid = grid_of(state, i);
-    return grid.heads[cell_number(state, grid, state.skins[i].X, state.skins[i].Y)];
+SWIRL_INLINE std::uint32_t cell_of(const EngineState& state, const Grid& grid, std::uint32_t i) {
+    return cell_number(state, grid, state.skins[i].X, state.skins[i].Y);
 }
 SWIRL_INLINE void enter_cell(EngineState& state, std::uint32_t i) {
-    std::uint32_t& head = cell_head(state, i);
+    const Grid& grid = grid_of(state, i);
+    const std::uint32_t number = cell_of(state, grid, i);
+    if (grid.cells != nullptr && grid.cells[number].count < Cell::room) {
+        Cell& cell = grid.cells[number];
+        cell.disc[cell.count++] = i;
+        return;
+    }
+    std::uint32_t& head = grid.heads[number];
     state.skins[i].next_in_cell = head;
     head = i;
 }
+SWIRL_INLINE bool leave_room(const Grid& grid, std::uint32_t number, std::uint32_t i) {
+    if (grid.cells == nullptr) return false;
+    Cell& cell = grid.cells[number];
+    // The eighth of its numbers is how many there are, and those from there on are none of them.
+    const std::uint32_t slot = place_in_list(cell.disc, 8, i);
+    if (slot >= cell.count || cell.disc[slot] != i) return false;
+    cell.disc[slot] = cell.disc[--cell.count];
+    return true;
+}
 SWIRL_INLINE void leave_cell(EngineState& state, std::uint32_t i) {
-    std::uint32_t* link = &cell_head(state, i);
+    const Grid& grid = grid_of(state, i);
+    const std::uint32_t number = cell_of(state, grid, i);
+    if (leave_room(grid, number, i)) return;
+    std::uint32_t* link = &grid.heads[number];
     while (*link != i) link = &state.skins[*link].next_in_cell;
     *link = state.skins[i].next_in_cell;
+}
+static void empty_cells(EngineState& state, const Grid& grid) {
+    const std::uint32_t cells = grid.cells_per_side * grid.cells_per_side;
+    for (std::uint32_t c = 0; c < cells; ++c) grid.heads[c] = state.size;
+    if (grid.cells == nullptr) return;
+    for (std::uint32_t c = 0; c < cells; ++c) grid.cells[c].count = 0;
 }
 
 SWIRL_INLINE bool is_full(const EngineState& state, std::uint32_t i) {
@@ -232,21 +258,29 @@ static bool collect_within(const EngineState& state, std::uint32_t i, double sca
             const double across = square_root(larger(way * way - up * up, 0.0)) + 1e-6 * width;
             const std::uint32_t left = cell_row(state, grid, X - across);
             const std::uint32_t right = cell_row(state, grid, X + across);
-            for (std::uint32_t x = left; x <= right; ++x)
-                for (std::uint32_t k = grid.heads[y * grid.cells_per_side + x]; k != state.size;
-                     k = state.skins[k].next_in_cell) {
-                    if (candidates.count == candidates.room) return false;
-                    const Skin& other = state.skins[k];
-                    const double dx = other.X - X, dy = other.Y - Y;
-                    const double theirs =
-                        grid.equal_radii ? grid.largest_radius : state.discs[k].radius;
-                    const double gap = scale * square_root(dx * dx + dy * dy) - (radius + theirs);
-                    // Half of them are too far, in no order: a branch would be mispredicted.
-                    note(state, candidates, candidates.count, k);
-                    candidates.gap[candidates.count] = gap;
-                    const bool near = gap < farthest + larger(farthest, double(other.skin_radius));
-                    candidates.count += near & (k != i);
-                }
+            const auto look_at = [&](std::uint32_t k) {
+                if (candidates.count == candidates.room) return false;
+                const Skin& other = state.skins[k];
+                const double dx = other.X - X, dy = other.Y - Y;
+                const double theirs =
+                    grid.equal_radii ? grid.largest_radius : state.discs[k].radius;
+                const double gap = scale * square_root(dx * dx + dy * dy) - (radius + theirs);
+                // Half of them are too far, in no order: a branch would be mispredicted.
+                note(state, candidates, candidates.count, k);
+                candidates.gap[candidates.count] = gap;
+                const bool near = gap < farthest + larger(farthest, double(other.skin_radius));
+                candidates.count += near & (k != i);
+                return true;
+            };
+            for (std::uint32_t x = left; x <= right; ++x) {
+                const std::uint32_t number = y * grid.cells_per_side + x;
+                if (grid.cells != nullptr)
+                    for (std::uint32_t n = 0; n < grid.cells[number].count; ++n)
+                        if (!look_at(grid.cells[number].disc[n])) return false;
+                for (std::uint32_t k = grid.heads[number]; k != state.size;
+                     k = state.skins[k].next_in_cell)
+                    if (!look_at(k)) return false;
+            }
         }
     }
     pad(state, candidates);
@@ -276,15 +310,35 @@ SWIRL_INLINE std::uint32_t collect_next_door(const EngineState& state, std::uint
     const Skin& mine = state.skins[i];
     const std::uint32_t cx = cell_row(state, grid, mine.X), cy = cell_row(state, grid, mine.Y);
     const std::uint32_t last = grid.cells_per_side - 1;
+    const auto for_nine_cells = [&](auto look_at) {
+        for (std::uint32_t y = cy - (cy > 0); y <= cy + (cy < last); ++y)
+            for (std::uint32_t x = cx - (cx > 0); x <= cx + (cx < last); ++x)
+                look_at(y * grid.cells_per_side + x);
+    };
     std::uint32_t count = 0;
-    for (std::uint32_t y = cy - (cy > 0); y <= cy + (cy < last); ++y)
-        for (std::uint32_t x = cx - (cx > 0); x <= cx + (cx < last); ++x)
-            for (std::uint32_t k = grid.heads[y * grid.cells_per_side + x]; k != nobody;
+    bool some_have_no_room = true;
+    if (grid.cells != nullptr) {
+        // Whole cells, as in linked_cells.hpp.
+        std::uint32_t found[9 * Cell::room + 1], all = 0;
+        some_have_no_room = false;
+        for_nine_cells([&](std::uint32_t number) {
+            std::memcpy(found + all, &grid.cells[number], sizeof(Cell));
+            all += grid.cells[number].count;
+            some_have_no_room |= grid.heads[number] != nobody;
+        });
+        for (std::uint32_t n = 0; n < all; ++n) {
+            note(state, candidates, count, found[n]);
+            count += found[n] != i;
+        }
+    }
+    if (some_have_no_room)
+        for_nine_cells([&](std::uint32_t number) {
+            for (std::uint32_t k = grid.heads[number]; k != nobody && count <= candidates.room;
                  k = state.skins[k].next_in_cell) {
-                if (count == candidates.room) return count + 1;
-                note(state, candidates, count, k);
+                if (count < candidates.room) note(state, candidates, count, k);
                 count += k != i;
             }
+        });
     return count;
 }
 
@@ -419,15 +473,12 @@ static std::uint32_t resolve_overflow(EngineState& state, std::uint32_t i, doubl
     return count;
 }
 
-/// Everybody's list anew.
-static void rebuild_all_lists(EngineState& state, double t, const SkinRadiusRange& range) {
-    for (std::uint32_t g = 0; g < state.grid_count; ++g) {
-        const Grid& grid = state.grids[g];
-        for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
-            grid.heads[c] = state.size;
-    }
+/// Everybody's list anew, with skins about as wide as told. False if one overflows.
+static bool rebuild_all_lists(EngineState& state, double t, double skin_radius,
+                              const SkinRadiusRange& range) {
+    for (std::uint32_t g = 0; g < state.grid_count; ++g) empty_cells(state, state.grids[g]);
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        if (state.stops_at(i)) return;
+        if (state.stops_at(i)) return true;
         for (std::uint32_t slot = 0; slot < state.capacity; ++slot)
             state.cold(i).neighbours()[slot] = state.size;
         state.discs[i].neighbours = 0;
@@ -440,9 +491,10 @@ static void rebuild_all_lists(EngineState& state, double t, const SkinRadiusRang
         centre_skin(state, i, t);
     }
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        if (state.stops_at(i)) return;
-        build_list(state, i, t, 0.0, range);
+        if (state.stops_at(i)) return true;
+        if (!build_list(state, i, t, skin_radius, range)) return false;
     }
+    return true;
 }
 
 }  // namespace SWIRL_TARGET
