@@ -310,10 +310,16 @@ SWIRL_INLINE std::uint32_t place_in_list(const std::uint32_t* list, std::uint32_
                                          std::uint32_t k) {
 #if defined(__SSE2__)
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(k));
-    for (std::uint32_t slot = 0; slot < room; slot += 4) {
-        const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(list + slot));
-        const int bits = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, wanted)));
-        if (bits != 0) return slot + static_cast<std::uint32_t>(__builtin_ctz(unsigned(bits)));
+    // All of a short list without asking where: that would be guessed wrong.
+    for (std::uint32_t begin = 0; begin < room; begin += 64) {
+        std::uint64_t bits = 0;
+        for (std::uint32_t slot = 0; slot < 64 && begin + slot < room; slot += 4) {
+            const __m128i four =
+                _mm_loadu_si128(reinterpret_cast<const __m128i*>(list + begin + slot));
+            const int equal = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, wanted)));
+            bits |= static_cast<std::uint64_t>(static_cast<unsigned>(equal)) << slot;
+        }
+        if (bits != 0) return begin + static_cast<std::uint32_t>(__builtin_ctzll(bits));
     }
     return 0;
 #else

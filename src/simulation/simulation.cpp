@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -368,17 +369,18 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
         return;
     }
     state.skins = memory.add<Skin>(size);
-    // A few rows more to look at take less than another level.
-    constexpr std::size_t most_top_rows = 4;
     std::size_t entries = size;
     do {
-        const std::size_t padded = (entries + 7) / 8 * 8;
+        std::size_t padded = (entries + 7) / 8 * 8;
+        // One row, two or four.
+        if (padded <= 8 * most_top_rows) padded = std::bit_ceil(padded);
         state.level_times[state.levels] = memory.add<double>(padded);
         if (state.levels > 0) state.level_winners[state.levels] = memory.add<std::uint32_t>(padded);
         ++state.levels;
         entries = padded / 8;
     } while (entries > most_top_rows);
     state.top_rows = static_cast<std::uint32_t>(entries);
+    std::fill_n(state.level_times[state.levels - 1], 8 * entries, never);  // more than there are
 }
 
 /// Where all discs are of about one size, cells wide enough that the skins of discs in cells that
@@ -474,11 +476,12 @@ void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radi
     const std::uint32_t longest = list_room(radii.largest);
     CandidateColumns& candidates = state.candidates;
     candidates.room = std::max(least_candidates, (2 * longest + 7) / 8 * 8);
-    candidates.gap = memory.add<double>(candidates.room);
-    candidates.reach = memory.add<double>(candidates.room);
+    // Behind the last candidate stand eight that are nobody.
+    candidates.gap = memory.add<double>(candidates.room + 8);
+    candidates.reach = memory.add<double>(candidates.room + 8);
     candidates.X = memory.add<float>(candidates.room);
     candidates.Y = memory.add<float>(candidates.room);
-    candidates.disc = memory.add<std::uint32_t>(candidates.room);
+    candidates.disc = memory.add<std::uint32_t>(candidates.room + 8);
     candidates.chosen = memory.add<std::uint32_t>(candidates.room);
     candidates.rebuilt = memory.add<std::uint32_t>(candidates.room);
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "random_cases.hpp"
 
@@ -110,6 +112,16 @@ void expect_pairs_become_columns() {
 TEST(Lanes, PairsBecomeColumns) {
     expect_pairs_become_columns<4>();
     expect_pairs_become_columns<8>();
+}
+
+// Longer lists are looked through in pieces of 64.
+TEST(Lanes, WhereverADiscStandsInAListItIsFound) {
+    for (const std::uint32_t room : {4u, 12u, 64u, 68u, 124u}) {
+        std::vector<std::uint32_t> list(room);
+        for (std::uint32_t slot = 0; slot < room; ++slot) list[slot] = 1000 + slot;
+        for (std::uint32_t slot = 0; slot < room; ++slot)
+            EXPECT_EQ(place_in_list(list.data(), room, 1000 + slot), slot) << "of " << room;
+    }
 }
 
 TEST(Lanes, TwoLanesKeepTheirOrder) {

@@ -203,6 +203,9 @@ struct TurningBound {
     double margin;  // against rounding errors, as a fraction
 };
 
+/// Of the tournament: a few rows more to look at take less than another level.
+inline constexpr std::uint32_t most_top_rows = 4;
+
 struct EngineState {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
     std::uint32_t capacity;  // of a neighbour list; a multiple of 4
@@ -214,7 +217,7 @@ struct EngineState {
     const DiscKind* kinds;
 
     // The tournament (tournament.hpp).
-    std::uint32_t levels, top_rows;  // top_rows: of the topmost level
+    std::uint32_t levels, top_rows;  // of the topmost level: one, two or four
     bool prefetches;                 // the discs do not all fit into the nearest cache
     double* level_times[12];
     std::uint32_t* level_winners[12];

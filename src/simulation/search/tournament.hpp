@@ -64,8 +64,9 @@ SWIRL_INLINE void prefetch_winner(const EngineState& state, std::uint32_t level,
         prefetch_disc(state, winner);
     } else if (level + 1 == state.levels) {
         prefetch_neighbours(state, winner);
+        // Or nobody, in the place of a mark: whether it is one would be guessed wrong.
         const std::uint32_t partner = state.cold(winner).partner;
-        if (partner < state.size) prefetch_disc(state, partner);
+        prefetch_disc(state, chosen(partner < state.size, partner, state.size));
     }
 }
 
@@ -100,25 +101,31 @@ SWIRL_INLINE PendingEvent pending_event(const EngineState& state, std::uint32_t 
     return first.disc;
 }
 
-/// Says who comes first of all.
-template <bool in_order = false>
-SWIRL_INLINE void note_first(EngineState& state) {
+/// Says who comes first of all, where the topmost level has so many rows.
+template <int Rows, bool in_order>
+SWIRL_INLINE void note_first_of_rows(EngineState& state) {
     const std::uint32_t top = state.levels - 1;
-    const double* const times = state.level_times[top];
-    Lanes<8> least = Lanes<8>::load(times);
-    for (std::uint32_t row = 1; row < state.top_rows; ++row)
-        least = smaller(least, Lanes<8>::load(times + 8 * row));
+    Lanes<8> rows[Rows];
+    for (int row = 0; row < Rows; ++row)
+        rows[row] = Lanes<8>::load(state.level_times[top] + 8 * row);
+    Lanes<8> least = rows[0];
+    for (int row = 1; row < Rows; ++row) least = smaller(least, rows[row]);
     const double time = smallest(least);
-    std::uint64_t equal = 0;
-    for (std::uint32_t row = 0; row < state.top_rows; ++row)
-        equal |= static_cast<std::uint64_t>(lanes_equal(Lanes<8>::load(times + 8 * row), time))
-                 << (8 * row);
+    const std::uint64_t equal = lanes_equal(rows, time);
     const auto lane = static_cast<std::uint32_t>(__builtin_ctzll(equal));
     std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
     if (in_order && (equal & (equal - 1)) != 0 && time != never)
         disc = first_in_order_of(state, top + 1, 0, equal, time);
     state.first_time = time;
     state.first_disc = disc;
+}
+
+/// Says who comes first of all.
+template <bool in_order = false>
+SWIRL_INLINE void note_first(EngineState& state) {
+    if (state.top_rows == 1) return note_first_of_rows<1, in_order>(state);
+    if (state.top_rows == 2) return note_first_of_rows<2, in_order>(state);
+    note_first_of_rows<most_top_rows, in_order>(state);
 }
 
 /// From the times of all discs, which are written down: who wins.

@@ -228,10 +228,11 @@ SWIRL_INLINE void note(const EngineState& state, const CandidateColumns& candida
 
 SWIRL_INLINE void pad(const EngineState& state, Candidates& candidates) {
     candidates.padded = (candidates.count + 7u) & ~7u;
-    for (std::uint32_t n = candidates.count; n < candidates.padded; ++n) {
-        candidates.gap[n] = never;
-        candidates.reach[n] = 0.0;
-        candidates.disc[n] = state.size;
+    // Eight of them, however many it takes: there is room, and no branch to be guessed wrong.
+    for (std::uint32_t n = 0; n < 8; ++n) {
+        candidates.gap[candidates.count + n] = never;
+        candidates.reach[candidates.count + n] = 0.0;
+        candidates.disc[candidates.count + n] = state.size;
     }
 }
 
@@ -402,6 +403,19 @@ static double recentre_skin(EngineState& state, std::uint32_t i, double t) {
     return before;
 }
 
+/// Of 64 candidates those whose skins a skin of this radius reaches. All at once: how many of eight
+/// there are would be guessed wrong every time.
+SWIRL_INLINE std::uint64_t closer_of_64(const Candidates& candidates, std::uint32_t begin,
+                                        double skin_radius) {
+    const std::uint32_t end = candidates.padded - begin < 64 ? candidates.padded : begin + 64;
+    std::uint64_t bits = 0;
+    for (std::uint32_t k = begin; k < end; k += 8)
+        bits |= static_cast<std::uint64_t>(
+                    lanes_closer(candidates.gap + k, candidates.reach + k, skin_radius))
+                << (k - begin);
+    return bits;
+}
+
 /// Gives disc i, whose skin was just recentred, its skin radius and its list. Discs that have no
 /// skin radius are passed over: they find i when they build theirs. False if a list overflows.
 static bool build_list(EngineState& state, std::uint32_t i, double t, double before,
@@ -415,11 +429,10 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
     for (;;) {
         std::uint32_t count = 0;
         bool room = true;
-        for (std::uint32_t block = 0; block < candidates.padded && room; block += 8) {
-            unsigned bits =
-                lanes_closer(candidates.gap + block, candidates.reach + block, skin_radius);
+        for (std::uint32_t begin = 0; begin < candidates.padded && room; begin += 64) {
+            std::uint64_t bits = closer_of_64(candidates, begin, skin_radius);
             for (; bits != 0; bits &= bits - 1) {
-                const std::uint32_t n = block + __builtin_ctz(bits);
+                const std::uint32_t n = begin + static_cast<std::uint32_t>(__builtin_ctzll(bits));
                 if (candidates.reach[n] == 0.0) continue;
                 if (count == most || is_full(state, candidates.disc[n])) {
                     room = false;
