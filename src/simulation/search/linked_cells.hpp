@@ -104,7 +104,9 @@ template <bool have_annexes>
 SWIRL_INLINE void collect(const EngineState& state, std::uint32_t i, Candidates& candidates) {
     const Cell* row = state.cells + state.skins[i].cell - state.grids[0].cells_per_side - 1;
     std::uint32_t count = 0;
+#pragma GCC unroll 3
     for (int y = 0; y < 3; ++y, row += state.grids[0].cells_per_side) {
+#pragma GCC unroll 3
         for (int x = 0; x < 3; ++x) {
             // The whole cell, so that nothing depends on how many there are but the place of the
             // next.
@@ -157,10 +159,19 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
     const Lanes<2> rate = larger(select(speed > zero, speed, -speed), zero);
     const Lanes<2> wait = larger(way, Lanes<2>(1e-9) * half) / rate;
     const double x = lane(wait, 0), y = lane(wait, 1);
-    const std::uint32_t across = v.x > 0.0 ? 0 : 1, up = v.y > 0.0 ? 2 : 3;
+    // By which edge is not to be guessed.
+    const std::uint32_t across = 1u - (v.x > 0.0), up = 3u - (v.y > 0.0);
     const double edge = t + smaller(x, y);
     return {cells::wall_time(state, i, smaller(meeting, edge)), edge,
-            leaves_skin + (x < y ? across : up)};
+            leaves_skin + chosen(x < y, across, up)};
+}
+
+/// The first of a disc's first meeting, the wall and the edge of its cell: in a thin gas half of
+/// all predictions end there, so it is not to be guessed.
+SWIRL_INLINE PendingEvent or_edge(const PendingEvent& meeting, const Leaving& leaving) {
+    const PendingEvent first = first_of(meeting, leaving.wall);
+    return {smaller(leaving.skin, first.time), first.disc,
+            chosen(leaving.skin < first.time, leaving.mark, first.partner)};
 }
 
 /// The first of the strays that a disc meets, if it meets one before all others.
@@ -172,6 +183,47 @@ SWIRL_INLINE Leaving leaving_times(const EngineState& state, std::uint32_t i, do
                            first);
     }
     return first;
+}
+
+/// The same one vector after the other, of those at one instant the one with the smallest number.
+template <Held held>
+[[gnu::noinline]] static PendingEvent first_in_order_of_candidates(const EngineState& state,
+                                                                   std::uint32_t i, double t,
+                                                                   const Candidates& candidates) {
+    PendingEvent first = no_meeting(i);
+    for (std::uint32_t k = 0; k < candidates.count; k += 8) {
+        const std::uint32_t* const eight = candidates.disc + k;
+        const Others<8> others = load_others<8>(state, eight);
+        first = earlier<8>(eight, contact_times<held>(state.discs[i], others, t), first);
+    }
+    return first;
+}
+/// Whom disc i, asked at time t, meets first; when it meets the first eight is known. Which vector
+/// has the first of all is anybody's guess, so each lane keeps its own, where that came from, and
+/// the soonest of those that it was preferred to.
+template <Held held>
+SWIRL_INLINE PendingEvent first_of_candidates(const EngineState& state, std::uint32_t i, double t,
+                                              const Candidates& candidates,
+                                              const Lanes<8>& contacts) {
+    if (candidates.count <= 8) return first_meeting<8>(candidates.disc, contacts, i);
+    Lanes<8> first = contacts, from(0.0), second(never);
+    for (std::uint32_t k = 8; k < candidates.count; k += 8) {
+        const Others<8> others = load_others<8>(state, candidates.disc + k);
+        const Lanes<8> more = contact_times<held>(state.discs[i], others, t);
+        second = smaller(second, larger(more, first));
+        from = select(more < first, Lanes<8>(k), from);
+        first = smaller(more, first);
+    }
+    alignas(64) double begin[8];
+    from.store(begin);
+    const double time = smallest(first);
+    const unsigned equal = lanes_equal(first, time);
+    const unsigned others = (equal & (equal - 1)) | lanes_equal(second, time);
+    // Where nobody is met all are equal.
+    if (chosen(time < never, others, 0) != 0) [[unlikely]]
+        return first_in_order_of_candidates<held>(state, i, t, candidates);
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(equal));
+    return {time, i, candidates.disc[static_cast<std::uint32_t>(begin[lane]) + lane]};
 }
 
 /// The first of everything that may happen to each of D discs, asked at time t.
@@ -186,17 +238,12 @@ SWIRL_INLINE void find_first(EngineState& state, const std::uint32_t (&who)[D], 
             contact_times<held>(state.discs[who[d]], load_others<8>(state, candidates[d].disc), t);
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
-        PendingEvent meeting = earlier<8>(candidates[d].disc, contacts[d], no_meeting(who[d]));
-        for (std::uint32_t k = 8; k < candidates[d].count; k += 8) {
-            const std::uint32_t* const more = candidates[d].disc + k;
-            const Others<8> others = load_others<8>(state, more);
-            meeting =
-                earlier<8>(more, contact_times<held>(state.discs[who[d]], others, t), meeting);
-        }
+        PendingEvent meeting =
+            first_of_candidates<held>(state, who[d], t, candidates[d], contacts[d]);
         state.candidates_looked_at += candidates[d].count;
         if (state.stray_count != 0) [[unlikely]]
             meeting = earliest_stray(state, meeting);
-        first[d] = first_of(meeting, leaving_times(state, who[d], t, meeting.time));
+        first[d] = or_edge(meeting, leaving_times(state, who[d], t, meeting.time));
     }
 }
 template <Held held, int D>

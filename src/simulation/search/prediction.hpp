@@ -88,10 +88,14 @@ SWIRL_INLINE PendingEvent first_meeting(const std::uint32_t* neighbours, const L
     return {time, i, partner};
 }
 
-/// The first of a disc's first meeting, the wall and the end of its skin.
+/// The first of a disc's first meeting and the wall.
+SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, double wall_time) {
+    const PendingEvent wall{wall_time, meeting.disc, meeting.disc};
+    return precedes(wall, meeting) ? wall : meeting;
+}
+/// The first of these and the end of its skin.
 SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& leaving) {
-    const PendingEvent wall{leaving.wall, meeting.disc, meeting.disc};
-    const PendingEvent first = precedes(wall, meeting) ? wall : meeting;
+    const PendingEvent first = first_of(meeting, leaving.wall);
     return leaving.skin < first.time ? PendingEvent{leaving.skin, first.disc, leaving.mark} : first;
 }
 
