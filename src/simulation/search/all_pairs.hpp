@@ -125,7 +125,7 @@ SWIRL_INLINE void predict_all_walls(EngineState& state) {
 /// some while ago, all are asked again from then on, as nothing happens before; most of those that
 /// come near the wall meet somebody else before they are there. Then when disc i is at the wall.
 template <int G>
-[[gnu::noinline]] static void approach_wall(EngineState& state, std::uint32_t i, double time) {
+[[gnu::noinline]] static void ask_wall_again(EngineState& state, std::uint32_t i, double time) {
     SideBySide& all = *state.side_by_side;
     const Eight then(time);
     if (time - all.walls_asked_at > 0.5 * state.turning_bound.horizon) {
@@ -187,7 +187,7 @@ SWIRL_INLINE void find_next(EngineState& state) {
             all.next = first_in_order(state, time, lanes_equal(meeting, time), walls);
             return;
         }
-        approach_wall<G>(state, __builtin_ctzll(walls & all.wall_is_earliest), time);
+        ask_wall_again<G>(state, __builtin_ctzll(walls & all.wall_is_earliest), time);
     }
 }
 
