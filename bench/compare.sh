@@ -3,10 +3,11 @@
 #
 # Is the working tree faster than COMMIT? Builds both, COMMIT's engine with the benchmark of the
 # working tree if it can be had so (or some scenes would be missing), else with its own; runs their
-# `swirl bench` in turns (so that a machine that is busy now and idle later treats both alike); and
-# prints for every scene that both have the median of the ratios of their rates, working tree over
-# COMMIT. Above 1: faster. What is measured besides rates comes after that, new over old, and at the
-# end the names of what only one of them has. OPTIONs go to both, as --full or --width all.
+# `swirl bench` in turns (so that a machine that is busy now and idle later treats both alike), on
+# one processor (for two may differ); and prints for every scene that both have the median of the
+# ratios of their rates, working tree over COMMIT. Above 1: faster. What is measured besides rates
+# comes after that, new over old, and at the end the names of what only one of them has. OPTIONs go
+# to both, as --full or --width all.
 set -eu
 if [ $# -lt 1 ] || [ "$1" = -h ] || [ "$1" = --help ]; then
     sed -n '2,/^set/p' "$0" | sed -e '$d' -e 's/^# \{0,1\}//'
@@ -44,9 +45,12 @@ if ! build "$old" "$work/old-$commit"; then
     build "$old" "$work/old-$commit" || { tail -20 "$work/old-$commit.log" >&2; exit 1; }
 fi
 
+processor=$(taskset -cp $$ | sed 's/.*[^0-9]//') # the last that we may use
 for round in $(seq "$rounds"); do
     echo "round $round of $rounds" >&2
-    "$work/old-$commit/swirl" bench --quiet --seconds "$seconds" "${options[@]}" --json "$work/old-$round.json" >/dev/null
-    "$work/new/swirl" bench --quiet --seconds "$seconds" "${options[@]}" --json "$work/new-$round.json" >/dev/null
+    for which in "old-$commit" new; do
+        taskset -c "$processor" "$work/$which/swirl" bench --quiet --seconds "$seconds" "${options[@]}" \
+            --json "$work/${which%%-*}-$round.json" >/dev/null
+    done
 done
 /usr/bin/python3 "$home/bench/ratios.py" "$work" "$rounds"
