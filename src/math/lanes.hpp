@@ -446,6 +446,41 @@ SWIRL_INLINE void load_fours(const double* const (&rows)[W], Lanes<W> (&columns)
 #endif
 }
 
+/// Three columns from eight rows that start with four floats each. By registers: eight numbers
+/// written one by one and read as one vector would wait for all of them to leave the store buffer.
+SWIRL_INLINE void load_three(const float* const (&rows)[8], Lanes<8>& a, Lanes<8>& b, Lanes<8>& c) {
+    typedef float Float4 __attribute__((vector_size(16), may_alias));
+    const auto row = [&](int k) { return *reinterpret_cast<const Float4*>(rows[k]); };
+    Float4 columns[3][2];
+    for (int half = 0; half < 2; ++half) {
+        const Float4 r0 = row(4 * half), r1 = row(4 * half + 1);
+        const Float4 r2 = row(4 * half + 2), r3 = row(4 * half + 3);
+        const Float4 low01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5);
+        const Float4 low23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
+        const Float4 high01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
+        const Float4 high23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+        columns[0][half] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+        columns[1][half] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+        columns[2][half] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+    }
+    const auto in_double = [](const Float4(&halves)[2]) {
+        Lanes<8> r;
+#if SWIRL_REGISTER_BYTES >= 64
+        r.part[0] =
+            _mm512_cvtps_pd(__builtin_shufflevector(halves[0], halves[1], 0, 1, 2, 3, 4, 5, 6, 7));
+#elif SWIRL_REGISTER_BYTES >= 32
+        for (int p = 0; p < 2; ++p) r.part[p] = _mm256_cvtps_pd(halves[p]);
+#else
+        for (int p = 0; p < 4; ++p)
+            r.part[p] = Double2{halves[p / 2][p % 2 * 2], halves[p / 2][p % 2 * 2 + 1]};
+#endif
+        return r;
+    };
+    a = in_double(columns[0]);
+    b = in_double(columns[1]);
+    c = in_double(columns[2]);
+}
+
 /// Lane k.
 template <int W>
 SWIRL_INLINE double lane(const Lanes<W>& a, int k) {

@@ -372,8 +372,8 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
     std::size_t entries = size;
     do {
         std::size_t padded = (entries + 7) / 8 * 8;
-        // One row, two or four.
-        if (padded <= 8 * most_top_rows) padded = std::bit_ceil(padded);
+        // One row, or an even number.
+        if (padded > 8 && padded <= 8 * most_top_rows) padded = (padded + 15) / 16 * 16;
         state.level_times[state.levels] = memory.add<double>(padded);
         if (state.levels > 0) state.level_winners[state.levels] = memory.add<std::uint32_t>(padded);
         ++state.levels;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -112,6 +113,25 @@ void expect_pairs_become_columns() {
 TEST(Lanes, PairsBecomeColumns) {
     expect_pairs_become_columns<4>();
     expect_pairs_become_columns<8>();
+}
+
+// The fourth of each row may be the bits of something else.
+TEST(Lanes, ThreeOfFourFloatsBecomeColumns) {
+    alignas(16) float fours[8][4];
+    const float* rows[8];
+    for (int k = 0; k < 8; ++k) {
+        const auto number = static_cast<float>(k);
+        const float four[] = {number + 1.0f, -number - 0.5f, 0x1p-30f * number, __builtin_nanf("")};
+        std::copy(four, four + 4, fours[k]);
+        rows[k] = fours[k];
+    }
+    Lanes<8> first, second, third;
+    load_three(rows, first, second, third);
+    for (int k = 0; k < 8; ++k) {
+        EXPECT_EQ(stored(first).value[k], k + 1.0);
+        EXPECT_EQ(stored(second).value[k], -k - 0.5);
+        EXPECT_EQ(stored(third).value[k], 0x1p-30 * k);
+    }
 }
 
 // Longer lists are looked through in pieces of 64.

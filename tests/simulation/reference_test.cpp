@@ -41,10 +41,15 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAtEveryNumberOfVectors) {
     for (const std::size_t n : {8u, 9u, 16u, 17u, 24u, 25u, 32u, 33u, 40u, 41u})
         expect_same_trajectory(paper_dish(n), 3000, tuning());
 }
-// Their times are one row, two, four of which one is nobody's, and four.
+// Their times are one row, two, four of which one is nobody's, four, six and eight.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhereDiscsAreFew) {
-    for (const std::size_t n : {1u, 2u, 5u, 12u, 20u, 28u})
+    for (const std::size_t n : {1u, 2u, 5u, 12u, 20u, 28u, 40u, 52u})
         expect_same_trajectory(paper_dish(n), 20000, tuning(1));
+}
+// A second level has two rows, four, six and eight.
+TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhateverTheRowsOnTop) {
+    for (const std::size_t n : {100u, 200u, 300u, 500u})
+        expect_same_trajectory(gas_at_rest(n, 0.7), 400, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
     expect_same_trajectory(paper_dish(40, 0.0, 0.0), 30000, tuning());

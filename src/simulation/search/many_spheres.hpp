@@ -174,7 +174,7 @@ struct ManySpheres {
     SWIRL_INLINE static PendingEvent next(const EngineState& state) { return next_pending(state); }
     SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
-        swirl::take_out<1, true>(state, {event.disc});
+        swirl::take_out<true>(state, event.disc);
         many_spheres::predict(state, event.disc);
     }
     SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {

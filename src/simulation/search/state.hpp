@@ -204,7 +204,7 @@ struct TurningBound {
 };
 
 /// Of the tournament: a few rows more to look at take less than another level.
-inline constexpr std::uint32_t most_top_rows = 4;
+inline constexpr std::uint32_t most_top_rows = 8;
 
 struct EngineState {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
@@ -217,7 +217,7 @@ struct EngineState {
     const DiscKind* kinds;
 
     // The tournament (tournament.hpp).
-    std::uint32_t levels, top_rows;  // of the topmost level: one, two or four
+    std::uint32_t levels, top_rows;  // of the topmost level: 1, 2, 4, 6 or 8
     bool prefetches;                 // the discs do not all fit into the nearest cache
     double* level_times[12];
     std::uint32_t* level_winners[12];

@@ -1,7 +1,7 @@
 // Speed only, changes no bit: whose event comes first. A tournament of eight: level 0 holds each
 // disc's pending time, in rows of eight; each level above holds the winner of each row below. A row
 // is one vector, so the winner of eight takes one pass of `smaller`. The topmost level has up to
-// four rows.
+// eight rows.
 //
 // The discs of an event are taken out before it is executed, and then who comes first of what
 // remains is noted. When it has been predicted what they do next, they are put in again. That
@@ -123,9 +123,18 @@ SWIRL_INLINE void note_first_of_rows(EngineState& state) {
 /// Says who comes first of all.
 template <bool in_order = false>
 SWIRL_INLINE void note_first(EngineState& state) {
-    if (state.top_rows == 1) return note_first_of_rows<1, in_order>(state);
-    if (state.top_rows == 2) return note_first_of_rows<2, in_order>(state);
-    note_first_of_rows<most_top_rows, in_order>(state);
+    switch (state.top_rows) {
+        case 1:
+            return note_first_of_rows<1, in_order>(state);
+        case 2:
+            return note_first_of_rows<2, in_order>(state);
+        case 4:
+            return note_first_of_rows<4, in_order>(state);
+        case 6:
+            return note_first_of_rows<6, in_order>(state);
+        default:
+            note_first_of_rows<most_top_rows, in_order>(state);
+    }
 }
 
 /// From the times of all discs, which are written down: who wins.
@@ -144,11 +153,10 @@ SWIRL_INLINE void note_first(EngineState& state) {
     note_first(state);
 }
 
-/// Leaves one disc or two without an event: their places go to the next in their rows, on every
-/// level. Where both have one row, the second sees there what the first has done, and what it
-/// writes is what stays.
-template <int D, bool in_order = false>
-SWIRL_INLINE void take_out(EngineState& state, const std::uint32_t (&who)[D]) {
+/// The places of one disc or two go to the next in their rows, on every level. Where both have one
+/// row, the second sees there what the first has done, and what it writes is what stays.
+template <int D, bool in_order>
+SWIRL_INLINE void leave_rows(EngineState& state, const std::uint32_t (&who)[D]) {
     Lanes<8> row[D];
     std::uint32_t place[D];
 #pragma GCC unroll 2
@@ -175,17 +183,22 @@ SWIRL_INLINE void take_out(EngineState& state, const std::uint32_t (&who)[D]) {
             state.level_winners[level][place[d]] = winner;
         }
     }
+}
+
+/// Leaves a disc without an event.
+template <bool in_order = false>
+SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
+    leave_rows<1, in_order>(state, {disc});
     note_first<in_order>(state);
 }
-SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) { take_out<1>(state, {disc}); }
-
 /// The discs of an event.
 template <bool in_order = false>
 SWIRL_INLINE void take_out(EngineState& state, const PendingEvent& event) {
     if (event.is_with_wall() || (in_order && event.partner >= state.size))
-        take_out<1, in_order>(state, {event.disc});
+        leave_rows<1, in_order>(state, {event.disc});
     else
-        take_out<2, in_order>(state, {event.partner, event.disc});
+        leave_rows<2, in_order>(state, {event.partner, event.disc});
+    note_first<in_order>(state);
 }
 
 /// Gives a disc that has none, or a later one, an event at the given time.

@@ -157,34 +157,39 @@ SWIRL_INLINE void ask_whether_lists_last(EngineState& state) {
     predict_all(state, state.clock);
 }
 
+/// Eight skins side by side.
+struct Skins {
+    Flight<Lanes<8>> flight;
+    Lanes<8> radius;
+};
+/// Those of `count` discs from `begin` on; of the first, where there are no more.
+SWIRL_INLINE Skins load_skins(const EngineState& state, std::uint32_t begin, std::uint32_t count) {
+    const float* rows[8];
+    for (std::uint32_t k = 0; k < 8; ++k) rows[k] = &state.skins[begin + (k < count ? k : 0)].X;
+    BasicVec2<Lanes<8>> Z;
+    Lanes<8> radius;
+    load_three(rows, Z.x, Z.y, radius);
+    return {state.comoving_frame.flight_of(Z), radius};
+}
+
 /// Wall and skin of the eight discs from `begin` on; all of them hold states from before time t,
 /// when the leg begins, or a stretch of it.
 SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t) {
     const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
     std::uint32_t who[8];
-    alignas(64) double X[8], Y[8], skin_radius[8], inner_radius[8];
-    for (std::uint32_t k = 0; k < 8; ++k) {
-        who[k] = k < count ? begin + k : state.size;
-        const Skin& skin = state.skins[k < count ? begin + k : begin];
-        X[k] = skin.X;
-        Y[k] = skin.Y;
-        skin_radius[k] = skin.skin_radius;
-        inner_radius[k] = inner_skin_radius(skin);
-    }
+    for (std::uint32_t k = 0; k < 8; ++k) who[k] = k < count ? begin + k : state.size;
     using Eight = Lanes<8>;
     const Others<8> discs = load_others<8>(state, who);
-    const Flight<Eight> skins =
-        state.comoving_frame.flight_of(BasicVec2<Eight>{Eight::load(X), Eight::load(Y)});
-    const BasicVec2<Eight> centre = skins.position_at(Eight(t));
+    const Skins skins = load_skins(state, begin, count);
+    const BasicVec2<Eight> centre = skins.flight.position_at(Eight(t));
     const BasicVec2<Eight> offset = discs.flight.position_at(Eight(t)) - centre;
-    const BasicVec2<Eight> drift = discs.flight.velocity - skins.velocity;
+    const BasicVec2<Eight> drift = discs.flight.velocity - skins.flight.velocity;
     alignas(64) double wall[8], skin[8], beyond[8];
     soonest_wall_times<8>(state, discs.flight, discs.radius, t).store(wall);
-    (Eight(t) + time_to_leave(offset, drift, Eight::load(inner_radius))).store(skin);
+    (Eight(t) + time_to_leave(offset, drift, inner_skin_radius(skins.radius))).store(skin);
     const WallReach reach = reach_far_from_wall(state, t);
     const BasicVec2<Eight> s = centre - in_lanes<8>(state.legs[state.leg].position_at(t));
-    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, Eight::load(skin_radius),
-                 discs.radius)
+    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, skins.radius, discs.radius)
         .store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -201,25 +206,20 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin,
     using Eight = Lanes<8>;
     const std::uint32_t count = state.size - begin < 8 ? state.size - begin : 8;
     std::uint32_t who[8];
-    alignas(64) double X[8], Y[8], skin_radius[8], radius[8], beyond[8], wall[8];
+    alignas(64) double beyond[8], wall[8];
+    const double* radii[8];
     unsigned were_far = 0;
     for (std::uint32_t k = 0; k < 8; ++k) {
         who[k] = k < count ? begin + k : state.size;
-        const std::uint32_t i = k < count ? begin + k : begin;
-        const Skin& skin = state.skins[i];
-        X[k] = skin.X;
-        Y[k] = skin.Y;
-        skin_radius[k] = skin.skin_radius;
-        radius[k] = state.discs[i].radius;
-        were_far |= static_cast<unsigned>(state.discs[i].far_from_wall) << k;
+        radii[k] = &state.discs[who[k]].time;
+        were_far |= static_cast<unsigned>(state.discs[who[k]].far_from_wall) << k;
     }
-    const Flight<Eight> skins =
-        state.comoving_frame.flight_of(BasicVec2<Eight>{Eight::load(X), Eight::load(Y)});
+    Eight times, radius;
+    load_pairs<8>(radii, times, radius);
+    const Skins skins = load_skins(state, begin, count);
     const BasicVec2<Eight> s =
-        skins.position_at(Eight(t)) - in_lanes<8>(state.legs[state.leg].position_at(t));
-    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, Eight::load(skin_radius),
-                 Eight::load(radius))
-        .store(beyond);
+        skins.flight.position_at(Eight(t)) - in_lanes<8>(state.legs[state.leg].position_at(t));
+    beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, skins.radius, radius).store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
     unsigned near = ~(far & were_far) & ((1u << count) - 1u);
     if (near == 0) return;

@@ -34,8 +34,12 @@ inline namespace SWIRL_TARGET {
 inline constexpr double skin_margin = 1e-9;
 
 /// How far a disc may go from the centre of its skin.
+template <class Real>
+SWIRL_INLINE Real inner_skin_radius(const Real& skin_radius) {
+    return skin_radius * Real(1.0 - skin_margin);
+}
 SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
-    return static_cast<double>(skin.skin_radius) * (1.0 - skin_margin);
+    return inner_skin_radius<double>(skin.skin_radius);
 }
 
 /// Its centre is rounded to single precision, by less than this share of its distance from the
