@@ -103,6 +103,7 @@ void find(CrossingCall& call) {
         if (!file->empty() && *file != "-") refuse_unwritable(*file);
     if (call.json == "-" && call.table == "-")
         throw WrongCall("--json and --csv cannot both go to standard output.");
+    refuse_same_files({call.config_file, call.json, call.table});
 
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
@@ -168,7 +169,7 @@ void add_crossing_command(Subcommand& subcommand) {
         "near the crossing there are more and longer ones, until --tolerance is reached.\n");
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
-                             "swirl crossing --mu-wall 0 --from 20 --json -"});
+                             "swirl crossing --mu-wall 0.5 --from 20 --json -"});
     subcommand.callback([call, &subcommand] {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::taken,

@@ -108,9 +108,13 @@ void run_and_report(RunCall& call) {
     for (const auto& [name, text] : others)
         if (!text->empty()) files.call[name] = *text;
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+    std::vector<std::filesystem::path> tables;
+    if (!call.tables.empty()) tables = measured_table_files(observation.names(), call.tables);
+    refuse_same_files({call.json, files.trajectory, files.event_log, files.checkpoint, call.tables},
+                      tables);
     if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
-    if (is_done_already(files, call.json, config)) {
+    if (is_done_already(files, call.json, config, observation.names(), tables)) {
         if (!call.quiet) print_all(fmt::format("'{}' is complete already.\n", call.json));
         return;
     }
@@ -141,8 +145,16 @@ void run_and_report(RunCall& call) {
         print_all(json.dump(2) + "\n");
         if (!call.quiet) fmt::print(stderr, "{}", text);
     } else {
-        if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
+        const std::filesystem::path file = name_for_result(files, call.json, config);
+        if (!call.json.empty()) write_output(file, json.dump(2) + "\n");
         if (!call.quiet || call.json.empty()) print_all(text);
+        if (file != call.json) {
+            forget_checkpoint(files);
+            throw Failure(fmt::format(
+                "'{}' holds the result of another run, which came there while this one went on; "
+                "what this one found is in '{}'.",
+                call.json, file.string()));
+        }
     }
     if (result.complete && files.keep_checkpoint) {
         const bool recorded = !files.trajectory.empty() || !files.event_log.empty();

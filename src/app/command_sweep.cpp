@@ -267,7 +267,11 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
                              "swirl collect study --csv -"});
     subcommand.callback([call] {
-        const SweepPlan plan = read_plan(call->folder);
+        const fs::path folder = call->folder;
+        refuse_same_files({folder / "plan.json",
+                           call->table.empty() ? folder / "table.csv" : fs::path(call->table),
+                           call->crossings});
+        const SweepPlan plan = read_plan(folder);
         const CollectedSweep collected = collect_sweep(call->folder, plan);
         const std::string crossings =
             call->crossings.empty() ? "" : crossings_in(plan, collected).csv();

@@ -16,16 +16,20 @@ namespace {
 
 std::string last_error() { return std::generic_category().message(errno); }
 
+void refuse_option(const std::filesystem::path& name, const char* kind) {
+    if (name.native().starts_with('-'))
+        throw WrongCall(fmt::format(
+            "'{0}' looks like an option, but here the name of a {1} must stand; a {1} of that "
+            "name would be ./{0}.",
+            name.string(), kind));
+}
+
 }  // namespace
 
 void refuse_unwritable(const std::filesystem::path& file) {
     std::error_code ignored;
     if (file.empty()) throw WrongCall("The name of an output file is empty.");
-    if (file.native().front() == '-')
-        throw WrongCall(fmt::format(
-            "'{0}' looks like an option, but here the name of a file must stand; a file of that "
-            "name would be ./{0}.",
-            file.string()));
+    refuse_option(file, "file");
     if (std::filesystem::is_directory(file, ignored))
         throw Failure(fmt::format("'{}' is a folder, but it must be the name of a file to write.",
                                   file.string()));
@@ -37,7 +41,9 @@ void refuse_unwritable(const std::filesystem::path& file) {
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
 }
 
-void refuse_same_files(const std::vector<std::filesystem::path>& files) {
+void refuse_same_files(std::vector<std::filesystem::path> files,
+                       const std::vector<std::filesystem::path>& made) {
+    files.insert(files.end(), made.begin(), made.end());
     std::vector<std::filesystem::path> seen;
     for (const auto& file : files) {
         if (file.empty() || file == "-") continue;
@@ -71,6 +77,7 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
 }
 
 void make_folder(const std::filesystem::path& folder) {
+    refuse_option(folder, "folder");
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)

@@ -11,14 +11,16 @@ namespace swirl {
 void refuse_unwritable(const std::filesystem::path& file);
 
 /// Throws WrongCall if two of these are one file, however they are written; empty names and "-" are
-/// none.
-void refuse_same_files(const std::vector<std::filesystem::path>& files);
+/// none. Of `made` too: names that were not given.
+void refuse_same_files(std::vector<std::filesystem::path> files,
+                       const std::vector<std::filesystem::path>& made = {});
 
 /// Writes a file whole or not at all (files/whole_file.hpp); a pipe or a device gets the text as it
 /// is. Throws FileError or Failure.
 void write_output(const std::filesystem::path& file, const std::string& text);
 
-/// Makes the folder if it is not there; throws Failure if it cannot be written to.
+/// Makes the folder if it is not there; throws Failure if it cannot be written to, or WrongCall if
+/// its name is that of an option.
 void make_folder(const std::filesystem::path& folder);
 
 /// Writes to standard output; throws Failure if that fails (a full disk).

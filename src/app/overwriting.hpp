@@ -2,18 +2,29 @@
 // overwritten unless that is asked for.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "swirl/run/recorded_run.hpp"
 
 namespace swirl {
 
 /// Asked to go on with --resume, but there is nothing left to do: the result is complete, of this
-/// very run, and so are its recordings. `json` may be empty or "-".
-bool is_done_already(const RunFiles& files, const std::string& json, const RunConfig& config);
+/// very run, with all that is to be measured, and so are its recordings and tables. `json` may be
+/// empty or "-".
+bool is_done_already(const RunFiles& files, const std::string& json, const RunConfig& config,
+                     const std::vector<std::string>& measured,
+                     const std::vector<std::filesystem::path>& tables);
 
 /// Throws Failure if the run would begin anew over a finished result or recording, or over the
-/// checkpoint of an interrupted one, without --overwrite.
+/// checkpoint of an interrupted one, without --overwrite; or if it would go on over those of
+/// another run.
 void refuse_to_overwrite(const RunFiles& files, const std::string& json);
+
+/// Where the result of a run that has ended goes: to `json`, or beside it if another run has left
+/// its result there meanwhile.
+std::filesystem::path name_for_result(const RunFiles& files, const std::string& json,
+                                      const RunConfig& config);
 
 }  // namespace swirl

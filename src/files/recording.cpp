@@ -8,18 +8,22 @@
 #include "swirl/files/whole_file.hpp"
 
 namespace swirl {
-namespace {
+std::filesystem::path partial_name(const std::filesystem::path& path) {
+    return path.string() + std::string(partial_suffix);
+}
 
-std::string run_of(const std::filesystem::path& file) {
+std::string recorded_entry(const std::filesystem::path& file, const std::string& name) {
     const Hdf5File recording(file, StagedFile::Mode::read);
-    const std::string at = std::string("/parameters/") + run_entry;
+    const std::string at = "/parameters/" + name;
     return recording.has(at) ? recording.read_text(at) : "";
 }
 
-}  // namespace
-
-std::filesystem::path partial_name(const std::filesystem::path& path) {
-    return path.string() + std::string(partial_suffix);
+void refuse_recording_of_another(const std::filesystem::path& file, const std::string& run) {
+    if (recorded_entry(file, run_entry) != run)
+        throw FileError(fmt::format(
+            "'{}' was recorded by another run than the checkpoint, and is left as it is; the run "
+            "cannot go on without its own recording.",
+            file.string()));
 }
 
 void refuse_foreign_recording(const std::filesystem::path& path, const std::string& run) {
@@ -28,7 +32,7 @@ void refuse_foreign_recording(const std::filesystem::path& path, const std::stri
     if (!std::filesystem::exists(partial, ignored)) return;
     // Killed before its first commit: nothing was ever in there.
     if (StagedFile(partial, StagedFile::Mode::read).size() == 0) return;
-    if (run_of(partial) != run)
+    if (recorded_entry(partial, run_entry) != run)
         throw FileError(
             fmt::format("'{}' is the unfinished recording of another run; finish that one with "
                         "--resume, choose "
@@ -42,11 +46,7 @@ Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& 
     const bool finished =
         !std::filesystem::exists(partial, ignored) && std::filesystem::exists(path, ignored);
     const auto& there = finished ? path : partial;
-    if (run_of(there) != run)
-        throw FileError(fmt::format(
-            "'{}' was recorded by another run than the checkpoint, and is left as it is; the run "
-            "cannot go on without its own recording.",
-            there.string()));
+    refuse_recording_of_another(there, run);
     if (finished) give_final_name(path, partial);
     return {partial, StagedFile::Mode::change};
 }

@@ -205,6 +205,19 @@ std::string measured_text(const MeasurementReports& reports) {
     return numbers + tables;
 }
 
+std::vector<fs::path> measured_table_files(const std::vector<std::string>& names,
+                                           const fs::path& folder) {
+    std::vector<fs::path> files;
+    bool has_rows = false;
+    for (const auto& [name, report] : Observation(1.0, 1.0, names).report()) {
+        for (const ReportTable& table : report.tables)
+            files.push_back(folder / (full_name(name, table.name) + ".csv"));
+        has_rows |= !report.rows.empty();
+    }
+    if (has_rows) files.push_back(folder / "numbers.csv");
+    return files;
+}
+
 std::vector<fs::path> write_measured_tables(const MeasurementReports& reports,
                                             const fs::path& folder) {
     std::vector<fs::path> files;

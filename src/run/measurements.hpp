@@ -61,6 +61,10 @@ bool is_direction(const nlohmann::ordered_json& row);
 /// One line for every row and every table.
 std::string measured_text(const MeasurementReports& reports);
 
+/// The files that write_measured_tables() will write there for these measurements.
+std::vector<std::filesystem::path> measured_table_files(const std::vector<std::string>& names,
+                                                        const std::filesystem::path& folder);
+
 /// Writes every table as FOLDER/NAME.csv and all rows as FOLDER/numbers.csv; returns the files.
 std::vector<std::filesystem::path> write_measured_tables(const MeasurementReports& reports,
                                                          const std::filesystem::path& folder);

@@ -105,6 +105,7 @@ class Recorder {
           files_(files),
           observation_(observation),
           run_name_(run_name(identity(config, files, observation))),
+          overwrites_(files.overwrite),
           frame_times_(files.frames.per_swirl, config.period, files.frames.interval.value_or(0.0)),
           last_kept_(Clock::now()) {
         if (files.resume && std::filesystem::exists(files.checkpoint))
@@ -143,7 +144,7 @@ class Recorder {
     void start(Provenance provenance, const std::atomic<bool>* stop) {
         if (files_.overwrite) set_aside(files_.checkpoint);
         provenance.emplace_back(run_entry, run_name_);
-        provenance.emplace_back("frames", frames_json(files_).dump());
+        provenance.emplace_back("frames", frames_entry(files_));
         for (const auto& file : {files_.trajectory, files_.event_log})
             if (!file.empty() && !files_.overwrite) refuse_foreign_recording(file, run_name_);
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
@@ -180,6 +181,7 @@ class Recorder {
         state(frames, logged, events_, frame_times_, *resumed_);
         state.expect_end();
         run_name_ = about.value("run", std::string());
+        overwrites_ = about.value("overwrites", false);
         if (!files_.trajectory.empty())
             trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, run_name_);
         if (!files_.event_log.empty())
@@ -230,7 +232,8 @@ class Recorder {
         const Json about{{"version", version()},
                          {"identity", identity(config_, files_, observation_)},
                          {"run", run_name_},
-                         {"call", files_.call}};
+                         {"call", files_.call},
+                         {"overwrites", overwrites_}};
         write_checkpoint(files_.checkpoint, {about.dump(), std::move(state).bytes()});
         last_kept_ = Clock::now();
     }
@@ -239,6 +242,7 @@ class Recorder {
     const RunFiles& files_;
     const Observation* observation_;
     std::string run_name_;
+    bool overwrites_;  // asked for when the run began, and still so when it is resumed
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;
@@ -261,8 +265,13 @@ void forget_checkpoint(const RunFiles& files) {
     if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
 }
 
+std::string frames_entry(const RunFiles& files) { return frames_json(files).dump(); }
+
 std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
-    const std::string first = checkpoint.string() + ".backup";
+    return free_name(checkpoint.string() + ".backup");
+}
+
+std::filesystem::path free_name(const std::string& first) {
     std::filesystem::path name = first;
     std::error_code ignored;
     for (int k = 2; std::filesystem::exists(name, ignored); ++k)
@@ -272,7 +281,10 @@ std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
 
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
     const Json about = about_in(checkpoint, read_checkpoint(checkpoint));
-    return {about.at("identity").at("parameters").dump(), about.value("call", ParameterTexts())};
+    return {.configuration = about.at("identity").at("parameters").dump(),
+            .options = about.value("call", ParameterTexts()),
+            .overwrites = about.value("overwrites", false),
+            .run = about.value("run", std::string())};
 }
 
 Provenance provenance_of(const RunConfig& config, const std::string& command,

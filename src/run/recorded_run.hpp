@@ -47,6 +47,8 @@ struct RunFiles {
 struct KeptCall {
     std::string configuration;  // the text of config_json()
     ParameterTexts options;     // RunFiles::call
+    bool overwrites = false;    // it began anew over what was there under these names
+    std::string run;            // what its recordings name it
 };
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 
@@ -56,11 +58,17 @@ KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance);
 
+/// What a trajectory with these frames says of them.
+std::string frames_entry(const RunFiles& files);
+
 void forget_checkpoint(const RunFiles& files);
 
 /// Where a checkpoint is kept when a run begins anew over it: NAME.backup, or NAME.backup-2, -3, …,
 /// the first that is not there.
 std::filesystem::path backup_name(const std::filesystem::path& checkpoint);
+
+/// NAME, or NAME-2, -3, …: the first that is not there.
+std::filesystem::path free_name(const std::string& name);
 
 /// Version, build, resolved parameters, seed and generator; the command and the configuration file
 /// where there are any.

@@ -86,6 +86,60 @@ class Overwriting(InFolder):
         with open(self.path("t.h5"), "rb") as opened:
             self.assertEqual(opened.read(), of_b)
 
+    def test_a_result_without_what_is_to_be_measured_or_recorded_is_not_complete(self):
+        call = ["run", "--discs", 8, "--events", 20000, "--json", self.path("r.json"), "--quiet"]
+        slip = [*call, "--measure", "slip", "--tables", self.path("tables")]
+        self.assertEqual(swirl(*call).returncode, 0)
+        self.refused(*slip, "--resume", says="r.json' is there already")
+        self.assertEqual(swirl(*slip, "--overwrite").returncode, 0)
+        for also in (slip, call):
+            done = swirl(*also, "--resume")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        os.remove(self.path("tables/numbers.csv"))
+        self.refused(*slip, "--resume", says="r.json' is there already")
+        recorded = [*call, "--trajectory", self.path("t.h5")]
+        self.assertEqual(swirl(*recorded, "--overwrite").returncode, 0)
+        self.assertEqual(swirl(*recorded, "--resume").returncode, 0)
+        self.refused(*recorded, "--frames", 7, "--resume", says="r.json' is there already")
+
+    def test_a_resumed_run_replaces_no_result_or_recording_of_another(self):
+        self.killed()
+        kept = self.path("kept.checkpoint")
+        shutil.copy(self.path("r.json.checkpoint"), kept)
+        other = ["run", "--discs", 5, "--events", 2000, "--quiet"]
+        for name, option in (("r.json", "--json"), ("t.h5", "--trajectory"), ("e.h5", "--log-events")):
+            made = self.path("other-" + name)
+            self.assertEqual(swirl(*other, option, made).returncode, 0)
+            shutil.copy(made, self.path(name))
+            self.refused("run", "--checkpoint", kept, "--resume", "--quiet", says="is left as it is")
+            with open(made, "rb") as wanted, open(self.path(name), "rb") as there:
+                self.assertEqual(wanted.read(), there.read())
+            os.remove(self.path(name))
+
+    def test_a_run_that_was_to_overwrite_still_does_when_it_is_resumed(self):
+        self.assertEqual(swirl(*self.run_call()).returncode, 0)
+        process = subprocess.Popen(
+            [SWIRL, *map(str, self.run_call("--overwrite", seed=2, events="3000000"))])
+        while not os.path.exists(self.path("r.json.checkpoint")):
+            self.assertIsNone(process.poll(), "over without a checkpoint")
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        done = swirl(*self.run_call("--resume", seed=2, events="3000000"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(without_time(self.path("r.json"))["config"]["seed"], 2)
+
+    def test_of_two_runs_at_once_under_one_name_neither_result_is_lost(self):
+        runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "1000000", "--seed", str(seed),
+                                  "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
+                for seed in (1, 2)]
+        errors = [run.communicate(timeout=100)[1] for run in runs]
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 1], errors)
+        self.assertIn("r.json.second'", "".join(errors))
+        self.assertEqual(self.left_behind(), ["r.json", "r.json.second"])
+        self.assertEqual({without_time(self.path(name))["config"]["seed"] for name in self.left_behind()},
+                         {1, 2})
+
     def test_a_run_whose_standard_files_are_closed_writes_into_none_of_its_own(self):
         done = subprocess.run(["sh", "-c", 'exec "$0" "$@" 0<&- 1>&- 2>&-', SWIRL,
                                *map(str, self.run_call()[:-1])])
@@ -194,6 +248,29 @@ class Names(InFolder):
             self.refused("run", "--events", 100, "--trajectory", "x", "--json", other)
             self.refused("run", "--events", 100, "--log-events", "x", "--trajectory", other)
         self.assertEqual(self.left_behind(), [])
+
+    def test_one_file_for_a_table_and_something_else(self):
+        os.mkdir(self.path("tables"))
+        measured = ["run", "--events", 2000, "--measure", "density,slip", "--tables", "tables", "--quiet"]
+        for other in (["--json", "tables/numbers.csv"], ["--trajectory", "./tables/density.csv"],
+                      ["--tables", "x", "--json", "x"]):
+            self.refused(*(measured if len(other) == 2 else measured[:5]), *other)
+        recording = self.recorded()
+        self.refused("measure", recording, "--measure", "slip", "--tables", "tables", "--json",
+                     "tables/numbers.csv")
+        self.assertEqual(os.listdir(self.path("tables")), [])
+        self.refused("run", "--measure", "slip", "--tables", "--quiet", says="looks like an option")
+        self.assertEqual(self.left_behind(), ["t.h5", "tables"])
+
+    def test_one_file_for_two_things_of_other_commands(self):
+        self.refused("crossing", "--json", "x", "--csv", "./x")
+        self.refused("bench", "--json", "x", "--csv", "./x")
+        self.refused("bench", "--json", "-", "--csv", "-", says="standard output")
+        self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
+                               cwd=self.folder).returncode, 0)
+        self.refused("collect", "study", "--csv", "x", "--crossings", "./x")
+        self.refused("collect", "study", "--csv", "x", "--crossings", "study/plan.json")
+        self.assertEqual(self.left_behind(), ["study"])
 
     def test_a_result_over_what_it_is_made_of(self):
         recording = self.recorded()
