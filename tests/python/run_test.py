@@ -247,6 +247,17 @@ def test_what_is_raised_in_a_measurement_of_ones_own_comes_out():
     with pytest.raises(ValueError, match="different shapes"):
         swirl.run(discs=6, events=20000, measure=[Changing])
 
+    # Within the first swirl, too, when nothing has been kept yet.
+    class ChangingAtOnce:
+        looks = 0
+
+        def sample(self, snapshot):
+            self.looks += 1
+            return np.zeros(self.looks % 2 + 1)
+
+    with pytest.raises(ValueError, match="different shapes"):
+        swirl.run(discs=6, events=20000, measure=[ChangingAtOnce])
+
 
 def test_frames_outlive_the_run():
     kept = []

@@ -111,14 +111,15 @@ class OwnBlocks:
             for row, number in named.items():
                 rows.setdefault(str(row), []).append(np.asarray(number, dtype=np.float64))
         for row, numbers in rows.items():
-            known = self._blocks[name].setdefault(row, [])
+            known = self._blocks[name].get(row, [])
             shape = known[0][0].shape if known else numbers[0].shape
             if any(number.shape != shape for number in numbers):
                 raise ValueError(f"'{name}' has returned arrays of different shapes.")
             stacked = np.stack(numbers)
             is_known = ~np.isnan(stacked)
-            known.append((np.where(is_known, stacked, 0.0).sum(axis=0),
-                          is_known.sum(axis=0).astype(np.float64)))
+            sums = np.where(is_known, stacked, 0.0).sum(axis=0)
+            weights = is_known.sum(axis=0).astype(np.float64)
+            self._blocks[name].setdefault(row, []).append((sums, weights))
 
     def found(self) -> dict[str, Measured]:
         return {name: Measured(name, {row: _estimate_of(blocks) for row, blocks in rows.items()}, {})
