@@ -554,6 +554,7 @@ void judge(const std::vector<Seen>& all, TrackedFilm& film) {
     film.complete = double(complete) / double(all.size());
     film.position_error = count ? std::sqrt(square / double(count)) : 0.0;
     film.reach = quantile(reaches, 0.8);
+    film.stopped = quantile(reaches, 0.95) - film.reach < 0.15 * film.radius;
     film.touching =
         gaps.size() > 100 ? 1.0 + onset(gaps, 0.02 * film.radius) / (2.0 * film.radius) : 0.0;
     // Where contacts did not tell the error: hard discs touch and do not overlap. Of discs in
@@ -637,7 +638,13 @@ void warn(TrackedFilm& film) {
     if (film.rims_missed * 20 > static_cast<std::size_t>(film.pictures))
         say(fmt::format("The rim was not found in {:.0f} % of the pictures.",
                         100.0 * double(film.rims_missed) / double(film.pictures)));
-    if (film.rim_radius - film.reach > 0.06 * film.radius)
+    if (film.rim_radius - film.reach > 0.06 * film.radius && !film.stopped)
+        say(fmt::format(
+            "Discs are at the wall too seldom to tell where they are stopped: the rim that is "
+            "seen, of {:.2f} pixels radius, is taken for the dish. If it is the outer edge of the "
+            "wall, the dish is smaller.",
+            film.rim_radius));
+    else if (film.rim_radius - film.reach > 0.06 * film.radius)
         say(fmt::format(
             "The rim that is seen has a radius of {:.2f} pixels, but discs never come farther out "
             "than {:.2f}: it is the outer edge of the wall. The latter is taken for the dish.",
@@ -882,7 +889,8 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     judge(all, film);
     believe_overlaps(film);
     // The wall is where discs are stopped; a rim that is seen may be the outer one of the wall, or
-    // its top. Swirled discs are at the wall at all times.
+    // its top. Swirled discs are at the wall at all times, unless they are few: how far out those
+    // come in most pictures tells nothing of the wall.
     // Where edges are soft, the shaded side of a ball is lost in the floor, and it looks too small.
     if (std::abs(film.touching - 1.0) > 0.02 && film.touching > 0.5) {
         film.reach += (film.touching - 1.0) * film.radius;
@@ -892,7 +900,8 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             for (double& radius : f.radius) radius *= film.touching;
     }
     const bool agree = std::abs(film.rim_radius - film.reach) < 0.06 * film.radius;
-    film.container_radius = agree ? film.rim_radius : film.reach;
+    const bool too_few = !film.stopped && film.rim_radius > film.reach;
+    film.container_radius = agree || too_few ? film.rim_radius : film.reach;
     warn(film);
     return film;
 }

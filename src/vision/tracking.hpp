@@ -54,6 +54,7 @@ struct TrackedFilm {
     DishPath path;  // per second, or per picture
     PathPolygon polygon;
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
+    bool stopped = false;  // discs are hardly ever beyond `reach`: it is the wall
     std::size_t rims_missed = 0;
     Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
     double rim_support = 0.0;

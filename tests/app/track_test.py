@@ -290,6 +290,16 @@ class FilmTest(InFolder):
         self.assertLess(abs((result.found["path"]["phase"] - result.truth["phase"] + 180) % 360
                             - 180), 1.0)
 
+    def test_few_discs_that_are_seldom_at_the_wall_do_not_make_the_dish_smaller(self):
+        film = self.film(of=["--discs", 2, *LARGER[2:]])
+        tracks, said = self.track(film)
+        self.assertIn("at the wall too seldom", said)
+        self.assertNotIn("outer edge of the wall. The latter", said)
+        result = Comparison(film, tracks)
+        # To the width of the wall that is drawn; discs in most pictures stay farther inside.
+        self.assertLess(abs(result.found["dish"]["radius"] / result.truth["container_radius"] - 1.0),
+                        0.06)
+
     def test_numbered_pictures_give_the_same_as_the_film(self):
         film = self.film(length=0.8)
         os.makedirs(self.path("seen"))
