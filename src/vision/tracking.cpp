@@ -469,6 +469,27 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
     for (std::size_t k = 0; k < film.kinds.size(); ++k) film.kinds[k].number = kinds[k];
 }
 
+/// All rims are seen through the same lens, so what is not known of its distortion is no scatter of
+/// theirs, and the fit of the path knows nothing of it: the same rims through a lens that differs
+/// by the standard error have another path.
+void add_error_of_lens(const std::vector<Vec2>& centres, const std::vector<double>& times,
+                       double rim_radius, TrackedFilm& film) {
+    Lens other = film.lens;
+    other.k += film.lens.k_error;
+    std::vector<Vec2> moved;
+    moved.reserve(centres.size());
+    for (const Vec2& centre : centres)
+        moved.push_back(other.ideal(film.lens.image({centre, rim_radius})).centre);
+    const auto path = fit_path(moved, times);
+    if (!path) return;
+    DishPath& found = film.path;
+    const double turned = std::remainder(path->phase - found.phase, 2.0 * pi);
+    found.centre_error = std::hypot(found.centre_error, length(path->centre - found.centre));
+    found.amplitude_error = std::hypot(found.amplitude_error, path->amplitude - found.amplitude);
+    found.omega_error = std::hypot(found.omega_error, path->omega - found.omega);
+    found.phase_error = std::hypot(found.phase_error, turned);
+}
+
 /// Seen at an angle the rim is shifted against the discs, which lie lower than its edge, and being
 /// nearer it is larger, with its way: the wall is where discs are stopped, r = reach + shift·n −
 /// more C·n for those at it, with C the direction of the path's way out.
@@ -865,6 +886,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
+    add_error_of_lens(centres, when, quantile(rims, 0.5), film);
     if (!uneven) judge_leaps(leaps_of(centres, numbers, film.path), film);
     film.polygon = polygon_of(centres, when, film.path);
     for (std::size_t k = 0; k < all.size(); ++k)

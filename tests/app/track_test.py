@@ -300,6 +300,16 @@ class FilmTest(InFolder):
         self.assertLess(abs(result.found["dish"]["radius"] / result.truth["container_radius"] - 1.0),
                         0.06)
 
+    def test_the_error_of_the_amplitude_knows_of_that_of_the_lens(self):
+        film = self.film("--distortion", 0.06, "--seed", 5, of=LARGER[:-2])
+        result = Comparison(film, self.track(film)[0])
+        # The mean distance of the sides of a 30-gon with its corners on A, to (pi/30)^4.
+        true = result.truth["amplitude"] * (1.0 - (math.pi / 30) ** 2 / 3.0)
+        path = result.found["path"]
+        self.assertLess(abs(path["amplitude"] - true), 3.0 * path["amplitude_error"])
+        # And is not just large.
+        self.assertLess(path["amplitude_error"], 0.01 * true)
+
     def test_numbered_pictures_give_the_same_as_the_film(self):
         film = self.film(length=0.8)
         os.makedirs(self.path("seen"))
