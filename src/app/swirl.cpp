@@ -40,6 +40,7 @@ constexpr const char* not_enough_memory =
 }
 
 int main_or_throw(int argc, char** argv) {
+    swirl::refuse_what_is_no_text(argc, argv);
     const swirl::Call call = swirl::parse(argc, argv);
     if (!call.text.empty()) {
         swirl::print_all(call.text);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/utf8.hpp"
 #include "swirl/files/whole_file.hpp"
 
 namespace swirl {
@@ -14,29 +15,15 @@ namespace {
 
 constexpr std::size_t largest_config = 1 << 20;
 
-/// The parser must not see what is not UTF-8 text: where the first such byte is.
+/// The parser must not see what is no text: where the first such byte is.
 std::optional<std::size_t> first_bad_byte(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-        const unsigned char c = byte(i);
-        if (c < 0x80) {
-            if (c < 0x20 && c != '\n' && c != '\t' && c != '\r') return i;
-            if (c == 0x7f) return i;
-            ++i;
-            continue;
-        }
-        const std::size_t more = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : 1;
-        if (c < 0xc2 || c > 0xf4 || i + more >= text.size() + (more == 0)) return i;
-        for (std::size_t k = 1; k <= more; ++k)
-            if (i + k >= text.size() || (byte(i + k) & 0xc0) != 0x80) return i;
-        // Overlong forms, surrogates, and what lies beyond Unicode.
-        const unsigned char next = byte(i + 1);
-        if ((c == 0xe0 && next < 0xa0) || (c == 0xed && next > 0x9f) ||
-            (c == 0xf0 && next < 0x90) || (c == 0xf4 && next > 0x8f))
-            return i;
-        i += more + 1;
-    }
-    return {};
+    const auto is_control = [](char c) {
+        return (c >= 0 && c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
+    };
+    const auto control = std::find_if(text.begin(), text.end(), is_control);
+    const auto at = static_cast<std::size_t>(control - text.begin());
+    if (const auto bad = first_byte_not_utf8(text.substr(0, at))) return bad;
+    return control == text.end() ? std::nullopt : std::optional(at);
 }
 
 int line_of(std::string_view text, std::size_t at) {

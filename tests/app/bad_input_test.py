@@ -105,6 +105,22 @@ CALLS = [
 
 
 class BadCalls(unittest.TestCase):
+    def test_a_name_that_no_result_can_hold_is_refused_before_anything_is_computed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for option in (b"--json", b"--trajectory", b"--checkpoint"):
+                done = subprocess.run([SWIRL, "run", "--discs", "5", "--events", "1e4", option,
+                                       b"r\xe9sum\xe9.h5"],
+                                      cwd=folder, capture_output=True, timeout=60)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(b"'r\\xe9sum\\xe9.h5' is not UTF-8 text", done.stderr)
+                self.assertEqual(done.stderr.count(b"\n"), 1)
+                self.assertEqual(os.listdir(folder), [])
+            done = subprocess.run([SWIRL, "run", "--discs", "5", "--events", "1e4", "--quiet",
+                                   "--json", "r\u00e9sum\u00e9 \U0001f300.json"],
+                                  cwd=folder, capture_output=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(os.listdir(folder), ["r\u00e9sum\u00e9 \U0001f300.json"])
+
     def test_each_is_answered_with_one_sentence_that_names_the_value(self):
         for call, code, words in CALLS:
             with self.subTest(call):
