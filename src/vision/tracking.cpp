@@ -473,13 +473,13 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
 /// theirs, and the fit of the path knows nothing of it: the same rims through a lens that differs
 /// by the standard error have another path.
 void add_error_of_lens(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                       double rim_radius, TrackedFilm& film) {
+                       TrackedFilm& film) {
     Lens other = film.lens;
     other.k += film.lens.k_error;
     std::vector<Vec2> moved;
     moved.reserve(centres.size());
     for (const Vec2& centre : centres)
-        moved.push_back(other.ideal(film.lens.image({centre, rim_radius})).centre);
+        moved.push_back(other.ideal(film.lens.image({centre, film.rim_radius})).centre);
     const auto path = fit_path(moved, times);
     if (!path) return;
     DishPath& found = film.path;
@@ -886,13 +886,13 @@ TrackedFilm track_film(const TrackingSettings& settings) {
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
             "or is the film shorter than half a swirl?");
     film.path = *path;
-    add_error_of_lens(centres, when, quantile(rims, 0.5), film);
+    film.rim_radius = quantile(rims, 0.5);
+    add_error_of_lens(centres, when, film);
     if (!uneven) judge_leaps(leaps_of(centres, numbers, film.path), film);
     film.polygon = polygon_of(centres, when, film.path);
     for (std::size_t k = 0; k < all.size(); ++k)
         film.rim_off.push_back(
             all[k].rim.good ? length(all[k].rim.centre - film.path.at(film.times[k])) : -1.0);
-    film.rim_radius = quantile(rims, 0.5);
     film.rim_support = quantile(supports, 0.5);
 
     for (std::size_t k = 0; k < found.look.kinds.size(); ++k) {
