@@ -71,9 +71,9 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->can_be_given() || name != row->name) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw py::type_error(fmt::format("There is no parameter '{}'{}.", name,
+            throw py::type_error(fmt::format("There is no parameter '{}'{}", name,
                                              meant ? fmt::format("; did you mean '{}'?", *meant)
-                                                   : "; swirl.parameters() lists them"));
+                                                   : "; swirl.parameters() lists them."));
         }
         texts[name] = text_of(name, value);
     }

@@ -101,9 +101,9 @@ ParameterTexts known_texts(const ParameterTexts& given) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->can_be_given()) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw_wrong_call(fmt::format("There is no parameter '{}'{}.", name,
+            throw_wrong_call(fmt::format("There is no parameter '{}'{}", name,
                                          meant ? fmt::format("; did you mean '{}'?", *meant)
-                                               : "; `swirl run --help` lists them"));
+                                               : "; `swirl run --help` lists them."));
         }
         if (!texts.emplace(row->name, text).second)
             throw_wrong_call(fmt::format("{} is given twice.", option_name(row->name)));

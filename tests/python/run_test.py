@@ -1,5 +1,6 @@
 """swirl.run() gives what `swirl run` gives, and refuses what it refuses, in the same words."""
 
+import copy
 import csv
 import json
 import math
@@ -42,6 +43,22 @@ def test_what_the_result_says_is_what_the_json_says():
     assert float(r.rotation.by_time) == r.rotation.by_time.mean
     assert "12 discs rotate" in repr(r) and "12 discs rotate" in r._repr_html_()
     assert pickle.loads(pickle.dumps(r)).to_json() == r.to_json()
+
+
+@pytest.mark.parametrize("copied", [lambda found: pickle.loads(pickle.dumps(found)), copy.deepcopy],
+                         ids=["pickled", "copied"])
+def test_measurements_can_be_sent_to_another_process(copied):
+    r = swirl.run(discs=12, events=20000, measure="all")
+    again = copied(r)
+    assert str(again) == str(r) and list(again.measured) == list(r.measured)
+    for name, found in r.measured.items():
+        # As text, for NaN is not equal to itself.
+        assert repr(dict(again.measured[name].rows)) == repr(dict(found.rows))
+        for table, values in found.tables.items():
+            theirs = again.measured[name].tables[table]
+            assert theirs.units == values.units and theirs.description == values.description
+            np.testing.assert_array_equal(np.asarray(theirs), np.asarray(values))
+            assert not theirs[theirs.columns[-1]].flags.writeable
 
 
 def test_what_is_not_known_is_nan():
@@ -127,7 +144,7 @@ def test_what_is_wrong_is_said_in_the_words_of_the_command_line(bad):
 
 
 @pytest.mark.parametrize("bad, sentence", [
-    (dict(disks=3), "There is no parameter 'disks'; did you mean 'discs'?"),
+    (dict(disks=3), "There is no parameter 'disks'; did you mean 'discs'\\?$"),
     (dict(flavour=3), "There is no parameter 'flavour'; swirl.parameters\\(\\) lists them."),
     (dict(mu=True), "mu is True, but it must be a number or a text."),
     (dict(mu=[0.1, 0.5]), "mu is \\[0.1, 0.5\\], but it must be one number or text; swirl.sweep"),

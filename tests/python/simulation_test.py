@@ -90,6 +90,8 @@ def test_time_goes_as_it_is_told():
                      lambda: sim.step(-1), lambda: sim.sample(-1)):
         with pytest.raises(ValueError):
             too_much()
+    with pytest.raises(ValueError, match="periods is -1, but it must be a number from 0 on"):
+        sim.sample(-1)
     assert (sim.swirls, sim.clock) == (7, 1.5)
 
 

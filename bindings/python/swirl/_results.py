@@ -75,8 +75,14 @@ class Table:
         self.name = name
         self.description = description
         self.units: Mapping[str, str] = MappingProxyType(dict(columns))
+        # An array that was pickled comes back writable.
+        values.setflags(write=False)
         self._values = values
         self._columns = [column for column, _ in columns]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # For pickle and copy, which cannot take a view of a dictionary.
+        return Table, (self.name, self.description, list(self.units.items()), self._values)
 
     @property
     def columns(self) -> list[str]:
@@ -154,6 +160,9 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
         self.name = name
         self.rows: Mapping[str, Union[Estimate, ArrayEstimate]] = MappingProxyType(dict(rows))
         self.tables: Mapping[str, Table] = MappingProxyType(dict(tables))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Measured, (self.name, dict(self.rows), dict(self.tables))
 
     @property
     def table(self) -> Table:

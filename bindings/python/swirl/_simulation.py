@@ -124,7 +124,9 @@ class Simulation:
         if not 1 <= n <= 1_000_000:
             raise ValueError(f"per_period is {n}, but it must be from 1 to 1000000.")
         count = _number("periods", periods) * n
-        if not 0 <= count * len(self) <= 1e8:
+        if not count >= 0:
+            raise ValueError(f"periods is {periods}, but it must be a number from 0 on.")
+        if not count * len(self) <= 1e8:
             raise ValueError(f"periods is {periods}, which makes {count:g} frames of {len(self)} discs; "
                              "fewer would be right.")
         return self._dish.sample(round(count), n)
