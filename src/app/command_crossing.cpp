@@ -101,8 +101,6 @@ void find(CrossingCall& call) {
     }
     for (const std::string* file : {&call.json, &call.table})
         if (!file->empty() && *file != "-") refuse_unwritable(*file);
-    if (call.json == "-" && call.table == "-")
-        throw WrongCall("--json and --csv cannot both go to standard output.");
     refuse_same_files({call.config_file, call.json, call.table});
 
     std::vector<std::string> columns;

@@ -163,6 +163,10 @@ void check(const ExperimentCall& call) {
                     "Two films are called '{}', and so would be their files; rename one.",
                     name_of_film(film)));
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
+    std::vector<fs::path> all{call.json};
+    for (const auto* films : {&call.rough, &call.smooth})
+        all.insert(all.end(), films->begin(), films->end());
+    refuse_same_files(all);
     check(call.settings);
 }
 

@@ -82,9 +82,12 @@ void measure_file(const MeasureCall& call) {
     if (!call.tables.empty() && names.empty())
         throw WrongCall("--tables needs --measure LIST, which says what to write there.");
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
-    refuse_same_files({call.file, camera_file(call.file), call.json, call.tables},
-                      call.tables.empty() ? std::vector<std::filesystem::path>()
-                                          : measured_table_files(names, call.tables));
+    std::vector<std::filesystem::path> all{call.file, camera_file(call.file), call.json,
+                                           call.tables};
+    if (!call.tables.empty())
+        for (auto& table : measured_table_files(names, call.tables))
+            all.push_back(std::move(table));
+    refuse_same_files(all);
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
     const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;

@@ -31,6 +31,9 @@ MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
     config.out = call.out;
     config.frames_folder = call.frames_folder;
+    refuse_to_draw_onto_source(
+        *call.source,
+        {call.out, call.frames_folder.empty() ? "" : frame_name(call.frames_folder, 1)});
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
     config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
     config.sources = frame_sources(*call.source);

@@ -26,6 +26,7 @@ void draw_and_report(const PictureCall& call) {
     if (call.out.empty())
         throw WrongCall("There is nowhere for the picture to go: give --out FILE.");
     config.out = call.out;
+    refuse_to_draw_onto_source(*call.source, {call.out});
     config.appearance = appearance(*call.appearance, Size{1920, 1080});
     config.sources = frame_sources(*call.source);
     const std::optional<double> last = config.sources.front().to;

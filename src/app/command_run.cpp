@@ -110,8 +110,10 @@ void run_and_report(RunCall& call) {
     if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
     std::vector<std::filesystem::path> tables;
     if (!call.tables.empty()) tables = measured_table_files(observation.names(), call.tables);
-    refuse_same_files({call.json, files.trajectory, files.event_log, files.checkpoint, call.tables},
-                      tables);
+    std::vector<std::filesystem::path> all = tables;
+    all.insert(all.end(), {call.recording->config_file, call.json, files.trajectory,
+                           files.event_log, files.checkpoint, call.tables});
+    refuse_same_files(all);
     if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
     if (is_done_already(files, call.json, config, observation.names(), tables)) {

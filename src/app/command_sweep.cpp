@@ -17,6 +17,7 @@
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
+#include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
 namespace {
@@ -245,6 +246,15 @@ std::string remarks_on(const CollectedSweep& collected) {
     return text;
 }
 
+/// The table of a sweep takes the place of nothing that it is made of, nor of what the sweep needs
+/// to go on.
+void refuse_part_of_sweep(const fs::path& folder, const fs::path& output) {
+    if (output.empty() || output == "-" || !belongs_to_sweep(folder, whole_name(output))) return;
+    throw WrongCall(fmt::format(
+        "'{}' belongs to the sweep itself, which needs it; another name would be '{}'.",
+        output.string(), (folder / output.filename().replace_extension(".csv")).string()));
+}
+
 void add_collect_command(Subcommand& subcommand) {
     struct Collect {
         std::string folder, table, crossings;
@@ -268,22 +278,20 @@ void add_collect_command(Subcommand& subcommand) {
                              "swirl collect study --csv -"});
     subcommand.callback([call] {
         const fs::path folder = call->folder;
-        refuse_same_files({folder / "plan.json",
-                           call->table.empty() ? folder / "table.csv" : fs::path(call->table),
-                           call->crossings});
+        const std::string file =
+            call->table.empty() ? (folder / "table.csv").string() : call->table;
+        refuse_same_files({file, call->crossings});
+        for (const std::string& output : {file, call->crossings})
+            refuse_part_of_sweep(folder, output);
         const SweepPlan plan = read_plan(folder);
         const CollectedSweep collected = collect_sweep(call->folder, plan);
         const std::string crossings =
             call->crossings.empty() ? "" : crossings_in(plan, collected).csv();
         const SweepStatus s = sweep_status(call->folder, plan);
-        const std::string file =
-            call->table.empty() ? (fs::path(call->folder) / "table.csv").string() : call->table;
         if (s.done < s.points)
             fmt::print(stderr, "swirl: {} of {} runs are not done yet; the table holds the rest.\n",
                        s.points - s.done, s.points);
         const std::string remarks = remarks_on(collected);
-        if (file == "-" && call->crossings == "-")
-            throw WrongCall("--csv and --crossings cannot both go to standard output.");
         if (file != "-") write_output(file, collected.table.csv());
         if (!call->crossings.empty() && call->crossings != "-")
             write_output(call->crossings, crossings);

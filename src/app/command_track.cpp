@@ -167,7 +167,12 @@ void track(const TrackCall& call) {
         refuse_unwritable(call.overlay);
     }
     if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
-    refuse_same_files({call.source.film, call.out, camera_file(call.out), call.overlay, call.json});
+    std::vector<std::filesystem::path> all{call.source.film, call.out, camera_file(call.out),
+                                           call.overlay, call.json};
+    if (!call.report.empty())
+        for (const char* file : film_report_files)
+            all.push_back(std::filesystem::path(call.report) / file);
+    refuse_same_files(all);
     if (!call.report.empty()) make_folder(call.report);
     if (!call.overwrite && std::filesystem::exists(call.out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));

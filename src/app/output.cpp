@@ -41,15 +41,21 @@ void refuse_unwritable(const std::filesystem::path& file) {
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
 }
 
-void refuse_same_files(std::vector<std::filesystem::path> files,
-                       const std::vector<std::filesystem::path>& made) {
-    files.insert(files.end(), made.begin(), made.end());
+std::filesystem::path whole_name(const std::filesystem::path& file) {
+    std::error_code unknown;
+    auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
+    return unknown ? std::filesystem::absolute(file).lexically_normal() : whole;
+}
+
+void refuse_same_files(const std::vector<std::filesystem::path>& files) {
+    if (std::count(files.begin(), files.end(), "-") > 1)
+        throw WrongCall(
+            "Only one thing can go to standard output, which is what '-' stands for; give each of "
+            "the others a file.");
     std::vector<std::filesystem::path> seen;
     for (const auto& file : files) {
         if (file.empty() || file == "-") continue;
-        std::error_code unknown;
-        auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
-        if (unknown) whole = std::filesystem::absolute(file).lexically_normal();
+        std::filesystem::path whole = whole_name(file);
         if (std::find(seen.begin(), seen.end(), whole) != seen.end())
             throw WrongCall(fmt::format(
                 "'{}' is the name of two files; each needs a name of its own.", file.string()));

@@ -10,10 +10,12 @@ namespace swirl {
 /// Throws Failure or WrongCall, before any work is done, if no file could be written there.
 void refuse_unwritable(const std::filesystem::path& file);
 
-/// Throws WrongCall if two of these are one file, however they are written; empty names and "-" are
-/// none. Of `made` too: names that were not given.
-void refuse_same_files(std::vector<std::filesystem::path> files,
-                       const std::vector<std::filesystem::path>& made = {});
+/// The one name of a file, however it was written: whole, and through links. It need not be there.
+std::filesystem::path whole_name(const std::filesystem::path& file);
+
+/// Throws WrongCall if two of these, read or written, are one file, however they are written, or if
+/// two are "-", standard output; empty names are none.
+void refuse_same_files(const std::vector<std::filesystem::path>& files);
 
 /// Writes a file whole or not at all (files/whole_file.hpp); a pipe or a device gets the text as it
 /// is. Throws FileError or Failure.

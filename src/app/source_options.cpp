@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "swirl/app/config_file.hpp"
+#include "swirl/app/output.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/draw/film.hpp"
@@ -153,6 +154,19 @@ std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
         dishes.insert(dishes.begin(), simulated(other, &stop_signal()));
     }
     return dishes;
+}
+
+void refuse_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs) {
+    for (const std::string& output : outputs) {
+        if (output.empty()) continue;
+        refuse_same_files({texts.file, output});
+        if (!texts.pictures.empty() &&
+            is_of_film(whole_name(texts.pictures).string(), whole_name(output).string()))
+            throw WrongCall(fmt::format(
+                "'{}' is to be written, but it is also what the camera saw (--over {}); "
+                "choose another name.",
+                output, texts.pictures));
+    }
 }
 
 std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance) {

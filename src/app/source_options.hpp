@@ -36,6 +36,10 @@ void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::str
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<FrameSource> frame_sources(const SourceTexts& texts);
 
+/// Throws WrongCall if a file that is to be written is what is shown, or one of the pictures that
+/// it is drawn over.
+void refuse_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs);
+
 /// What a recording does not tell well enough for what was shown, in lines for the report.
 std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance);
 

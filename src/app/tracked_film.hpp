@@ -36,8 +36,12 @@ TrackingSettings tracking_settings(const std::string& film, const std::optional<
 void draw_found(const TrackedFilm& tracked, const std::string& film, const std::string& caption,
                 const std::filesystem::path& picture);
 
-/// The report of one film, report.html, with the tables and the drawing that it is made of
-/// (found.json, pictures.csv, discs.csv, film.png, figure_found.png and .pdf). Returns its path.
+/// The report of one film, with the tables and the drawings that it is made of.
+inline constexpr const char* film_report_files[] = {
+    "report.html", "found.json",       "pictures.csv",    "discs.csv",
+    "film.png",    "figure_found.png", "figure_found.pdf"};
+
+/// Writes these; returns the path of report.html.
 std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSource& source,
                                         const nlohmann::ordered_json& found,
                                         const std::filesystem::path& folder);

@@ -46,6 +46,19 @@ std::optional<std::string> film_problem(const std::string& pattern) {
     return std::nullopt;
 }
 
+bool is_of_film(const std::string& pattern, const std::string& name) {
+    const auto place = number_place(pattern);
+    if (!place) return name == pattern;
+    const std::string before = pattern.substr(0, place->begin), after = pattern.substr(place->end);
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
+        !name.ends_with(after))
+        return false;
+    const auto number =
+        std::string_view(name).substr(before.size(), name.size() - before.size() - after.size());
+    return number.find_first_not_of("0123456789") == number.npos &&
+           number.size() >= static_cast<std::size_t>(place->digits);
+}
+
 Film::Film(std::string pattern) : pattern_(std::move(pattern)) {}
 
 std::string Film::name(std::int64_t number) const {

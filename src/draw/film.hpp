@@ -20,6 +20,9 @@ namespace swirl {
 /// Why `pattern` names no pictures, as a full sentence; nothing if it may.
 std::optional<std::string> film_problem(const std::string& pattern);
 
+/// Whether `name` is that of one of the pictures, both written in the same way.
+bool is_of_film(const std::string& pattern, const std::string& name);
+
 class Film {
   public:
     explicit Film(std::string pattern);

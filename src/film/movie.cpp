@@ -196,10 +196,6 @@ class Easel {
     std::vector<std::uint8_t> still_;
 };
 
-std::string frame_name(const std::string& folder, int number) {
-    return fmt::format("{}/frame-{:06d}.png", folder, number);
-}
-
 void make_folder(const std::string& folder) {
     if (::mkdir(folder.c_str(), 0777) == 0 || errno == EEXIST) return;
     throw Failure(fmt::format("The folder {} for the frames could not be made: {}.", folder,
@@ -211,6 +207,10 @@ double time_of_frame(const MovieConfig& config, int frame) {
 }
 
 }  // namespace
+
+std::string frame_name(const std::string& folder, int number) {
+    return fmt::format("{}/frame-{:06d}.png", folder, number);
+}
 
 PinnedWatch::PinnedWatch(const FrameSource& source, double first)
     : reel_(source.open_between ? source.open_between() : source.open()), to_(source.to) {

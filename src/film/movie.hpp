@@ -65,6 +65,9 @@ std::optional<std::string> problem(const std::vector<FrameSource>& sources,
 /// Why this cannot be filmed, as a full sentence; nothing if it can.
 std::optional<std::string> problem(const MovieConfig& config);
 
+/// A frame in MovieConfig::frames_folder; the first has the number 1.
+std::string frame_name(const std::string& folder, int number);
+
 /// Stopped early, it leaves a movie of what was filmed. Throws Failure.
 MovieResult make_movie(const MovieConfig& config, const MovieControl& control = {});
 

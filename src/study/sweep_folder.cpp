@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace swirl {
@@ -16,6 +17,26 @@ fs::path part_of_sweep(const fs::path& folder, const char* part, const SweepPlan
 
 fs::path result_file(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
     return part_of_sweep(folder, "results", plan) / (number_of_point(point) + ".json");
+}
+
+bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
+    static constexpr std::string_view parts[] = {"plan.json",    "claims",  "job.sh",
+                                                 "slurm_job",    "results", "checkpoints",
+                                                 "trajectories", "log",     "failures"};
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        // results-2, of a sweep that has grown.
+        const bool is_part = std::any_of(std::begin(parts), std::end(parts), [&](auto part) {
+            return name == part || name.starts_with(std::string(part) + "-");
+        });
+        std::error_code ignored;
+        const fs::path whole = fs::weakly_canonical(it->path(), ignored);
+        if (is_part && std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first ==
+                           whole.end())
+            return true;
+    }
+    return false;
 }
 
 std::vector<bool> numbered_files(const fs::path& folder, std::string_view ending,

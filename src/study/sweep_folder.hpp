@@ -20,6 +20,11 @@ std::filesystem::path part_of_sweep(const std::filesystem::path& folder, const c
 std::filesystem::path result_file(const std::filesystem::path& folder, const SweepPlan& plan,
                                   std::size_t point);
 
+/// Whether a file is one that the sweep keeps for itself, or lies in a folder of those: plan,
+/// claims, results, checkpoints and so on, but not a table that was made of them. `file`: its one
+/// name, whole and through links.
+bool belongs_to_sweep(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// The numbers of the files NUMBER.ending in a folder; one look at the folder, whatever its size.
 std::vector<bool> numbered_files(const std::filesystem::path& folder, std::string_view ending,
                                  std::size_t points);

@@ -8,6 +8,7 @@ import subprocess
 import time
 import unittest
 
+from pathlib import Path
 from program import SOURCE, SWIRL, InFolder, swirl, without_time
 
 
@@ -269,7 +270,8 @@ class Names(InFolder):
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
         self.refused("collect", "study", "--csv", "x", "--crossings", "./x")
-        self.refused("collect", "study", "--csv", "x", "--crossings", "study/plan.json")
+        self.refused("collect", "study", "--csv", "x", "--crossings", "study/plan.json",
+                     says="belongs to the sweep itself")
         self.assertEqual(self.left_behind(), ["study"])
 
     def test_a_result_over_what_it_is_made_of(self):
@@ -302,3 +304,53 @@ class Names(InFolder):
 
 if __name__ == "__main__":
     unittest.main()
+    def test_a_table_of_a_sweep_takes_the_place_of_nothing_that_the_sweep_keeps(self):
+        self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
+                               cwd=self.folder).returncode, 0)
+        os.symlink("study", self.path("link"))
+        kept = {name: Path(self.path(name)).read_bytes()
+                for name in ("study/results/000000.json", "study/plan.json", "study/claims")}
+        for name in (*kept, "link/results/000000.json", "study/results/new.csv", "./study/../study/claims"):
+            self.refused("collect", "study", "--csv", name, says="belongs to the sweep itself")
+            self.refused("collect", "study", "--crossings", name, says="belongs to the sweep itself")
+            self.refused("collect", "link", "--csv", name, says="belongs to the sweep itself")
+        for name, before in kept.items():
+            self.assertEqual(Path(self.path(name)).read_bytes(), before)
+        self.refused("collect", "study", "--csv", "-", "--crossings", "-", says="standard output")
+        done = swirl("collect", "study", "--csv", "study/results.csv", "--crossings", "study/N_c.csv",
+                     cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_run_never_takes_the_place_of_its_configuration(self):
+        plan = Path(self.path("plan.toml"))
+        plan.write_text("discs = 5\nevents = 1000\n", encoding="utf-8")
+        for option in ("--json", "--trajectory", "--log-events", "--checkpoint"):
+            for more in ([], ["--overwrite"]):
+                self.refused("run", "plan.toml", option, "./plan.toml", *more)
+        self.assertEqual(plan.read_text(encoding="utf-8"), "discs = 5\nevents = 1000\n")
+        self.assertEqual(self.left_behind(), ["plan.toml"])
+
+    def test_what_is_shown_is_not_what_is_drawn(self):
+        recording = shutil.copy(self.recorded(), self.path("r.gif"))
+        shutil.copy(recording, self.path("r.png"))
+        before = Path(recording).read_bytes()
+        small = ["--size", "160x90", "--quiet"]
+        self.refused("movie", "r.gif", "--out", "./r.gif", *small)
+        self.refused("picture", "r.png", "--out", "./r.png", *small)
+        for name in ("r.gif", "r.png"):
+            self.assertEqual(Path(self.path(name)).read_bytes(), before)
+        says = "it is also what the camera saw"
+        self.refused("movie", "tracks.csv", "--over", "film.mp4", "--out", "./film.mp4", says=says)
+        numbered = ["tracks.csv", "--over", "seen/frame-%06d.png"]
+        self.refused("movie", *numbered, "--frames", "seen", says=says)
+        self.refused("picture", *numbered, "--out", "./seen/frame-000007.png", says=says)
+        self.assertEqual(self.left_behind(), ["r.gif", "r.png", "t.h5"])
+
+    def test_the_report_of_a_film_is_not_its_tracks(self):
+        os.mkdir(self.path("report"))
+        if "has no eyes" in swirl("track", "film.mp4", "--out", "x.csv").stderr:
+            self.skipTest("this build has no camera")
+        self.refused("track", "film.mp4", "--out", "report/discs.csv", "--report", "report")
+        self.refused("experiment", "film.mp4", "--out", "x", "--json", "film.mp4")
+        self.assertEqual(self.left_behind(), ["report"])
+

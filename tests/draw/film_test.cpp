@@ -14,6 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(Film, KnowsTheNamesOfItsPictures) {
+    EXPECT_TRUE(is_of_film("film.mp4", "film.mp4"));
+    EXPECT_FALSE(is_of_film("film.mp4", "other.mp4"));
+    for (const char* name : {"a/00007.png", "a/12345.png", "a/123456.png"})
+        EXPECT_TRUE(is_of_film("a/%05d.png", name)) << name;
+    for (const char* name : {"a/7.png", "a/0000x.png", "b/00007.png", "a/00007.svg", "a/.png", ""})
+        EXPECT_FALSE(is_of_film("a/%05d.png", name)) << name;
+    EXPECT_TRUE(is_of_film("a/%d.png", "a/7.png"));
+    EXPECT_FALSE(is_of_film("a/%d.png", "a/.png"));
+}
+
 class Pictures : public ::testing::Test {
   protected:
     void SetUp() override {
