@@ -8,6 +8,7 @@
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/study/crossing.hpp"
 #include "swirl/study/sweep_plan.hpp"
@@ -98,6 +99,7 @@ void find(CrossingCall& call) {
     for (std::size_t point = 0; point < plan.points(); ++point) {
         searches.push_back(call.settings);
         searches.back().config = resolve(plan.parameters(point));
+        check(searches.back());
     }
     for (const std::string* file : {&call.json, &call.table})
         if (!file->empty() && *file != "-") refuse_unwritable(*file);
@@ -106,20 +108,23 @@ void find(CrossingCall& call) {
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
     for (const std::string& name : crossing_columns()) columns.push_back(name);
-    columns.insert(columns.end(), {"within_tolerance", "runs", "events_in_all"});
+    columns.insert(columns.end(), {"within_tolerance", "runs", "runs_failed", "events_in_all"});
     Table table(columns);
     const bool to_stdout = call.json == "-" || call.table == "-";
     std::vector<std::string> found;
+    std::size_t empty = 0;
     for (std::size_t point = 0; point < plan.points(); ++point) {
         const CrossingSettings& settings = searches[point];
         const std::string name = name_of(plan, point);
         const CrossingSearch search = search_one(call, settings, single ? "crossing" : name);
+        if (search.points.empty()) ++empty;
         std::vector<Table::Cell> row;
         const ParameterTexts texts = plan.parameters(point);
         for (const SweepAxis& axis : plan.axes) row.emplace_back(texts.at(axis.name));
         add_crossing(row, search.crossing);
         row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
         row.emplace_back(std::int64_t(search.runs));
+        row.emplace_back(search.failed());
         row.emplace_back(std::int64_t(search.events));
         table.add(std::move(row));
         found.push_back(crossing_json(settings, search, command_line()));
@@ -133,6 +138,11 @@ void find(CrossingCall& call) {
     }
     if (call.table == "-") print_all(table.csv());
     if (call.json == "-") print_all(json_of(found, single));
+    if (empty > 0)
+        throw Failure(single ? "No run of the search could be made; see above for why."
+                             : fmt::format("Of {} of {} searches no run could be made; see above "
+                                           "for why.",
+                                           empty, plan.points()));
 }
 
 void add_crossing_command(Subcommand& subcommand) {

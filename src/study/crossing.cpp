@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "swirl/measure/several_runs.hpp"
@@ -38,8 +39,11 @@ class Search {
         narrow_all();
         CrossingSearch search;
         search.points = points();
-        for (const auto& [n, runs] : runs_at_)
-            search.runs_made.push_back(std::int64_t(runs.size()));
+        for (const auto& [n, runs] : runs_at_) {
+            if (!runs.made.empty()) search.runs_made.push_back(std::int64_t(runs.made.size()));
+            if (runs.failed > 0) search.failures.push_back({n, runs.failed, runs.tried()});
+        }
+        search.first_failure = first_failure_;
         search.crossing = find_crossing(search.points);
         search.changes = find_sign_changes(search.points);
         search.events = events_;
@@ -56,6 +60,11 @@ class Search {
         Estimate rotation;
         double swirls;  // after the warm-up
         SteadyState::Verdict verdict;
+    };
+    struct Runs {
+        std::vector<Made> made;
+        std::int64_t failed = 0;
+        std::int64_t tried() const { return std::int64_t(made.size()) + failed; }
     };
 
     std::set<std::int64_t> coarse_numbers() const {
@@ -74,14 +83,16 @@ class Search {
 
     std::set<std::int64_t> all_numbers() const {
         std::set<std::int64_t> numbers;
-        for (const auto& [n, runs] : runs_at_) numbers.insert(n);
+        for (const auto& [n, runs] : runs_at_)
+            if (!runs.made.empty()) numbers.insert(n);
         return numbers;
     }
 
     std::vector<RotationPoint> points() const {
         std::vector<RotationPoint> all;
         for (const auto& [n, runs] : runs_at_) {
-            const Estimate e = together(runs).estimate;
+            if (runs.made.empty()) continue;
+            const Estimate e = together(runs.made).estimate;
             all.push_back({static_cast<double>(n), e.mean, e.error});
         }
         return all;
@@ -98,7 +109,8 @@ class Search {
     }
 
     void count(std::int64_t n, CrossingSearch& search) const {
-        const std::vector<Made>& runs = runs_at_.at(n);
+        const std::vector<Made>& runs = runs_at_.at(n).made;
+        if (runs.empty()) return;
         for (const Made& run : runs) {
             search.drifting += run.verdict == SteadyState::Verdict::drifting ? 1 : 0;
             search.too_short += run.verdict == SteadyState::Verdict::too_short ? 1 : 0;
@@ -136,14 +148,24 @@ class Search {
         return positive && negative;
     }
 
+    /// Nearest to the middle of these two, a number that has not been looked at: where all runs
+    /// failed, one beside it says as much.
+    std::optional<std::int64_t> unseen_between(std::int64_t left, std::int64_t right) const {
+        std::optional<std::int64_t> nearest;
+        const auto off = [&](std::int64_t n) { return std::abs(2 * n - left - right); };
+        for (std::int64_t n = left + 1; n < right; ++n)
+            if (!runs_at_.contains(n) && (!nearest || off(n) < off(*nearest))) nearest = n;
+        return nearest;
+    }
+
     /// Until the neighbours of the crossing, and all of its window, have been looked at. What is
     /// found on the way may move it.
     void narrow() {
         while (changes_sign()) {
             const auto [left, right] = bracket();
             std::set<std::int64_t> missing;
-            if (right - left > 1) {
-                missing.insert((left + right) / 2);
+            if (const auto middle = unseen_between(left, right)) {
+                missing.insert(*middle);
             } else {
                 for (const std::int64_t n : window())
                     if (!runs_at_.contains(n)) missing.insert(n);
@@ -160,7 +182,11 @@ class Search {
             std::set<std::int64_t> missing;
             for (const SignChange& change : find_sign_changes(points())) {
                 const auto middle = std::int64_t(change.before + change.after) / 2;
-                if (!runs_at_.contains(middle)) missing.insert(middle);
+                const auto seen = runs_at_.find(middle);
+                if (seen != runs_at_.end() && !seen->second.made.empty()) continue;
+                if (const auto unseen =
+                        unseen_between(std::int64_t(change.before), std::int64_t(change.after)))
+                    missing.insert(*unseen);
             }
             if (missing.empty()) return;
             look_at(missing, settings_.config.events, settings_.seeds, "other crossings");
@@ -204,9 +230,10 @@ class Search {
         std::vector<Place> places;
         for (auto n = numbers.rbegin(); n != numbers.rend(); ++n)  // long ones first
             for (int s = 0; s < seeds; ++s)
-                places.push_back({*n, settings_.config.seed + runs_at_[*n].size() +
-                                          static_cast<std::uint64_t>(s)});
+                places.push_back({*n, settings_.config.seed +
+                                          static_cast<std::uint64_t>(runs_at_[*n].tried() + s)});
         std::vector<RunResult> results(places.size());
+        std::vector<std::string> failures(places.size());
         on_all_cores(
             places.size(),
             [&](std::size_t k) {
@@ -214,12 +241,22 @@ class Search {
                 config.discs = places[k].discs;
                 config.events = events;
                 config.seed = places[k].seed;
-                results[k] = long_enough(config, stage);
+                try {
+                    results[k] = long_enough(config, stage);
+                } catch (const Failure& failure) {
+                    failures[k] = failure.what();
+                }
             },
             control_.threads);
         for (std::size_t k = 0; k < places.size(); ++k) {
             const RunResult& r = results[k];
-            runs_at_[places[k].discs].push_back(
+            Runs& runs = runs_at_[places[k].discs];
+            if (!failures[k].empty()) {
+                ++runs.failed;
+                if (first_failure_.empty()) first_failure_ = failures[k];
+                continue;
+            }
+            runs.made.push_back(
                 {r.rotation.by_time, r.periods - static_cast<double>(r.warmup), r.steady_state()});
             ++runs_;
         }
@@ -254,10 +291,24 @@ class Search {
     const CrossingSettings& settings_;
     const CrossingControl& control_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::map<std::int64_t, std::vector<Made>> runs_at_;
+    std::map<std::int64_t, Runs> runs_at_;  // of every number that was looked at
+    std::string first_failure_;
     std::mutex mutex_;
     std::uint64_t events_ = 0, runs_ = 0;
 };
+
+/// "2 runs failed and are left out: 1 of 3 at N = 47, 1 of 3 at N = 48. Why: …", or nothing.
+std::string failures_report(const CrossingSearch& search) {
+    if (search.failures.empty()) return {};
+    const std::int64_t failed = search.failed();
+    std::string where;
+    for (const FailedRuns& f : search.failures)
+        where += fmt::format("{}{} of {} at N = {}", where.empty() ? "" : ", ", f.failed, f.runs,
+                             f.discs);
+    return fmt::format(" {} run{} failed and {} left out: {}. Why{}: {}", failed,
+                       failed == 1 ? "" : "s", failed == 1 ? "is" : "are", where,
+                       failed == 1 ? "" : ", of the first", search.first_failure);
+}
 
 /// How many discs it is at is N_c: "discs" would be a number of a run's discs.
 nlohmann::ordered_json search_json(const CrossingSettings& settings, const CrossingSearch& s,
@@ -276,6 +327,9 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
              {"from", change.before},
              {"to", change.after},
              {"sense", change.to_counterrotation ? "to counterrotation" : "to rotation"}});
+    nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+    for (const FailedRuns& f : s.failures)
+        failures.push_back({{"discs", f.discs}, {"failed", f.failed}, {"runs", f.runs}});
     return {{"verdict", verdict_word(s.crossing.verdict)},
             {"N_c", s.crossing.discs},
             {"N_c_error", s.crossing.error},
@@ -289,6 +343,9 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
             {"runs_that_drift", s.drifting},
             {"runs_too_short_to_tell", s.too_short},
             {"numbers_whose_seeds_disagree", s.disagreeing},
+            {"runs_failed", failures},
+            {"first_failure", s.first_failure.empty() ? nlohmann::ordered_json()
+                                                      : nlohmann::ordered_json(s.first_failure)},
             {"events", s.events},
             {"seconds", s.seconds},
             {"config", config_json(settings.config)},
@@ -296,9 +353,45 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
             {"version", version()}};
 }
 
+std::string verdict_report(const CrossingSettings& settings, const CrossingSearch& search) {
+    if (search.points.empty())
+        return fmt::format("Undecided: no run between N = {} and {} could be made.", settings.from,
+                           settings.to);
+    const Crossing& c = search.crossing;
+    const auto lowest = std::min_element(
+        search.points.begin(), search.points.end(),
+        [](const RotationPoint& a, const RotationPoint& b) { return a.mean < b.mean; });
+    const std::string evidence =
+        fmt::format("between N = {:.0f} and {:.0f} the lowest is ϖ/Ω = {} at N = {:.0f}",
+                    search.points.front().discs, search.points.back().discs,
+                    with_error(lowest->mean, lowest->error), lowest->discs);
+    switch (c.verdict) {
+        case Crossing::Verdict::crosses:
+            return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}){}", with_error(c.discs, c.error),
+                               c.lower, c.upper,
+                               search.within_tolerance
+                                   ? "."
+                                   : fmt::format("; the error is still above the {} that was asked "
+                                                 "for, so more --events would be right.",
+                                                 settings.tolerance));
+        case Crossing::Verdict::always_rotates:
+            return fmt::format("No crossing: the {}s always rotate; {}, {:.0f} errors above zero.",
+                               body_word(settings.config), evidence, lowest->mean / lowest->error);
+        case Crossing::Verdict::always_counterrotates:
+            return fmt::format("No crossing: the {}s always counterrotate; {}.",
+                               body_word(settings.config), evidence);
+        case Crossing::Verdict::undecided:
+            break;
+    }
+    return fmt::format(
+        "Undecided: {}; the errors are too large to tell, and more --events would be "
+        "right.",
+        evidence);
+}
+
 }  // namespace
 
-CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
+void check(const CrossingSettings& settings) {
     if (!(settings.from >= 2 && settings.to > settings.from))
         throw WrongCall(fmt::format(
             "The search goes from --from {} to --to {}, but it must begin at 2 or more and "
@@ -316,6 +409,10 @@ CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingC
             fmt::format("--tolerance is {}, but it must be above 0: the standard error "
                         "of N_c that is wanted.",
                         settings.tolerance));
+}
+
+CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
+    check(settings);
     return Search(settings, control)();
 }
 
@@ -362,35 +459,7 @@ std::string other_crossings_report(const CrossingSearch& search) {
 }
 
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {
-    const Crossing& c = search.crossing;
-    const auto lowest = std::min_element(
-        search.points.begin(), search.points.end(),
-        [](const RotationPoint& a, const RotationPoint& b) { return a.mean < b.mean; });
-    const std::string evidence =
-        fmt::format("between N = {} and {} the lowest is ϖ/Ω = {} at N = {:.0f}", settings.from,
-                    settings.to, with_error(lowest->mean, lowest->error), lowest->discs);
-    switch (c.verdict) {
-        case Crossing::Verdict::crosses:
-            return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}){}", with_error(c.discs, c.error),
-                               c.lower, c.upper,
-                               search.within_tolerance
-                                   ? "."
-                                   : fmt::format("; the error is still above the {} that was asked "
-                                                 "for, so more --events would be right.",
-                                                 settings.tolerance));
-        case Crossing::Verdict::always_rotates:
-            return fmt::format("No crossing: the {}s always rotate; {}, {:.0f} errors above zero.",
-                               body_word(settings.config), evidence, lowest->mean / lowest->error);
-        case Crossing::Verdict::always_counterrotates:
-            return fmt::format("No crossing: the {}s always counterrotate; {}.",
-                               body_word(settings.config), evidence);
-        case Crossing::Verdict::undecided:
-            break;
-    }
-    return fmt::format(
-        "Undecided: {}; the errors are too large to tell, and more --events would be "
-        "right.",
-        evidence);
+    return verdict_report(settings, search) + failures_report(search);
 }
 
 }  // namespace swirl

@@ -14,6 +14,10 @@
 // method of measure/crossing.hpp takes; the others that the points show with certainty are
 // narrowed down to neighbours as well, each is told, and how closely the range was looked at.
 //
+// A run that fails (a collapse by friction, docs/physics.md) is left out, counted and told; a
+// number of discs at which every run failed has no point, and the search goes on with those beside
+// it.
+//
 // Runs at one number of discs are put together with the periods they cover as weights, their error
 // is the one within and between them (measure/several_runs.hpp). Which runs
 // are made depends on their results and the seed alone, never on how many cores there are.
@@ -45,12 +49,19 @@ struct CrossingSettings {
     std::int64_t step = 0;  // between the numbers of the coarse look; 0: about eight numbers
 };
 
+/// Runs at one number of discs that could not be made.
+struct FailedRuns {
+    std::int64_t discs, failed, runs;  // failed of so many
+};
+
 struct CrossingSearch {
     Crossing crossing;
     std::vector<SignChange> changes;      // all that are certain, in the order of N
     std::vector<RotationPoint> points;    // by time, in the order of N
     std::vector<std::int64_t> runs_made;  // at each of them
-    std::uint64_t events = 0, runs = 0;
+    std::uint64_t events = 0, runs = 0;   // of the runs that did not fail
+    std::vector<FailedRuns> failures;     // in the order of N
+    std::string first_failure;            // why the first of them failed
     /// Of the runs that the crossing rests on (of all, if there is none): how many had not reached
     /// a steady state after their warm-up, and how many were too short to tell.
     std::int64_t drifting = 0, too_short = 0;
@@ -59,6 +70,13 @@ struct CrossingSearch {
     std::int64_t disagreeing = 0;
     bool within_tolerance = false;
     double seconds = 0.0;
+
+    /// How many runs failed in all.
+    std::int64_t failed() const {
+        std::int64_t sum = 0;
+        for (const FailedRuns& f : failures) sum += f.failed;
+        return sum;
+    }
 };
 
 struct CrossingControl {
@@ -67,14 +85,18 @@ struct CrossingControl {
     unsigned threads = 0;  // 0: all cores
 };
 
-/// Throws Interrupted when stopped, WrongCall if the range is empty or the discs do not fit.
+/// Throws WrongCall if the range is empty or the discs do not fit.
+void check(const CrossingSettings& settings);
+
+/// The same, and throws Interrupted when stopped. There are no points if no run could be made.
 CrossingSearch search_crossing(const CrossingSettings& settings,
                                const CrossingControl& control = {});
 
 /// "crosses", "always rotates", "always counterrotates" or "undecided".
 const char* verdict_word(Crossing::Verdict verdict);
 
-/// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence.
+/// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0)." or that there is none, with the evidence;
+/// and which runs failed.
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
 /// Of a curve that changes its sign more than once, a sentence for each change; else nothing.
 std::string other_crossings_report(const CrossingSearch& search);

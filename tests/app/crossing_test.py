@@ -52,6 +52,22 @@ class Crossing(InFolder):
         self.assertEqual(found["sign_changes"], [])
         self.assertLessEqual({5, 7, 8}, {point["discs"] for point in found["points"]})
 
+    def test_a_search_without_a_run_that_could_be_made_costs_the_others_nothing(self):
+        # Nearly inelastic discs collapse at once where no contact duration keeps them from it.
+        done = swirl("crossing", "--restitution", "0.1,1", "--contact-duration", 0, *FEW, "--csv", "-", *SHORT)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("Of 1 of 2 searches no run could be made", done.stderr)
+        rows = list(csv.DictReader(io.StringIO(done.stdout)))
+        self.assertEqual([row["verdict"] for row in rows], ["undecided", "always rotates"])
+        self.assertEqual(rows[0]["runs"], "0")
+        self.assertGreaterEqual(int(rows[0]["runs_failed"]), 3)
+        self.assertEqual(rows[1]["runs_failed"], "0")
+
+    def test_a_later_search_that_cannot_be_is_refused_before_the_first(self):
+        done = swirl("crossing", "--container-radius", "8.6,4", *AROUND, "--json", self.path("x.json"), *SHORT)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(self.left_behind(), [])
+
     def test_what_cannot_be(self):
         for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):

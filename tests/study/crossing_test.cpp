@@ -1,5 +1,6 @@
 #include "swirl/study/crossing.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "swirl/run/failure.hpp"
@@ -87,6 +88,49 @@ TEST(CrossingSearchSlow, ACrossingThatMovesIsFollowed) {
         settings.config.seed = seed;
         EXPECT_NO_THROW(search_crossing(settings)) << "seed " << seed;
     }
+}
+
+// One seed of the dense dish that collapses by friction had ended the search, and all was lost.
+TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
+    CrossingSettings settings = short_search(1.0);
+    settings.from = 51;
+    settings.to = 56;
+    settings.config.seed = 2;
+    const CrossingSearch search = search_crossing(settings);
+    ASSERT_FALSE(search.failures.empty());
+    ASSERT_FALSE(search.points.empty());
+    ASSERT_EQ(search.points.size(), search.runs_made.size());
+    std::int64_t made = 0;
+    for (const std::int64_t runs : search.runs_made) {
+        EXPECT_GT(runs, 0);
+        made += runs;
+    }
+    EXPECT_EQ(made, std::int64_t(search.runs));
+    for (const FailedRuns& f : search.failures) {
+        EXPECT_GT(f.failed, 0);
+        EXPECT_LE(f.failed, f.runs);
+    }
+    // What is left out is just what fails by itself.
+    for (const FailedRuns& f : search.failures) {
+        std::int64_t failed = 0;
+        for (std::int64_t k = 0; k < f.runs; ++k) {
+            RunConfig config = settings.config;
+            config.discs = f.discs;
+            config.seed += std::uint64_t(k);
+            config.periods = default_warmup + settings.least_swirls;
+            try {
+                run(config);
+            } catch (const Failure&) {
+                ++failed;
+            }
+        }
+        EXPECT_EQ(failed, f.failed) << f.discs;
+    }
+    const std::string report = crossing_report(settings, search);
+    EXPECT_THAT(report, HasSubstr("left out: "));
+    EXPECT_THAT(report, HasSubstr(fmt::format("at N = {}", search.failures.front().discs)));
+    EXPECT_THAT(report, HasSubstr("a collapse"));
+    EXPECT_THAT(crossing_json(settings, search, ""), HasSubstr("\"first_failure\": \"The last "));
 }
 
 TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
