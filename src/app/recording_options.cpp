@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include "swirl/app/output.hpp"
@@ -105,14 +105,24 @@ std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
                        static_cast<std::uint32_t>(checksum(config_text(config))));
 }
 
-/// A bare number as it is, anything else in quotes; so is a seed that TOML has no number for.
+/// A number that is read back as it is written: TOML takes no 007, and the file 1e5 is not 100000.
+bool is_bare_number(const std::string& text) {
+    if (const auto whole = read_whole_number(text)) return fmt::format("{}", *whole) == text;
+    const auto number = read_number(text);
+    return number && std::isfinite(*number) && fmt::format("{}", *number) == text;
+}
+
+/// A bare number as it is, anything else in quotes.
 std::string toml_value(const std::string& text) {
-    const bool is_whole = text.find_first_not_of("0123456789") == text.npos;
-    if (read_whole_number(text) || (read_number(text) && !is_whole)) return text;
+    if (is_bare_number(text)) return text;
     std::string quoted = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') quoted += '\\';
         quoted += c;
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+            continue;
+        }
     }
     return quoted + '"';
 }

@@ -6,6 +6,7 @@ import os
 import resource
 import subprocess
 import tempfile
+import tomllib
 import unittest
 
 from program import SWIRL, InFolder, swirl
@@ -235,6 +236,19 @@ class WrongCalls(InFolder):
         done = swirl("run", self.path("a.toml"), "--json", "-", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["config"]["seed"], int(seed))
+
+    def test_a_plan_that_is_printed_holds_every_name_as_it_was_given(self):
+        names = ["a\nb.json", 'a"b\\c.json', "a\x01\x1f\x7f\tb\r.json", "ä '#= [].json", "007", "1e5", "0x10", ".5",
+                 "+5", "inf", "nan", "1_0", "true", "5"]
+        for name in names:
+            with self.subTest(name):
+                plan = swirl("run", "--json", name, "--trajectory", f"t-{name}", "--dry-run", cwd=self.folder)
+                self.assertEqual(plan.returncode, 0, plan.stderr)
+                found = tomllib.loads(plan.stdout)
+                self.assertEqual((str(found["json"]), found["trajectory"]), (name, f"t-{name}"))
+                with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
+                    opened.write(plan.stdout)
+                self.assertEqual(swirl("run", "a.toml", "--dry-run", cwd=self.folder).stdout, plan.stdout)
 
     def test_runs_of_different_versions_are_said_to_be(self):
         self.assertEqual(swirl("sweep", "--discs", "2,3", "--events", 2000, "--out", self.path("s"),
