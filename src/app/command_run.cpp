@@ -103,7 +103,7 @@ void run_and_report(RunCall& call) {
     const bool json_to_stdout = call.json == "-";
     const RunConfig config = resolve(*call.parameters);
     Observation observation = observation_of(config, measurements_of(call));
-    RunFiles files = run_files(*call.recording, config, call.json);
+    RunFiles files = run_files(*call.recording, config, observation.names(), call.json);
     files.call = call.recording->texts;
     for (const auto& [name, text] : others)
         if (!text->empty()) files.call[name] = *text;
@@ -147,14 +147,14 @@ void run_and_report(RunCall& call) {
         print_all(json.dump(2) + "\n");
         if (!call.quiet) fmt::print(stderr, "{}", text);
     } else {
-        const std::filesystem::path file = name_for_result(files, call.json, config);
-        if (!call.json.empty()) write_output(file, json.dump(2) + "\n");
+        const std::filesystem::path file =
+            call.json.empty() ? std::filesystem::path() : write_result(files, call.json, json);
         if (!call.quiet || call.json.empty()) print_all(text);
         if (file != call.json) {
             forget_checkpoint(files);
             throw Failure(fmt::format(
-                "'{}' holds the result of another run, which came there while this one went on; "
-                "what this one found is in '{}'.",
+                "'{}' holds the result of another run, or more of this one, which came there while "
+                "this one went on; what this one found is in '{}'.",
                 call.json, file.string()));
         }
     }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "swirl/app/output.hpp"
 #include "swirl/files/recording.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
@@ -81,6 +82,20 @@ void refuse_what_another_run_left(const RunFiles& files, const std::string& json
             json));
 }
 
+/// Nothing of what is there would be lost, or it is to be.
+bool may_replace(const RunFiles& files, const std::string& json, const Json& result) {
+    if (files.overwrite || files.resume || !holds_something(json)) return true;
+    const Json there = result_in(json);
+    if (config_in(there) != config_in(result)) return false;
+    const auto is_complete = [](const Json& r) {
+        return r.value("complete", Json()) == Json(true);
+    };
+    std::vector<std::string> measured;
+    const Json all = there.value("measured", Json::object());
+    for (const auto& [name, found] : all.items()) measured.push_back(name);
+    return is_complete(result) >= is_complete(there) && holds_all(result, measured);
+}
+
 }  // namespace
 
 bool is_done_already(const RunFiles& files, const std::string& json, const RunConfig& config,
@@ -113,11 +128,19 @@ void refuse_to_overwrite(const RunFiles& files, const std::string& json) {
                 file.string()));
 }
 
-fs::path name_for_result(const RunFiles& files, const std::string& json, const RunConfig& config) {
-    if (files.overwrite || files.resume || !holds_something(json) ||
-        config_in(result_in(json)) == config_json(config))
-        return json;
-    return free_name(json + ".second");
+fs::path write_result(const RunFiles& files, const std::string& json, const Json& result) {
+    const std::string text = result.dump(2) + "\n";
+    std::error_code ignored;
+    while (may_replace(files, json, result)) {
+        if (fs::symlink_status(json, ignored).type() != fs::file_type::not_found) {
+            write_output(json, text);
+            return json;
+        }
+        if (write_new_file(json, text)) return json;
+    }
+    for (;;)
+        if (const fs::path second = free_name(json + ".second"); write_new_file(second, text))
+            return second;
 }
 
 }  // namespace swirl

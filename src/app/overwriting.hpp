@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,10 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
 /// another run.
 void refuse_to_overwrite(const RunFiles& files, const std::string& json);
 
-/// Where the result of a run that has ended goes: to `json`, or beside it if another run has left
-/// its result there meanwhile.
-std::filesystem::path name_for_result(const RunFiles& files, const std::string& json,
-                                      const RunConfig& config);
+/// Writes the result of a run that has ended and returns where it went: to `json`, or beside it if
+/// another run has left there meanwhile, if only at the same instant, what this one does not have:
+/// another run's result, one with further measurements, or a complete one where this was stopped.
+std::filesystem::path write_result(const RunFiles& files, const std::string& json,
+                                   const nlohmann::ordered_json& result);
 
 }  // namespace swirl

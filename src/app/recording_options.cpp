@@ -1,6 +1,7 @@
 #include "swirl/app/recording_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,12 +98,13 @@ FrameTimes frame_times(const RecordingCall& call) {
 }
 
 std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
-                               const std::string& json) {
+                               const std::vector<std::string>& measured, const std::string& json) {
     for (const std::string& name :
          {json == "-" ? std::string() : json, files.trajectory.string(), files.event_log.string()})
         if (!name.empty()) return name + ".checkpoint";
     return fmt::format("swirl-{:08x}.checkpoint",
-                       static_cast<std::uint32_t>(checksum(config_text(config))));
+                       static_cast<std::uint32_t>(checksum(
+                           config_text(config) + fmt::format("{}", fmt::join(measured, ",")))));
 }
 
 /// A number that is read back as it is written: TOML takes no 007, and the file 1e5 is not 100000.
@@ -117,12 +119,12 @@ std::string toml_value(const std::string& text) {
     if (is_bare_number(text)) return text;
     std::string quoted = "\"";
     for (const char c : text) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
             quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
             continue;
         }
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
     }
     return quoted + '"';
 }
@@ -179,7 +181,8 @@ void take_recording_options(RecordingCall& call, ParameterTexts from_file) {
     call.texts.merge(from_file);
 }
 
-RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std::string& json) {
+RunFiles run_files(const RecordingCall& call, const RunConfig& config,
+                   const std::vector<std::string>& measured, const std::string& json) {
     RunFiles files;
     files.trajectory = text_of(call, "trajectory");
     files.frames = frame_times(call);
@@ -198,7 +201,8 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config, const std
                                files.trajectory.empty() && files.event_log.empty();
     // The checkpoint of a run that was to leave nothing behind is set aside without a question.
     files.overwrite = call.overwrite || (nothing_named && !call.resume);
-    if (files.checkpoint.empty()) files.checkpoint = default_checkpoint(files, config, json);
+    if (files.checkpoint.empty())
+        files.checkpoint = default_checkpoint(files, config, measured, json);
     refuse_same_files({files.trajectory, files.event_log, files.checkpoint, json});
     if (files.checkpoint_every == 0.0) {
         if (call.resume)

@@ -26,9 +26,9 @@ std::vector<std::string> recording_option_names();
 void take_recording_options(RecordingCall& recording, ParameterTexts from_file);
 
 /// `json` is where the result goes: the checkpoint is named after it, or after another file of the
-/// run, or after its parameters.
+/// run, or after its parameters and what is `measured`.
 RunFiles run_files(const RecordingCall& recording, const RunConfig& config,
-                   const std::string& json);
+                   const std::vector<std::string>& measured, const std::string& json);
 
 /// What a run would be, as a configuration file.
 std::string config_file_text(const RunConfig& config, const RecordingCall& recording,

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <system_error>
@@ -35,6 +36,22 @@ bool is_aside_of(std::string_view name, std::string_view target) {
         return false;
     const std::string_view digits = name.substr(target.size() + 1, 16);
     return digits.find_first_not_of("0123456789abcdef") == digits.npos;
+}
+
+/// False, and errno says why, if it was not done: EEXIST where there is such a name. Some file
+/// systems rename over what is there only, some know no second name of a file; on those that can do
+/// neither nothing is left but to look and to hope.
+bool rename_to_new_name(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
+        return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+    if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0;
+    if (errno == EEXIST) return false;
+    if (::access(to.c_str(), F_OK) == 0) {
+        errno = EEXIST;
+        return false;
+    }
+    return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
 constexpr std::size_t buffer_size = 1 << 20;
@@ -167,10 +184,36 @@ void WholeFile::give_name() {
     if (::close(std::exchange(file_, -1)) != 0) fail();
 }
 
+bool WholeFile::finish_as_new() {
+    empty_buffer();
+    if (::fsync(file_) != 0) fail();
+    if (!rename_to_new_name(aside_, path_)) {
+        if (errno != EEXIST) fail();
+        return false;
+    }
+    if (::close(std::exchange(file_, -1)) != 0) fail();
+    sync_folder_of(path_);
+    return true;
+}
+
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
     WholeFile file(path);
     file.append(bytes);
     file.finish();
+}
+
+bool write_new_file(const std::filesystem::path& path, std::string_view bytes) {
+    WholeFile file(path);
+    file.append(bytes);
+    return file.finish_as_new();
+}
+
+std::filesystem::path free_name(const std::string& first) {
+    std::filesystem::path name = first;
+    std::error_code ignored;
+    for (int k = 2; std::filesystem::exists(name, ignored); ++k)
+        name = fmt::format("{}-{}", first, k);
+    return name;
 }
 
 void write_named_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -31,6 +31,9 @@ class WholeFile {
     void empty_buffer();
     void give_name();
 
+    /// As finish(), but under a name that nobody has: false if somebody has it.
+    bool finish_as_new();
+
   private:
     [[noreturn]] void fail();
 
@@ -45,6 +48,12 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 /// The same for a file of which there are few in a folder, as somebody named it: what killed
 /// writers left of it goes, too.
 void write_named_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same under a name that nobody has: false, and nothing is done, if somebody has it, or came
+/// first at the same instant.
+bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
+/// NAME, or NAME-2, -3, …: the first that is not there.
+std::filesystem::path free_name(const std::string& name);
 
 /// Throws FileError when it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);

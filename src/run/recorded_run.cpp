@@ -271,14 +271,6 @@ std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
     return free_name(checkpoint.string() + ".backup");
 }
 
-std::filesystem::path free_name(const std::string& first) {
-    std::filesystem::path name = first;
-    std::error_code ignored;
-    for (int k = 2; std::filesystem::exists(name, ignored); ++k)
-        name = fmt::format("{}-{}", first, k);
-    return name;
-}
-
 KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
     const Json about = about_in(checkpoint, read_checkpoint(checkpoint));
     return {.configuration = about.at("identity").at("parameters").dump(),

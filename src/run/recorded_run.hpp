@@ -67,9 +67,6 @@ void forget_checkpoint(const RunFiles& files);
 /// the first that is not there.
 std::filesystem::path backup_name(const std::filesystem::path& checkpoint);
 
-/// NAME, or NAME-2, -3, …: the first that is not there.
-std::filesystem::path free_name(const std::string& name);
-
 /// Version, build, resolved parameters, seed and generator; the command and the configuration file
 /// where there are any.
 Provenance provenance_of(const RunConfig& config, const std::string& command,

@@ -3,12 +3,13 @@
 import json
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import time
 import unittest
-
 from pathlib import Path
+
 from program import SOURCE, SWIRL, InFolder, swirl, without_time
 
 
@@ -116,6 +117,43 @@ class Overwriting(InFolder):
             with open(made, "rb") as wanted, open(self.path(name), "rb") as there:
                 self.assertEqual(wanted.read(), there.read())
             os.remove(self.path(name))
+
+    def test_of_two_runs_at_once_that_measure_different_things_neither_is_lost(self):
+        runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "300000", "--measure", name,
+                                  "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
+                for name in ("slip", "order")]
+        errors = [run.communicate(timeout=100)[1] for run in runs]
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 1], errors)
+        self.assertEqual(self.left_behind(), ["r.json", "r.json.second"])
+        self.assertEqual({*without_time(self.path("r.json"))["measured"],
+                          *without_time(self.path("r.json.second"))["measured"]}, {"slip", "order"})
+
+    def test_an_interrupted_result_takes_the_place_of_no_complete_one(self):
+        call = ["run", "--discs", "8", "--events", "20000", "--json", self.path("r.json"), "--quiet"]
+        long = [SWIRL, *call[:4], "1e9", *call[5:], "--checkpoint", self.path("c")]
+        process = subprocess.Popen([*long, "--checkpoint-every", "0.01"], stderr=subprocess.PIPE, text=True)
+        while not os.path.exists(self.path("c")):
+            self.assertIsNone(process.poll(), "over without a checkpoint")
+            time.sleep(0.001)
+        # What the same run would say in the end.
+        with open(self.path("r.json"), "w", encoding="utf-8") as opened:
+            plan = json.loads(swirl(*call[:-3], "--json", "-", "--quiet").stdout)
+            plan["config"]["events"] = 1000000000
+            json.dump(plan, opened)
+        process.send_signal(signal.SIGINT)
+        self.assertIn("r.json.second", process.communicate(timeout=60)[1])
+        self.assertTrue(without_time(self.path("r.json"))["complete"])
+        self.assertFalse(without_time(self.path("r.json.second"))["complete"])
+
+    def test_runs_that_measure_different_things_keep_their_states_apart(self):
+        for name in ("slip", "order"):
+            process = subprocess.Popen([SWIRL, "run", "--events", "1e9", "--measure", name, "--quiet"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), 130)
+        self.assertEqual(len(self.left_behind()), 2, self.left_behind())
+        self.assertFalse([name for name in self.left_behind() if "backup" in name])
 
     def test_a_run_that_was_to_overwrite_still_does_when_it_is_resumed(self):
         self.assertEqual(swirl(*self.run_call()).returncode, 0)
@@ -286,24 +324,6 @@ class Names(InFolder):
         # And over what stands beside a camera's tracks.
         self.refused("measure", "tracks.csv", "--json", "tracks.camera.json")
 
-    def test_a_pipe_or_a_device_is_not_replaced(self):
-        recording = self.recorded()
-        os.mkfifo(self.path("pipe"))
-        for call in (["export", recording, "--to", "xyz", "--out", "pipe"],
-                     ["run", "--events", 100, "--trajectory", "pipe"],
-                     ["run", "--events", 100, "--log-events", "pipe"]):
-            self.refused(*call, code=1, says="is a device, a pipe or a socket, and no file can take its place")
-            self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
-        laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
-        for place in (self.path("pipe"), self.folder):
-            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=60)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn("is there and is no file", done.stderr)
-        self.assertEqual(self.left_behind(), ["pipe", "t.h5"])
-
-
-if __name__ == "__main__":
-    unittest.main()
     def test_a_table_of_a_sweep_takes_the_place_of_nothing_that_the_sweep_keeps(self):
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
@@ -354,3 +374,21 @@ if __name__ == "__main__":
         self.refused("experiment", "film.mp4", "--out", "x", "--json", "film.mp4")
         self.assertEqual(self.left_behind(), ["report"])
 
+    def test_a_pipe_or_a_device_is_not_replaced(self):
+        recording = self.recorded()
+        os.mkfifo(self.path("pipe"))
+        for call in (["export", recording, "--to", "xyz", "--out", "pipe"],
+                     ["run", "--events", 100, "--trajectory", "pipe"],
+                     ["run", "--events", 100, "--log-events", "pipe"]):
+            self.refused(*call, code=1, says="is a device, a pipe or a socket, and no file can take its place")
+            self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
+        laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
+        for place in (self.path("pipe"), self.folder):
+            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("is there and is no file", done.stderr)
+        self.assertEqual(self.left_behind(), ["pipe", "t.h5"])
+
+
+if __name__ == "__main__":
+    unittest.main()

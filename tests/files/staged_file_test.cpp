@@ -1,8 +1,10 @@
 #include "swirl/files/staged_file.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <map>
+#include <thread>
 
 #include "files/scratch.hpp"
 #include "swirl/files/checksum.hpp"
@@ -11,6 +13,23 @@
 
 namespace swirl {
 namespace {
+
+TEST(WholeFile, OfManyWhoWriteANewFileAtOnceOneDoesAndTheOthersAreTold) {
+    const Scratch scratch;
+    for (int round = 0; round < 20; ++round) {
+        const auto path = scratch / ("new-" + std::to_string(round));
+        std::vector<int> wrote(4, -1);
+        std::vector<std::thread> writers;
+        for (int k = 0; k < 4; ++k)
+            writers.emplace_back([&, k] { wrote[k] = write_new_file(path, std::to_string(k)); });
+        for (std::thread& writer : writers) writer.join();
+        ASSERT_EQ(std::count(wrote.begin(), wrote.end(), 1), 1);
+        const auto winner = std::find(wrote.begin(), wrote.end(), 1) - wrote.begin();
+        EXPECT_EQ(read_whole_file(path), std::to_string(winner));
+    }
+    const auto count = std::distance(std::filesystem::directory_iterator(scratch.folder()), {});
+    EXPECT_EQ(count, 20) << "something was left aside";
+}
 
 using Mode = StagedFile::Mode;
 
