@@ -21,6 +21,11 @@ bool nothing_rubs(const RunConfig& c) {
     return c.mu_disc == 0.0 && c.mu_wall == 0.0 && c.restitution == 1.0 && !c.floor;
 }
 
+/// On the polygon, whose corners give more than they take.
+bool gains_energy_for_ever(const RunConfig& c) {
+    return nothing_rubs(c) && c.amplitude > 0.0 && c.path == PathShape::polygon;
+}
+
 std::string energy_sentence(const RunResult& r) {
     const double growth = r.invariant - r.invariant_at_start;
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
@@ -33,7 +38,8 @@ std::string energy_sentence(const RunResult& r) {
     return fmt::format(
         "Without friction the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
         "{:.1f} periods, {:.1f} times as much. K − ΩL, which a true circle (--path circle) would "
-        "conserve, grew by {:.4g}, or {:.3g} per period; the averages belong to no steady state.",
+        "conserve, grew by {:.4g}, or {:.3g} per period; what depends on how fast the discs are "
+        "has no steady state.",
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
@@ -80,7 +86,10 @@ std::string sunk_sentence(const RunResult& r) {
 }
 
 std::string steady_text(const RunResult& r) {
-    const std::string found = verdict(r.steady_state());
+    const bool is_energy_alone =
+        r.steady_state() == SteadyState::Verdict::steady && gains_energy_for_ever(r.config);
+    const std::string found =
+        is_energy_alone ? "rotation and spins are, the energy is not" : verdict(r.steady_state());
     if (std::isnan(r.steady.drift) && std::isnan(r.steady_spin.drift)) return found;
     return fmt::format(
         "{}; first and last part differ by {:.1f} standard errors, of the spins by {:.1f} (up to "

@@ -107,6 +107,15 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
+    // What is steady then is not the dish, and the line of the report says no such thing.
+    result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
+    result.steady.drift = result.steady_spin.drift = 1.0;
+    EXPECT_THAT(report(result),
+                testing::HasSubstr("  steady      rotation and spins are, the energy is not; "));
+    result.config.path = PathShape::circle;
+    EXPECT_THAT(report(result), testing::HasSubstr("  steady      steady; "));
+    result.config.path = PathShape::polygon;
+    result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::too_short;
     // On a floor it does not grow: the floor takes it.
     result.config.floor = true;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
