@@ -150,7 +150,8 @@ void bind_studies(py::module_& module) {
         });
     module.def("grow", [](const std::string& folder, const py::dict& more, std::int64_t replicas,
                           const std::vector<std::string>& measured) {
-        write_plan(folder, grown(read_plan(folder), lists_of(more), replicas, measured), true);
+        const SweepPlan before = read_plan(folder);
+        write_plan(folder, grown(before, lists_of(more), replicas, measured), &before);
     });
     module.def("sweep", &sweep);
     module.def("collect", &collect);

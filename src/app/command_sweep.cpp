@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <map>
+#include <optional>
 
 #include "swirl/app/commands.hpp"
 #include "swirl/app/config_file.hpp"
@@ -61,11 +62,14 @@ std::vector<std::string> more_measurements(const SweepCall& call) {
     return read_measurement_list(call.measure);
 }
 
-SweepPlan plan_of(SweepCall& call) {
+/// Says also which plan it was grown from, if it was.
+SweepPlan plan_of(SweepCall& call, std::optional<SweepPlan>& grown_from) {
     if (!call.config_file.empty()) take_config_file(call);
-    if (call.grow)
-        return grown(read_plan(call.out), *call.parameters,
-                     whole("seeds", call.seeds, 0, 1'000'000), more_measurements(call));
+    if (call.grow) {
+        grown_from = read_plan(call.out);
+        return grown(*grown_from, *call.parameters, whole("seeds", call.seeds, 0, 1'000'000),
+                     more_measurements(call));
+    }
     // Without a plan: the one that is there.
     if (call.parameters->empty() && call.seeds.empty() && call.measure.empty() &&
         call.frames.empty()) {
@@ -131,7 +135,8 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
 
 void sweep(SweepCall& call) {
     if (call.status) return print_status(call, read_plan(call.out));
-    const SweepPlan plan = plan_of(call);
+    std::optional<SweepPlan> grown_from;
+    const SweepPlan plan = plan_of(call, grown_from);
     const SweepShare share = share_of(call);
     call.job.nodes = static_cast<int>(whole("nodes", call.nodes, 1, 100'000));
     call.job.cpus = static_cast<int>(whole("cpus", call.cpus, 0, 4096));
@@ -150,7 +155,7 @@ void sweep(SweepCall& call) {
     // What is wrong in the call is told before anything is made of it.
     const std::string script = call.slurm ? slurm_script(call.job, call.out) : "";
     make_folder(call.out);
-    write_plan(call.out, plan, call.grow);
+    write_plan(call.out, plan, grown_from ? &*grown_from : nullptr);
     if (call.slurm) {
         const std::string number = submit(script, call.out);
         return print_all(fmt::format(

@@ -1,8 +1,12 @@
 #include "swirl/study/sweep_plan.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -319,7 +323,44 @@ SweepPlan read_plan(const fs::path& folder) {
     return plan;
 }
 
-void write_plan(const fs::path& folder, const SweepPlan& plan, bool grows) {
+namespace {
+
+std::string plan_file_text(const SweepPlan& plan) { return plan_json(plan).dump(1) + "\n"; }
+
+/// Held by who replaces a plan; a kill gives it back.
+class PlanLock {
+  public:
+    explicit PlanLock(const fs::path& folder)
+        : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        while (handle_ >= 0 && ::flock(handle_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    ~PlanLock() {
+        if (handle_ >= 0) ::close(handle_);
+    }
+    PlanLock(const PlanLock&) = delete;
+    PlanLock& operator=(const PlanLock&) = delete;
+
+  private:
+    int handle_;
+};
+
+/// Two calls may let a sweep grow at the same instant, and their points would have the same
+/// numbers.
+void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan& grown_from) {
+    const PlanLock lock(folder);
+    if (read_plan(folder) != grown_from)
+        throw Failure(
+            fmt::format("Another call has let the sweep in '{}' grow meanwhile; the same call once "
+                        "more adds to "
+                        "what it is now.",
+                        folder.string()));
+    write_whole_file(folder / "plan.json", plan_file_text(plan));
+}
+
+}  // namespace
+
+void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* grown_from) {
     std::error_code error;
     std::vector<fs::path> parts{part_of_sweep(folder, "results", plan), folder / "failures",
                                 part_of_sweep(folder, "checkpoints", plan)};
@@ -328,10 +369,10 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, bool grows) {
         if (fs::create_directories(part, error); error)
             throw Failure(
                 fmt::format("The folder '{}' cannot be made: {}.", part.string(), error.message()));
-    if (grows || !fs::exists(folder / "plan.json")) {
-        write_whole_file(folder / "plan.json", plan_json(plan).dump(1) + "\n");
-        return;
-    }
+    if (grown_from != nullptr) return replace_plan(folder, plan, *grown_from);
+    // Another sweep may begin in this folder at the same instant: the first to come has it.
+    const fs::path file = folder / "plan.json";
+    if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
     if (read_plan(folder) != plan)
         throw Failure(
             fmt::format("'{}' holds another sweep (its plan.json says which); choose another "

@@ -72,7 +72,9 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
 
 /// The plan of a folder; throws FileError if there is none.
 SweepPlan read_plan(const std::filesystem::path& folder);
-/// Makes the folder and writes the plan; throws Failure if it holds another one, unless it grows.
-void write_plan(const std::filesystem::path& folder, const SweepPlan& plan, bool grows = false);
+/// Makes the folder and writes the plan; throws Failure if it holds another one, unless that is the
+/// one it was grown from.
+void write_plan(const std::filesystem::path& folder, const SweepPlan& plan,
+                const SweepPlan* grown_from = nullptr);
 
 }  // namespace swirl

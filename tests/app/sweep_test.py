@@ -294,6 +294,40 @@ class Sweep(InFolder):
         self.assertEqual(swirl("collect", self.path("b"), "--crossings", "-", "--csv", "-").returncode,
                          2)
 
+    def at_once(self, calls):
+        """Exit codes and complaints of calls that wait for each other before they begin."""
+        gate, opened = os.pipe()
+        running = [subprocess.Popen(["sh", "-c", 'read go; exec "$0" "$@"', SWIRL, *call], stdin=gate,
+                                    stderr=subprocess.PIPE, text=True) for call in calls]
+        os.close(gate)
+        time.sleep(0.1)
+        os.close(opened)
+        errors = [process.communicate(timeout=100)[1] for process in running]
+        return [process.returncode for process in running], errors
+
+    def test_of_two_plans_at_once_in_one_new_folder_one_is_refused(self):
+        for k in range(8):
+            folder = self.path(str(k))
+            codes, errors = self.at_once([["sweep", "--discs", discs, "--events", "1000", "--out", folder, "--quiet"]
+                                          for discs in ("5", "6")])
+            self.assertEqual(sorted(codes), [0, 1], errors)
+            self.assertIn("holds another sweep", "".join(errors))
+            kept = "56"[codes.index(0)]
+            self.assertIn(f"\n{kept},", self.table(folder))
+
+    def test_of_two_calls_that_let_a_sweep_grow_at_once_both_do_or_one_is_told(self):
+        self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", "1000", "--out", self.path("first"),
+                               "--quiet").returncode, 0)
+        for k in range(8):
+            folder = shutil.copytree(self.path("first"), self.path(str(k)))
+            calls = [["sweep", "--out", folder, "--grow", "--discs", discs, "--quiet"] for discs in ("7", "8")]
+            for call, code, error in zip(calls, *self.at_once(calls), strict=True):
+                if code:
+                    self.assertIn("let the sweep", error)
+                    self.assertEqual(swirl(*call).returncode, 0)
+            self.assertEqual([row.split(",")[0] for row in self.table(folder).splitlines()[1:]],
+                             ["5", "6", "7", "8"])
+
     def test_another_plan_in_the_same_folder_is_refused(self):
         self.whole()
         done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))
