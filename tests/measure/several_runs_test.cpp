@@ -75,8 +75,9 @@ TEST(SeveralRuns, WeightsAreLengths) {
     const std::vector<double> lengths{1.0, 3.0};
     const SeveralRuns all = several_runs(runs, lengths);
     EXPECT_DOUBLE_EQ(all.estimate.mean, 0.3);
-    // Between: 2/1 · (0.3² + (3 · 0.1)²)/16 = 0.0225; within: (0.4² + 0.6²)/16 = 0.0325.
-    EXPECT_NEAR(all.between, 0.15, 1e-12);
+    // Within: (0.4² + 0.6²)/16 = 0.0325. Between: of two runs 0.4² = 0.4² + 0.2² + 2 τ², so that
+    // τ² = −0.02, and 0.0325 + τ² (1² + 3²)/16 = 0.02.
+    EXPECT_NEAR(all.between, std::sqrt(0.02), 1e-12);
     EXPECT_NEAR(all.within, std::sqrt(0.0325), 1e-12);
     EXPECT_NEAR(all.estimate.error, std::sqrt(0.0325), 1e-6);
 }
@@ -128,6 +129,75 @@ TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
             const double least = understated == 1.0 ? 0.935 : seeds == 8 ? 0.90 : 0.75;
             EXPECT_GT(share, least) << seeds << " seeds, understated by " << understated;
         }
+}
+
+// Two runs disagree, and a third is too uncertain to say: what its blocks say is not forgotten.
+// V_w = (2 · 0.01² + 10²)/9.
+TEST(SeveralRuns, TheErrorIsNotBelowThatOfTheBlocksWhereSeedsDisagree) {
+    const std::vector<Estimate> runs{run_of(0.0, 0.01), run_of(1.0, 0.01), run_of(0.5, 10.0)};
+    const SeveralRuns all = several_runs(runs);
+    EXPECT_TRUE(all.disagree);
+    EXPECT_GE(all.estimate.error, std::sqrt((2e-4 + 100.0) / 9.0));
+}
+
+/// Of many repetitions the shares whose truth, 0, is within 1.96 errors, and beyond three.
+struct Shares {
+    double held = 0.0, beyond_three = 0.0;
+};
+
+/// Runs with these lengths, whose blocks say an error of 1/√(length) of the longest's, and whose
+/// seeds differ by `between` besides.
+Shares shares_of(const std::vector<double>& lengths, double between, bool with_errors,
+                 Random& random) {
+    const int repetitions = 4000;
+    Shares shares;
+    for (int k = 0; k < repetitions; ++k) {
+        std::vector<Estimate> runs;
+        for (const double length : lengths) {
+            const double own = std::sqrt(lengths.front() / length);
+            const double mean = std::hypot(own, between) * deviate(random);
+            runs.push_back(run_of(mean, with_errors ? own : not_known, 50.0));
+        }
+        const Estimate e = several_runs(runs, lengths).estimate;
+        shares.held += std::fabs(e.mean) <= 1.96 * e.error ? 1.0 / repetitions : 0.0;
+        shares.beyond_three += std::fabs(e.mean) > 3.0 * e.error ? 1.0 / repetitions : 0.0;
+    }
+    return shares;
+}
+
+// A long run draws the mean to itself, so its distance from the mean says little of its error. The
+// standard deviation of a share is 0.35 %.
+TEST(SeveralRuns, SeedsOfUnequalLengthsHoldTheTruthAsOften) {
+    Random random(18);
+    for (const std::vector<double>& lengths : std::vector<std::vector<double>>{
+             {295, 8}, {295, 295, 8}, {100, 50, 20}, {400, 100, 100}, {400, 400, 400, 100, 100}}) {
+        EXPECT_GT(shares_of(lengths, 30.0, false, random).held, 0.935)
+            << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
+        // Where the blocks say all, and the short run is just uncertain, too.
+        EXPECT_GT(shares_of(lengths, 0.0, true, random).held, 0.935)
+            << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
+    }
+}
+
+// What the header says of few seeds whose differences are of the size of their errors.
+TEST(SeveralRuns, FewSeedsHoldTheTruthAsOftenAsIsSaid) {
+    struct Said {
+        std::size_t seeds;
+        double held, beyond_three;
+    };
+    Random random(19);
+    for (const Said said :
+         {Said{2, 0.74, 0.17}, {3, 0.84, 0.08}, {5, 0.89, 0.04}, {8, 0.92, 0.02}}) {
+        Shares worst{1.0, 0.0};
+        for (const double between : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
+            const Shares s = shares_of(std::vector<double>(said.seeds, 1.0), between, true, random);
+            worst.held = std::min(worst.held, s.held);
+            worst.beyond_three = std::max(worst.beyond_three, s.beyond_three);
+        }
+        // The last digit said, and two standard deviations, √(p (1 − p)/4000).
+        EXPECT_NEAR(worst.held, said.held, 0.02) << said.seeds;
+        EXPECT_NEAR(worst.beyond_three, said.beyond_three, 0.015) << said.seeds;
+    }
 }
 
 }  // namespace
