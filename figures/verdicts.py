@@ -154,7 +154,7 @@ def every(statements):
     open_ones = [s for s in statements if s.verdict == UNDECIDED]
     if open_ones or not statements:
         return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
-    return Part(HOLDS)
+    return Part(IN_PART if any(s.verdict == IN_PART for s in statements) else HOLDS)
 
 
 def either(statements):
@@ -170,11 +170,11 @@ def either(statements):
 
 def agreed(statements):
     """One statement, judged once for each choice that could have been made of what is measured. If
-    for one choice it holds and for another it does not, that is for certain, and no seeds would
-    decide it."""
+    for one choice it holds and for another it does not, or in part, that is for certain, and no
+    seeds would decide it."""
     statements = list(statements)
     verdicts = {s.verdict for s in statements}
-    if {HOLDS, FAILS} <= verdicts:
+    if len(verdicts - {UNDECIDED}) > 1:
         return Part(UNDECIDED)
     if UNDECIDED in verdicts or not statements:
         return Part(UNDECIDED, frozenset().union(*(s.points for s in statements)))
@@ -184,7 +184,7 @@ def agreed(statements):
 def parts(*statements):
     """A claim that says several things. Only here can something hold in part."""
     verdicts = [s.verdict for s in statements]
-    if HOLDS in verdicts and FAILS in verdicts:
+    if IN_PART in verdicts or (HOLDS in verdicts and FAILS in verdicts):
         return Part(IN_PART)
     open_ones = [s for s in statements if s.verdict == UNDECIDED]
     if open_ones:

@@ -79,6 +79,23 @@ class Rules(unittest.TestCase):
         self.assertEqual(parts(yes, open_one), UNDECIDED)
         self.assertEqual(parts(no, open_one), UNDECIDED)
 
+    def test_what_holds_in_part_stays_so_in_every_rule(self):
+        yes, no, half, open_one = Part(HOLDS), Part(FAILS), Part(IN_PART), Part(UNDECIDED, ["a"])
+        self.assertEqual(every([half, yes]), IN_PART)
+        self.assertEqual(every([half, no]), FAILS)
+        self.assertEqual(every([half, open_one]), UNDECIDED)
+        self.assertEqual(either([half, no]), IN_PART)
+        self.assertEqual(either([half, yes]), HOLDS)
+        self.assertEqual(parts(half), IN_PART)
+        self.assertEqual(parts(half, yes), IN_PART)
+        self.assertEqual(parts(half, no), IN_PART)
+        self.assertEqual(parts(half, open_one), IN_PART)  # whatever becomes of the other
+        # Choices of ours that do not agree.
+        self.assertEqual(agreed([half, half]), IN_PART)
+        self.assertEqual(agreed([half, yes]), UNDECIDED)
+        self.assertEqual(agreed([half, no]), UNDECIDED)
+        self.assertEqual(agreed([half, yes, open_one]).points, frozenset())
+
     def test_the_points_that_would_decide_are_those_of_what_is_undecided(self):
         certain, doubtful = Value(9, 1, ["a"]), Value(1, 1, ["b"])
         self.assertEqual(every([above(certain, 0), above(doubtful, 0)]).points, {"b"})
