@@ -354,8 +354,11 @@ class Laboratory(unittest.TestCase):
                 there = self.engine([{"given": wrong, "events": 1}])["said"][0]
                 here = swirl("run", *options(wrong), check=False)
                 self.assertEqual(here.returncode, 2)
-                if "disks" not in wrong:  # of options CLI11 says it
-                    self.assertIn(there["refused"], here.stderr)
+                if "disks" in wrong:  # of options CLI11 says it
+                    self.assertEqual(there["refused"],
+                                     "There is no parameter 'disks'; did you mean 'discs'?")
+                    continue
+                self.assertIn(there["refused"], here.stderr)
                 self.assertRegex(there["refused"], r"^(--)?\w.*\.$")
 
     def test_the_page_in_a_browser(self):
