@@ -402,52 +402,111 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
     return leaps;
 }
 
-PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                       const DishPath& path) {
-    constexpr int least_sides = 3, fewest_a_side = 2;
-    constexpr double stands_out = 5.0, size_known_to = 0.35;
-    PathPolygon polygon;
-    if (centres.size() < 16) return polygon;
-    const double spans = (times.back() - times.front()) / double(times.size() - 1);
-    const int limit = static_cast<int>(2.0 * pi / (path.omega * spans) / fewest_a_side);
-    std::vector<double> rests, angles;
+namespace {
+
+/// How much farther from the middle than the circle that fits the centres are, and in which
+/// direction; without strays.
+struct Departures {
+    std::vector<double> outward, angles;
+    double square = 0.0;  // the sum of all squares
+
+    /// The standard error of a harmonic of them, when so much of the square is explained. With the
+    /// ellipse of a tilted camera it is only too large.
+    double error(double explained = 0.0) const {
+        return std::sqrt(2.0 * std::max(0.0, square - explained)) / double(outward.size());
+    }
+};
+Departures departures(const std::vector<Vec2>& centres, const DishPath& path) {
+    Departures all;
     const double cut = std::max(5.0 * path.residual, 0.5);
     for (const Vec2& c : centres) {
         const Vec2 d = c - path.centre;
-        const double rest = length(d) - path.amplitude;
-        if (std::abs(rest) > cut) continue;
-        rests.push_back(rest);
-        angles.push_back(std::atan2(-d.y, d.x));
+        const double outward = length(d) - path.amplitude;
+        if (std::abs(outward) > cut) continue;
+        all.outward.push_back(outward);
+        all.angles.push_back(std::atan2(-d.y, d.x));
+        all.square += outward * outward;
     }
-    if (rests.size() < 16) return polygon;
-    // Errors from what is left when the ellipse of a tilted camera is gone does not matter here:
-    // they are only too large with it.
-    double square = 0.0;
-    for (const double r : rests) square += r * r;
-    const auto m = double(rests.size());
-    const double error = std::sqrt(2.0 * square / m / m);
-    const auto harmonic = [&](int n) {
-        double c = 0.0, s = 0.0;
-        for (std::size_t k = 0; k < rests.size(); ++k) {
-            c += rests[k] * std::cos(n * angles[k]);
-            s += rests[k] * std::sin(n * angles[k]);
-        }
-        return 2.0 / m * std::sqrt(c * c + s * s);
-    };
-    double best = 0.0;
-    for (int n = least_sides; n <= limit; ++n) {
-        const double expected = 2.0 * path.amplitude / (double(n) * n);
-        if (expected < stands_out * error) break;
+    return all;
+}
+
+/// What fits them best, of one number of waves a turn.
+struct Harmonic {
+    double size = 0.0;
+    double explained = 0.0;  // of the square
+    bool told = false;       // at two pictures a wave its two parts are one, and nothing is told
+};
+Harmonic harmonic_of(const Departures& all, int n) {
+    double cc = 0.0, cs = 0.0, ss = 0.0, c = 0.0, s = 0.0;
+    for (std::size_t k = 0; k < all.outward.size(); ++k) {
+        const double x = std::cos(n * all.angles[k]), y = std::sin(n * all.angles[k]);
+        cc += x * x, cs += x * y, ss += y * y;
+        c += all.outward[k] * x, s += all.outward[k] * y;
+    }
+    constexpr double apart = 0.1;  // of what two independent parts have
+    const double determinant = cc * ss - cs * cs, half = 0.5 * double(all.outward.size());
+    if (!(determinant > apart * half * half)) return {};
+    const double a = (ss * c - cs * s) / determinant, b = (cc * s - cs * c) / determinant;
+    return {std::hypot(a, b), a * c + b * s, true};
+}
+
+/// The distance of the corners from the middle, by the mean distance on the way.
+double corners_of(double amplitude, int sides) {
+    const double half = pi / sides;
+    const double mean = std::cos(half) / half * std::log(1.0 / std::cos(half) + std::tan(half));
+    return amplitude / mean;
+}
+
+}  // namespace
+
+PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
+                       const DishPath& path) {
+    constexpr int least_sides = 3, fewest_a_side = 2;
+    constexpr std::size_t fewest_pictures = 16;
+    constexpr double size_known_to = 0.35, rivals = 0.5;  // of what the best explains
+    constexpr double stands_out = 5.0, not_there = 3.0, told_apart = 2.0;  // standard errors
+    PathPolygon polygon;
+    if (centres.size() < fewest_pictures) return polygon;
+    const Departures all = departures(centres, path);
+    if (all.outward.size() < fewest_pictures) return polygon;
+    const double spans = (times.back() - times.front()) / double(times.size() - 1);
+    const double per_swirl = 2.0 * pi / (path.omega * spans), error = all.error();
+    const auto expected = [&](double n) { return 2.0 * path.amplitude / (n * n); };
+    const int limit = static_cast<int>(per_swirl / fewest_a_side);
+    int in_doubt = limit + 1;  // the fewest sides that are neither seen nor sure not to be there
+    std::vector<std::pair<int, Harmonic>> fitting;
+    for (int n = least_sides; n <= limit && expected(n) >= stands_out * error; ++n) {
+        const Harmonic found = harmonic_of(all, n);
+        if (!found.told) break;
         polygon.most_sides = n;
-        const double found = harmonic(n);
-        if (found > stands_out * error && std::abs(found / expected - 1.0) < size_known_to &&
-            found > best)
-            best = found, polygon.sides = n;
+        if (found.size > stands_out * error &&
+            std::abs(found.size / expected(n) - 1.0) < size_known_to)
+            fitting.emplace_back(n, found);
+        else if (found.size > expected(n) - not_there * error)
+            in_doubt = std::min(in_doubt, n);
     }
-    if (polygon.sides > 0) {
-        const double half = pi / polygon.sides;
-        const double mean = std::cos(half) / half * std::log(1.0 / std::cos(half) + std::tan(half));
-        polygon.corners = path.amplitude / mean;
+    const auto best = std::max_element(
+        fitting.begin(), fitting.end(),
+        [](const auto& a, const auto& b) { return a.second.explained < b.second.explained; });
+    if (best == fitting.end()) {
+        polygon.most_sides = std::min(polygon.most_sides, in_doubt - 1);
+        return polygon;
+    }
+    // One of more sides than two pictures a side tell looks like one of fewer, but for its size.
+    const auto& [sides, seen] = *best;
+    const double alias = expected(per_swirl - sides), off = std::abs(seen.size - expected(sides));
+    bool alone = off < std::abs(seen.size - alias) &&
+                 std::abs(seen.size - alias) > told_apart * all.error(seen.explained);
+    for (const auto& [n, other] : fitting) {
+        if (n == sides || other.explained < rivals * seen.explained) continue;
+        alone = false;
+        in_doubt = std::min(in_doubt, n);
+    }
+    if (alone) {
+        polygon.sides = sides;
+        polygon.corners = corners_of(path.amplitude, sides);
+    } else {
+        polygon.most_sides = std::min(in_doubt, sides) - 1;
     }
     return polygon;
 }

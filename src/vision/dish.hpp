@@ -68,7 +68,8 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
 /// Run through at constant speed, a regular polygon of n sides departs from the circle of the same
 /// mean radius by (2A/n²) cos n(φ − φ_corner), and by less at multiples of n: the one harmonic of
 /// the centres' distances from the middle that has this size and stands out from the noise is the
-/// number of sides.
+/// number of sides. Where two numbers would do, or one of more sides than two pictures a side tell,
+/// which looks like one of fewer, none is told.
 PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
                        const DishPath& path);
 
