@@ -180,7 +180,7 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
         throw Failure(fmt::format(
             "The largest circle in the pictures, of about {:.0f} pixels radius, does not run round "
             "a circle, as a swirled dish does. Does the camera move, is the film shorter than half "
-            "a swirl, or is something in front of the dish?",
+            "a swirl, is something in front of the dish, or has its path few corners?",
             best.radius / first.shrink));
     }
     Rim rim;

@@ -686,6 +686,13 @@ void warn(TrackedFilm& film) {
         say("The dish looks longest in another direction than a tilted camera would make it: it is "
             "not round, or its rim not flat. Distances in the two directions cannot be compared to "
             "better than that.");
+    const double beyond = film.polygon.corners - film.path.amplitude;
+    if (film.polygon.sides > 0 && beyond > 0.05 * film.radius)
+        say(fmt::format(
+            "The dish went along a polygon of {} sides, and is taken to have gone round the circle "
+            "that fits it: at the corners it was {:.2f} pixels farther out. What is measured from "
+            "its middle, its radius and the places of discs in it, is off by up to that.",
+            film.polygon.sides, beyond));
     const double cut = cut_off(film);
     if (cut > 0.005)
         say(fmt::format(
@@ -884,7 +891,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     if (!path)
         throw Failure(
             "The dish was found, but its centre does not run round a circle: was the camera moved, "
-            "or is the film shorter than half a swirl?");
+            "is the film shorter than half a swirl, or has its path few corners?");
     film.path = *path;
     film.rim_radius = quantile(rims, 0.5);
     add_error_of_lens(centres, when, film);

@@ -300,6 +300,12 @@ class FilmTest(InFolder):
         self.assertLess(abs(result.found["dish"]["radius"] / result.truth["container_radius"] - 1.0),
                         0.06)
 
+    def test_a_path_of_few_sides_is_told(self):
+        three = self.film("--sides", 3, name="three.mp4")
+        self.refused(1, "few corners", call=swirl("track", three, "--out", self.path("tracks.csv")))
+        _, said = self.track(self.film("--sides", 4))
+        self.assertIn("along a polygon of 4 sides", said)
+
     def test_the_error_of_the_amplitude_knows_of_that_of_the_lens(self):
         film = self.film("--distortion", 0.06, "--seed", 5, of=LARGER[:-2])
         result = Comparison(film, self.track(film)[0])
