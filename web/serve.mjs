@@ -4,17 +4,34 @@ import {readFile} from "node:fs/promises";
 import {spawn} from "node:child_process";
 
 const [page, port, browser] = process.argv.slice(2);
-const server = createServer(async (request, answer) => {
-    const path = new URL(request.url, "http://localhost").pathname;
-    if (path !== "/" && path !== "/index.html") {
-        answer.writeHead(404, {"content-type": "text/plain"}).end("There is only one page here: /\n");
-        return;
-    }
+// A foreign page whose name resolves to this machine (DNS rebinding) sends its own name as Host.
+const hosts = ["localhost", "127.0.0.1", "[::1]"].flatMap(
+    (name) => Number(port) === 80 ? [name, `${name}:80`] : [`${name}:${port}`]);
+
+const plain = (status, text, more = {}) =>
+    ({status, headers: {"content-type": "text/plain", ...more}, body: text});
+
+/** The target is compared as it stands: nothing in it is decoded, and no file is named by it. */
+async function answerTo({method, url, headers}) {
+    if (!hosts.includes((headers.host ?? "").toLowerCase()))
+        return plain(403, "This server answers requests to localhost only.\n");
+    if (method !== "GET" && method !== "HEAD")
+        return plain(405, "This server answers GET and HEAD only.\n", {allow: "GET, HEAD"});
+    if (!/^\/(?![/\\])/.test(url)) return plain(400, "The request names no path of this server.\n");
+    if (!["/", "/index.html"].includes(url.split("?", 1)[0]))
+        return plain(404, "There is only one page here: /\n");
     try {
-        answer.writeHead(200, {"content-type": "text/html; charset=utf-8"}).end(await readFile(page));
+        const body = await readFile(page);
+        return {status: 200, headers: {"content-type": "text/html; charset=utf-8"}, body};
     } catch {
-        answer.writeHead(500).end("The page is gone; start swirl lab again.\n");
+        return plain(500, "The page cannot be read; start swirl lab again.\n");
     }
+}
+
+const server = createServer(async (request, response) => {
+    const {status, headers, body} = await answerTo(request);
+    response.writeHead(status, {...headers, "content-length": Buffer.byteLength(body),
+                                "x-content-type-options": "nosniff"}).end(body);
 });
 server.on("error", (error) => {
     const why = error.code === "EADDRINUSE"
