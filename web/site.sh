@@ -84,7 +84,7 @@ sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
 mkdir "$aside/.notebooks"
 python=${SWIRL_PYTHON-$home/bindings/python/python.sh}
 # The first call builds the module where that is needed, and tells of it.
-if ! install_packages notebooks || ! "$python" -c "import swirl, nbclient"; then
+if ! install_packages notebooks || ! "$python" -P -c "import swirl, nbclient"; then
     say "the notebooks are shown without what they print."
 elif ! "$python" "$home/web/notebooks.py" "$aside/.notebooks" "$home"/examples/*.ipynb 2>"$aside/.log"; then
     tail -n 5 "$aside/.log" >&2

@@ -8,4 +8,6 @@ long="three minutes or so"
 . "$home/cmake/front_door.sh"
 
 build release "build python" bindings/python swirl_python
-PYTHONPATH=$home/build/release/python${PYTHONPATH:+:$PYTHONPATH} exec /usr/bin/python3 "$@"
+# An empty entry would be the current folder, and what lies there would replace modules.
+others=$(printf %s "${PYTHONPATH-}" | sed -e 's/::*/:/g' -e 's/^://' -e 's/:$//')
+PYTHONPATH=$home/build/release/python${others:+:$others} exec /usr/bin/python3 "$@"

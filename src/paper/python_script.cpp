@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* interpreter = "/usr/bin/python3";
+
+/// Python is started isolated (-I): neither PYTHONPATH, of which an empty entry is the current
+/// folder, nor the user's own packages can replace a module. The scripts import each other, so
+/// their folder comes first.
+constexpr const char* runner =
+    "import os, runpy, sys; del sys.argv[0]; "
+    "sys.path.insert(0, os.path.dirname(sys.argv[0])); "
+    "runpy.run_path(sys.argv[0], run_name='__main__')";
 
 /// How long a script that is to stop may take to remove what it has begun.
 constexpr int grace = 500;  // ms
@@ -109,25 +118,40 @@ std::string last_line(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
+/// Whether a folder holds the scripts, and belongs to the owner of the program or to root: what
+/// another user has put next to a copied program is not run.
+bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
+    struct stat of_program {
+    }, of_folder{}, of_script{};
+    if (stat(program.c_str(), &of_program) != 0 || stat(folder.c_str(), &of_folder) != 0 ||
+        stat((folder / "style.py").c_str(), &of_script) != 0)
+        return false;
+    const auto is_trusted = [&](uid_t owner) { return owner == 0 || owner == of_program.st_uid; };
+    return is_trusted(of_folder.st_uid) && is_trusted(of_script.st_uid);
+}
+
 }  // namespace
 
 fs::path figures_folder() {
-    if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given) return given;
+    if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given)
+        return fs::absolute(given);
     std::error_code ignored;
-    const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    if (fs::path installed = beside / "../share/swirl/figures";
-        fs::exists(installed / "style.py", ignored))
-        return fs::canonical(installed, ignored);
-    for (fs::path folder = beside; folder.has_relative_path(); folder = folder.parent_path())
-        if (fs::exists(folder / "figures" / "style.py", ignored)) return folder / "figures";
-    throw Failure(
-        "The folder with the scripts that draw is not where this program is installed; set "
-        "SWIRL_FIGURES to where it is.");
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    if (program.parent_path() == fs::weakly_canonical(SWIRL_BUILD_FOLDER, ignored))
+        return fs::path(SWIRL_SOURCE_FOLDER) / "figures";
+    const fs::path installed =
+        (program.parent_path() / "../share/swirl/figures").lexically_normal();
+    if (has_scripts_of_owner(installed, program)) return installed;
+    throw Failure(fmt::format(
+        "The scripts that draw are not in '{}', where an installed program has them; set "
+        "SWIRL_FIGURES to the folder that holds them.",
+        installed.string()));
 }
 
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop) {
-    std::vector<std::string> words{interpreter, "-B", (figures_folder() / script).string()};
+    std::vector<std::string> words{interpreter, "-I",   "-B",
+                                   "-c",        runner, (figures_folder() / script).string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const Ended ended = run_program(words, stop);
     if (stop != nullptr && stop->load())

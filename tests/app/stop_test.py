@@ -114,16 +114,14 @@ class Stop(InFolder):
         with open(self.path("figures/figure_5b.py"), "w", encoding="utf-8") as script:
             script.write("import os, sys, time\n"
                          "open(os.path.join(os.path.dirname(sys.argv[0]), str(os.getpid())), 'w')\n"
-                         "time.sleep(60)\n")
+                         "time.sleep(3600)\n")  # far beyond the time limit of this test
         for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             started = Started(self.folder, "paper", "--figure", "5b", "--quick", "--events", "2000", "--quiet",
                               "--out", self.path("out"), SWIRL_FIGURES=self.path("figures"))
             while not (pids := [name for name in os.listdir(self.path("figures")) if name.isdigit()]):
                 self.assertIsNone(started.process.poll())
                 time.sleep(0.01)
-            begin = time.monotonic()
             code, errors, _ = started.stop(sent)
-            self.assertLess(time.monotonic() - begin, 10)  # and not the minute that the script takes
             self.assertEqual(code, 130, errors)
             self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
             self.assertIsNone(processor_seconds(int(pids[0])))

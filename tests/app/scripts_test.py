@@ -1,0 +1,69 @@
+"""The program runs only its own scripts, and nothing in the environment replaces their modules."""
+
+import os
+import shutil
+import subprocess
+import unittest
+
+from program import SOURCE, SWIRL, InFolder, swirl
+
+FIGURE = ["paper", "--figure", "5b", "--quick", "--events", "2000"]
+
+
+class Scripts(InFolder):
+    def trap(self, *names):
+        """Python files that leave the file `ran` if they are run."""
+        for name in names:
+            os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write(f"open({self.path('ran')!r}, 'w')\nraise SystemExit(0)\n")
+
+    def has_run(self):
+        return os.path.exists(self.path("ran"))
+
+    def copied(self, name):
+        """The program, copied there, draws Figure 5b."""
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        shutil.copy(SWIRL, self.path(name))
+        return subprocess.run([self.path(name), *FIGURE, "--out", self.path("out")], timeout=100,
+                              capture_output=True, text=True, cwd=self.folder)
+
+    def assert_not_found(self, done):
+        self.assertFalse(self.has_run())
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("set SWIRL_FIGURES", done.stdout)  # the reason, with the list
+
+    def test_a_copied_program_runs_nothing_from_the_folders_above_it(self):
+        self.trap(*(f"{place}figures/{name}.py" for place in ("", "a/", "a/b/")
+                    for name in ("style", "figure_5b", "report", "claims")))
+        self.assert_not_found(self.copied("a/b/swirl"))
+
+    def test_scripts_of_another_owner_are_not_run(self):
+        self.trap("share/swirl/figures/style.py", "share/swirl/figures/figure_5b.py")
+        if os.getuid() != 0:
+            self.skipTest("only root can give a file to another user")
+        for path in ("share/swirl/figures", "share/swirl/figures/style.py"):
+            os.chown(self.path(path), 65534, 65534)
+            with self.subTest(path):
+                self.assert_not_found(self.copied("bin/swirl"))
+            os.chown(self.path(path), 0, 0)
+
+    def test_an_installed_program_finds_its_scripts(self):
+        shutil.copytree(os.path.join(SOURCE, "figures"), self.path("share/swirl/figures"))
+        done = self.copied("bin/swirl")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))
+
+    def test_no_module_comes_from_the_environment(self):
+        self.trap("matplotlib.py", "numpy.py", "style.py",
+                  "home/lib/python3.11/site-packages/usercustomize.py")
+        done = swirl(*FIGURE, "--out", self.path("out"), cwd=self.folder,
+                     environment={"PYTHONPATH": f":{self.folder}:",
+                                  "PYTHONUSERBASE": self.path("home")})
+        self.assertFalse(self.has_run())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))
+
+
+if __name__ == "__main__":
+    unittest.main()
