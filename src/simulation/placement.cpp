@@ -189,6 +189,9 @@ bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
     return false;
 }
 
+/// In radii of the smallest disc: overlaps are reckoned so much deeper.
+constexpr double relaxation_margin = 1e-5;
+
 /// Discs that are pressed against each other and against the wall, and slide down the energy of
 /// their overlaps. Ends without overlap, or in a dead end.
 class Relaxation {
@@ -196,7 +199,7 @@ class Relaxation {
     Relaxation(const std::vector<double>& radii, double container_radius, Random& random)
         : radii_(radii),
           container_radius_(container_radius),
-          margin_(1e-5 * *std::min_element(radii.begin(), radii.end())),
+          margin_(relaxation_margin * *std::min_element(radii.begin(), radii.end())),
           width_(2.0 * *std::max_element(radii.begin(), radii.end()) + margin_),
           force_(radii.size()),
           velocity_(radii.size()) {
@@ -309,6 +312,51 @@ std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double 
     return std::nullopt;
 }
 
+/// Two discs of any sizes on a diameter; or discs of one size on a ring, with one in the middle
+/// from seven on. For up to nine that is the densest arrangement there is (Pirl 1969,
+/// doi:10.1002/mana.19690400110), so with a negative `slack` they do not fit.
+struct FewDiscs {
+    std::size_t on_ring;
+    double slack;  // of the container's radius above the smallest that holds them
+};
+
+std::optional<FewDiscs> as_few_discs(const std::vector<double>& radii, double container_radius) {
+    const std::size_t n = radii.size();
+    if (n == 2) return FewDiscs{2, container_radius - (radii[0] + radii[1])};
+    if (n < 2 || n > 9 ||
+        std::any_of(radii.begin(), radii.end(), [&](double r) { return r != radii[0]; }))
+        return std::nullopt;
+    const std::size_t on_ring = n < 7 ? n : n - 1;
+    const double ring = radii[0] / unit_circle(0.5 / static_cast<double>(on_ring)).y;
+    return FewDiscs{on_ring, container_radius - (radii[0] + ring)};
+}
+
+/// Where each has the same room towards its neighbours and the wall. Turned by a random angle, it
+/// is tried again if roundings make two overlap: there may be no room at all.
+std::optional<std::vector<Vec2>> place_few(const FewDiscs& few, const std::vector<double>& radii,
+                                           double container_radius, Random& random) {
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double turn = random.uniform();
+        std::vector<Vec2> centres(radii.size(), {0.0, 0.0});
+        bool fits = true;
+        for (std::size_t i = 0; i < centres.size(); ++i) {
+            if (i < few.on_ring) {
+                const double reach = container_radius - radii[i];
+                const double at = static_cast<double>(i) / static_cast<double>(few.on_ring);
+                centres[i] = (reach - 0.5 * few.slack) * unit_circle(at - turn);
+                fits &= dot(centres[i], centres[i]) <= reach * reach;
+            }
+            for (std::size_t j = 0; j < i; ++j) {
+                const Vec2 s = centres[i] - centres[j];
+                const double sum = radii[i] + radii[j];
+                fits &= dot(s, s) >= sum * sum;
+            }
+        }
+        if (fits) return centres;
+    }
+    return std::nullopt;
+}
+
 /// A disc this many times as small as the largest has its place in the gaps between the large.
 constexpr double very_unequal = 16.0;
 
@@ -409,6 +457,10 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
               [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
         return centres;
     }
+    // With less room than the margin with which overlaps are relaxed, that would not end.
+    const auto few = as_few_discs(radii, container_radius);
+    if (few && few->slack < relaxation_margin * smallest)
+        return place_few(*few, radii, container_radius, random);
     if (very_unequal * smallest <= largest) {
         const auto centres = place_by_size(radii, container_radius, random, patience);
         if (centres || patience.ended()) return centres;

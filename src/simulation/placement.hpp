@@ -26,7 +26,9 @@ double most_discs_in_dish(double radius, double container_radius);
 /// on the lattice of its largest disc starts on a narrower one and is pushed apart until no two
 /// overlap; discs 16 times as small as the largest, or smaller, go onto a lattice of their own in
 /// the gaps that the larger leave. What is denser still starts from random places and slides down
-/// the energy of its overlaps until there are none; so the paper's dish takes up to 59 discs.
+/// the energy of its overlaps until there are none; so the paper's dish takes up to 59 discs. Two
+/// discs, or up to nine of one size, in a container that hardly holds them stand in their densest
+/// arrangement.
 ///
 /// Of more than 4,000 discs, those of one radius are numbered along Morton's curve (1966, "A
 /// computer oriented geodetic data base"): whoever is near has a near number and is near in memory.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "swirl/math/real.hpp"
+#include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {
@@ -214,6 +215,33 @@ TEST(Placement, TheSeedDecides) {
         EXPECT_EQ((*a)[i].y, (*b)[i].y);
     }
     EXPECT_NE((*a)[0].x, (*c)[0].x);
+}
+
+/// The smallest container for up to nine unit discs (Pirl 1969): a ring, from seven on with one in
+/// its middle.
+double smallest_container(std::size_t n) {
+    const double on_ring = n < 7 ? double(n) : double(n) - 1.0;
+    return 1.0 + 1.0 / std::sin(pi / on_ring);
+}
+
+TEST(Placement, AFewDiscsArePlacedInAContainerThatHardlyHoldsThem) {
+    for (std::size_t n = 2; n <= 9; ++n)
+        for (const double slack : {1e-6, 1e-7, 1e-9, 1e-12})
+            for (std::uint64_t seed = 0; seed < 5; ++seed)
+                expect_placed(std::vector<double>(n, 1.0), smallest_container(n) + slack, seed);
+    expect_placed({1.0, 1.0}, 2.0, 1);
+    for (const double second : {0.1, 0.5, 3.0, 40.0}) expect_placed({1.0, second}, 1.0 + second, 1);
+}
+
+// Each took the whole budget of the relaxation, billions of steps, before it was refused.
+TEST(Placement, AFewDiscsInAContainerThatIsTooSmallAreRefusedWithoutASearch) {
+    long asked = 0;
+    const auto count = [&] { return ++asked < 0; };
+    for (std::size_t n = 3; n <= 9; ++n)
+        EXPECT_FALSE(
+            place_discs(std::vector<double>(n, 1.0), smallest_container(n) - 1e-9, 1, count));
+    // The lattice asks once per row; a relaxation would ask in each of its steps.
+    EXPECT_LT(asked, 20'000);
 }
 
 TEST(Placement, WhatCannotFitIsRefused) {
