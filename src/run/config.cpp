@@ -17,10 +17,22 @@ std::optional<std::string> out_of_interval(const char* name, double value, doubl
     return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
 }
 
+/// Where no contact asks for it, the default of the contact duration restricts nothing.
+std::optional<std::string> contact_longer_than_period(const RunConfig& c) {
+    if (c.contact_duration <= c.period) return {};
+    const bool is_default = c.contact_duration == RunConfig{}.contact_duration;
+    if (is_default && c.restitution == 1.0 && !c.floor) return {};
+    if (!is_default)
+        return out_of_interval("--contact-duration", c.contact_duration, 0.0, c.period);
+    return fmt::format(
+        "The period is {}, but the contact duration, {} by default, must not be longer; give a "
+        "--contact-duration from 0 to {}, or a longer period.",
+        c.period, c.contact_duration, c.period);
+}
+
 /// Ranges that depend on other parameters.
 std::optional<std::string> out_of_proportion(const RunConfig& c) {
-    if (auto answer = out_of_interval("--contact-duration", c.contact_duration, 0.0, c.period))
-        return answer;
+    if (auto answer = contact_longer_than_period(c)) return answer;
     if (!c.mixture) return {};
     if (c.mixture->count < 1 || c.mixture->count > c.discs)
         return fmt::format(
