@@ -67,6 +67,7 @@ class Dish {
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
+    bool is_warm() const { return run_.kept_snapshot().swirls >= warmup(); }
 
     /// As a run of the command line that ended with the last event would have it, but for the time
     /// that it took. Nothing is said of a warm-up that has not ended. No event is found beyond the

@@ -25,6 +25,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/shell_word.hpp"
 #include "swirl/run/version.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
@@ -77,6 +78,7 @@ std::vector<std::string> names_in(std::string_view list) {
 struct Asked {
     RunConfig config;
     std::vector<std::string> measured;
+    ParameterTexts given;
 };
 Asked asked_for(std::string_view lines) {
     ParameterTexts given = texts_in(lines);
@@ -85,10 +87,12 @@ Asked asked_for(std::string_view lines) {
         measured = names_in(found->second);
         given.erase(found);
     }
-    return {resolve(given), std::move(measured)};
+    RunConfig config = resolve(given);
+    return {std::move(config), std::move(measured), std::move(given)};
 }
 
 std::unique_ptr<Dish> dish;
+ParameterTexts given_to_dish;  // at its beginning
 std::vector<double> numbers;
 std::vector<MeasurementReport> reports;
 
@@ -190,9 +194,10 @@ EXPORTED(parameters) std::uint32_t parameters() {
 
 /// A new dish, at rest: "name=value" on every line, as on the command line, and "measure=a,b,c".
 EXPORTED(begin) void begin() {
-    const auto [config, measured] = asked_for(buffer);
+    auto [config, measured, given] = asked_for(buffer);
     dish.reset();
     dish = std::make_unique<Dish>(config, make_initial_state(config), measured);
+    given_to_dish = std::move(given);
 }
 
 /// 1: change() would keep the discs; 0: it would be another dish.
@@ -203,7 +208,7 @@ EXPORTED(keeps) std::uint32_t keeps() {
 /// The same discs, at this moment and from the container's first leg on, with other frictions,
 /// restitutions or another path; the averages begin anew. 0: it would be another dish.
 EXPORTED(change) std::uint32_t change(double time) {
-    const auto [config, measured] = asked_for(buffer);
+    const auto [config, measured, given] = asked_for(buffer);
     if (!only_contacts_and_path_differ(dish->config(), config)) return 0;
     const InitialState state = dish->going_on(time, config, make_path(config));
     dish = std::make_unique<Dish>(config, state, measured);
@@ -257,6 +262,22 @@ EXPORTED(configuration) std::uint32_t configuration() {
     for (const auto& [name, value] : texts_of(dish->config()))
         lines += fmt::format("{}={}\n", name, value);
     return answer(lines);
+}
+
+/// The command line that comes to the last event that was passed, for a dish that nobody has
+/// changed since its beginning. Without a warm-up that was given it would choose one by the length
+/// of the run; it gets the page's, unless the run ends within it and would be refused.
+EXPORTED(command) std::uint32_t command() {
+    ParameterTexts texts = given_to_dish;
+    const auto warmup = texts.find("warmup");
+    if ((warmup == texts.end() || warmup->second == "auto") && dish->is_warm())
+        texts["warmup"] = fmt::format("{}", dish->warmup());
+    std::string line = "./swirl run";
+    for (const Parameter& p : run_parameters)
+        if (const auto given = texts.find(p.name); given != texts.end())
+            line += fmt::format(" {} {}", option_name(p.name), shell_word(given->second));
+    const std::uint64_t events = dish->simulation().events().total();
+    return answer(line + fmt::format(" --events {}", std::max(events, std::uint64_t{1})));
 }
 
 /// None where there is trouble, and none after it.

@@ -7,7 +7,7 @@
 
 #include "swirl/files/utf8.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/study/shell_word.hpp"
+#include "swirl/run/shell_word.hpp"
 
 namespace swirl {
 namespace {
@@ -15,13 +15,6 @@ namespace {
 std::string& remembered() {
     static std::string line;
     return line;
-}
-
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789_-+=./:,@%") == std::string::npos;
-    return plain ? word : in_quotes(word);
 }
 
 }  // namespace
@@ -48,7 +41,7 @@ void remember_command_line(int argc, char** argv) {
     std::string line = "swirl";
     for (int k = 1; k < argc; ++k) {
         line += ' ';
-        line += quoted(argv[k]);
+        line += shell_word(argv[k]);
     }
     remembered() = line;
 }

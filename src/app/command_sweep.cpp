@@ -15,6 +15,7 @@
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/shell_word.hpp"
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
@@ -120,12 +121,12 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
         std::string text =
             fmt::format("{} of {} runs done ({} by this call)", s.done, s.points, outcome.done);
         if (s.running > 0) text += fmt::format(", {} running elsewhere", s.running);
-        print_all(text + fmt::format("; table: swirl collect {}\n", call.out));
+        print_all(text + fmt::format("; table: swirl collect {}\n", shell_word(call.out)));
     }
     if (outcome.stopped)
         throw Interrupted(fmt::format(
             "Stopped before the end; `swirl sweep --out {}` goes on with what is missing.",
-            call.out));
+            shell_word(call.out)));
     if (outcome.failed > 0)
         throw Failure(fmt::format(
             "{} of the runs could not be done, the first is {} All of them are "
@@ -160,7 +161,7 @@ void sweep(SweepCall& call) {
         const std::string number = submit(script, call.out);
         return print_all(fmt::format(
             "Submitted as job {}; `swirl sweep --out {} --status` tells how far it is.\n", number,
-            call.out));
+            shell_word(call.out)));
     }
     ProgressLine line(fmt::format("{} runs", plan.points()), call.quiet);
     const auto begin = std::chrono::steady_clock::now();

@@ -16,6 +16,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/shell_word.hpp"
 #ifdef SWIRL_CAMERA
 #include "swirl/draw/label.hpp"
 #include "swirl/draw/movie.hpp"
@@ -141,7 +142,8 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
             fmt::format("Stopped while the overlay was drawn; the tracks are in '{}', and swirl "
                         "movie {} --over "
                         "{} --out {} draws it.",
-                        call.out, call.out, call.source.film, call.overlay));
+                        call.out, shell_word(call.out), shell_word(call.source.film),
+                        shell_word(call.overlay)));
 }
 
 void track(const TrackCall& call) {

@@ -10,6 +10,7 @@
 
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/shell_word.hpp"
 
 namespace swirl {
 namespace {
@@ -20,8 +21,8 @@ void refuse_option(const std::filesystem::path& name, const char* kind) {
     if (name.native().starts_with('-'))
         throw WrongCall(fmt::format(
             "'{0}' looks like an option, but here the name of a {1} must stand; a {1} of that "
-            "name would be ./{0}.",
-            name.string(), kind));
+            "name would be {2}.",
+            name.string(), kind, shell_word("./" + name.string())));
 }
 
 }  // namespace

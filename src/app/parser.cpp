@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -33,14 +34,25 @@ std::string did_you_mean(const CLI::App& app, const std::string& wrong) {
     return meant ? "; did you mean " + *meant + "?" : ".";
 }
 
+/// The parser does not end options at `--` once a subcommand has all its files. So each word after
+/// it that begins with a dash gets this mark, which no argument can contain; whoever reads a word
+/// that is no option removes the mark.
+constexpr char no_option = '\0';
+
+std::string without_mark(std::string word) {
+    if (word.starts_with(no_option)) word.erase(0, 1);
+    return word;
+}
+
 /// What has no place among the arguments.
 std::string about_extras(const CLI::App& app, const CLI::App& place) {
     // The parser keeps them back to front; an unknown option comes before its value.
-    const auto extras = app.remaining(true);
+    auto extras = app.remaining(true);
+    std::erase(extras, "--");
     for (const std::string& extra : extras)
         if (extra.starts_with('-'))
             return "There is no option " + extra + did_you_mean(place, extra);
-    const std::string extra = extras.empty() ? "" : extras.front();
+    const std::string extra = extras.empty() ? "" : without_mark(extras.front());
     const std::string what = &place == &app ? "There is no command '" : "There is no use for '";
     return what + extra + "'" + did_you_mean(place, extra);
 }
@@ -116,6 +128,7 @@ void add_to(CLI::App& app, const Subcommand& subcommand) {
         if (!option.value_form.empty()) added->type_name(option.value_form);
         if (!option.help_group.empty()) added->group(option.help_group);
         if (option.is_required) added->required();
+        if (!option.name.starts_with('-')) added->transform(without_mark);
     }
     app.footer(subcommand.footer());
 }
@@ -125,19 +138,23 @@ void note_given(const CLI::App& app, Subcommand& subcommand) {
         option.is_given = app.get_option(option.name)->count() > 0;
 }
 
-/// The names of options have hyphens; with underscores, as in files, they are understood too. The
-/// parser wants the words back to front.
+/// The names of options have hyphens; with underscores, as in files, they are understood too. After
+/// `--` there are no options. The parser wants the words back to front.
 std::vector<std::string> words_of(int argc, char** argv) {
     std::vector<std::string> words;
-    for (int k = argc - 1; k > 0; --k) {
+    bool options_ended = false;
+    for (int k = 1; k < argc; ++k) {
         std::string word = argv[k];
-        if (word.starts_with("--"))
-            for (char& c : word) {
-                if (c == '=') break;
-                if (c == '_') c = '-';
-            }
+        if (options_ended) {
+            if (word.starts_with('-')) word.insert(word.begin(), no_option);
+        } else if (word == "--") {
+            options_ended = true;
+        } else if (word.starts_with("--")) {
+            std::replace(word.begin(), std::find(word.begin(), word.end(), '='), '_', '-');
+        }
         words.push_back(std::move(word));
     }
+    std::reverse(words.begin(), words.end());
     return words;
 }
 

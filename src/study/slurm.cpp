@@ -12,7 +12,7 @@
 
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/study/shell_word.hpp"
+#include "swirl/run/shell_word.hpp"
 
 namespace swirl {
 namespace {
@@ -91,7 +91,7 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
     text += fmt::format("#SBATCH --output={}/%A_%a.log\"\n#SBATCH --open-mode=append\n",
                         sbatch_path(home / "log"));
     text += fmt::format("exec {} sweep --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --rest",
-                        in_quotes(program.string()), in_quotes(home.string()), job.nodes);
+                        shell_word(program.string()), shell_word(home.string()), job.nodes);
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
     return text;
 }
@@ -101,7 +101,7 @@ std::string submit(const std::string& script, const fs::path& folder) {
     std::error_code ignored;
     fs::create_directories(home / "log", ignored);
     write_whole_file(home / "job.sh", script);
-    const Answer answer = ask("sbatch --parsable " + in_quotes((home / "job.sh").string()));
+    const Answer answer = ask("sbatch --parsable " + shell_word((home / "job.sh").string()));
     if (answer.code == 127)
         throw Failure(fmt::format(
             "Slurm is not installed here: there is no sbatch. The script is '{}'; submit it on "

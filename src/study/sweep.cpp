@@ -16,6 +16,7 @@
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
+#include "swirl/run/shell_word.hpp"
 #include "swirl/study/sweep_claims.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
@@ -29,7 +30,7 @@ using Json = nlohmann::ordered_json;
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
     std::string command = "swirl run";
     for (const auto& [name, value] : plan.parameters(point))
-        if (name != "seed") command += fmt::format(" {} {}", option_name(name), value);
+        if (name != "seed") command += fmt::format(" {} {}", option_name(name), shell_word(value));
     if (!plan.measure.empty())
         command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
     return command + fmt::format(" --seed {}", seed);

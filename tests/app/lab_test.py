@@ -7,6 +7,7 @@ import gzip
 import json
 import math
 import os
+import shlex
 import shutil
 import signal
 import socket
@@ -75,6 +76,7 @@ engineOf(process.argv[1]).then((make) => {
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 result: JSON.parse(engine.answer(engine.out.result())),
                 trouble: engine.answer(engine.out.trouble(1)),
+                command: engine.answer(engine.out.command()),
                 asked: engine.asked});
         } catch (error) {
             said.push({refused: error.message});
@@ -144,6 +146,21 @@ class Laboratory(unittest.TestCase):
                                         "--quiet").stdout)
                 self.assertEqual(there["hash"], here["state_hash"])
                 self.assert_same_result(there["result"], here)
+
+    def test_the_command_that_it_offers_makes_the_dish(self):
+        scenes = [{**scene, "events": events} for scene, events in (
+            ({"discs": 12, "seed": 2}, 60000), ({"discs": 48, "warmup": "auto"}, 2000),
+            ({"seed": 7, "path": "circle", "discs": 28, "warmup": 3}, 30000),
+            ({"discs": 40, "mixture": "20:0.6"}, 5000), ({"discs": 20, "preset": "experiment"}, 5000))]
+        said = self.engine([{"given": {k: str(v) for k, v in scene.items() if k != "events"},
+                             "events": scene["events"]} for scene in scenes])["said"]
+        for scene, there in zip(scenes, said):
+            with self.subTest(scene):
+                program, *words = shlex.split(there["command"])
+                self.assertEqual(program, "./swirl")
+                here = json.loads(swirl(*words, "--json", "-", "--quiet").stdout)
+                for key in ("state_hash", "rotation", "warmup"):
+                    self.assertEqual(there["result"][key], here[key], key)
 
     def assert_same_result(self, there, here):
         """Every key, and in the same order, of those that a page knows."""

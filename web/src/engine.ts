@@ -1,5 +1,7 @@
 // The engine behind its functions of plain numbers (bindings/wasm/laboratory.cpp).
 
+import {workerTexts} from "./texts";
+
 /** A sentence of the engine's: what was wrong, which value, what would be right. */
 export class Refusal extends Error {}
 
@@ -60,6 +62,7 @@ interface Exports {
     reverse(time: number): number;
     drag(time: number, i: number, x: number, y: number): void;
     result(): number;
+    command(): number;
     report(): void;
     column(): number;
     values(): number;
@@ -119,7 +122,13 @@ export class Engine {
         const at = this.out.room(bytes.length);
         new Uint8Array(this.out.memory.buffer, at, bytes.length).set(bytes);
     }
+    /** Values are lines for the engine, and one may come from an address: a control character in it would
+     *  make it several, or another one than is shown. */
     private handLines(given: Record<string, string>): void {
+        for (const [name, value] of Object.entries(given)) {
+            const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.exec(value);
+            if (control) throw new Refusal(workerTexts.control(name, control[0].codePointAt(0) ?? 0));
+        }
         this.hand(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
     }
     /** Throws Refusal; the engine is then of no more use. */
@@ -148,6 +157,10 @@ export class Engine {
     /** A disc is put as near to a point as there is room. Times begin anew. */
     drag(time: number, disc: number, x: number, y: number): void {
         this.out.drag(time, disc, x, y);
+    }
+    /** The command line that comes to the last event; for a dish that has not been changed. */
+    command(): string {
+        return this.answer(this.out.command());
     }
     /** As `swirl run --json` writes it. */
     result(): string {

@@ -252,19 +252,12 @@ function showRotation(rotation: Rotation): void {
 
 // --- asking for a dish ------------------------------------------------------------------------
 
-/** The command line chooses a warm-up by the length of the run, and looks for its end if asked to; the
- *  page must choose before it knows either. A run that ends within the warm-up would be refused. */
-function pagesWarmup(): Record<string, string> {
-    const given = asked()["warmup"];
-    const swirls = last?.frame[1] ?? 0;
-    if (!averages || (given !== undefined && given !== "auto") || swirls < averages.warmup) return {};
-    return {warmup: String(averages.warmup)};
-}
+const copyButton = byId("copy") as HTMLButtonElement;
 
-function commandLine(): string {
-    const options = Object.entries({...asked(), ...pagesWarmup()})
-        .map(([name, value]) => `--${name.replaceAll("_", "-")} ${value}`);
-    return ["./swirl run", ...options, `--events ${Math.max(1, last?.events ?? 1)}`].join(" ");
+/** A dish that is refused, or not there yet, has no command. */
+function offerCommand(command = ""): void {
+    byId("command").textContent = hasHistory ? texts.noCommand : command;
+    copyButton.disabled = hasHistory || command === "";
 }
 
 function address(): string {
@@ -289,6 +282,7 @@ function begin(events = 0): void {
     byId("headline").textContent = discs >= manyDiscs ? texts.placing(counted(discs, asked())) : "…";
     byId("refusal").hidden = true;
     for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
+    offerCommand();
     tell({kind: "begin", given: asked(), events});
 }
 
@@ -315,6 +309,7 @@ function changed(): void {
 function refuse(text: string): void {
     byId("refusal").textContent = text;
     byId("refusal").hidden = false;
+    offerCommand();
     setPlaying(false);
 }
 
@@ -555,11 +550,12 @@ function layOutLesson(): void {
     show();
 }
 
-byId("copy").addEventListener("click", () => {
-    void navigator.clipboard.writeText(commandLine()).then(() => {
-        byId("copy").textContent = texts.copied;
+copyButton.addEventListener("click", () => {
+    void navigator.clipboard.writeText(byId("command").textContent ?? "").then(() => {
+        copyButton.textContent = texts.copied;
     });
 });
+offerCommand();
 
 document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
@@ -589,7 +585,7 @@ function received(frame: Frame): void {
     if (frame.rotation) showRotation(frame.rotation);
     byId("event-count").textContent = String(frame.events);
     byId("state-hash").textContent = frame.hash;
-    byId("command").textContent = hasHistory ? texts.noCommand : commandLine();
+    offerCommand(frame.command);
     if (maps.open && performance.now() - lastMaps > betweenMaps) askForMaps();
     if (hadRun) {
         runTo = 0;

@@ -34,6 +34,8 @@ export interface Frame {
     frame: Float64Array;
     events: number;
     hash: string;
+    /** What makes this dish on the command line, if it was not changed since its beginning. */
+    command: string;
     /** The last event and the next one, where there was a single step. */
     event?: Float64Array;
     next?: Float64Array;

@@ -197,6 +197,7 @@ function drawTurned(context: CanvasRenderingContext2D, frame: Frame, turned: num
                     hair: number): void {
     const whole = Math.trunc(turned), rest = turned - whole;
     const radius = frame.radius - 4 * hair;
+    if (!(radius > 5 * hair)) return; // the container is a dot beside its path
     context.strokeStyle = context.fillStyle = turned < 0 ? "#24639e" : "#cc5c0a";
     context.lineWidth = 4 * hair;
     context.globalAlpha = 0.8;

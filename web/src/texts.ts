@@ -130,6 +130,8 @@ export const texts = {
 /** What the engine's worker says: apart, so that it need not carry the page's texts. */
 export const workerTexts = {
     stopped: (error: string): string => `The engine stopped: ${error}. Reload the page.`,
+    control: (name: string, code: number): string => `--${name.replaceAll("_", "-")} contains the control ` +
+        `character U+${code.toString(16).toUpperCase().padStart(4, "0")}, but a value is one line of text.`,
     tooMany: (discs: string, most: number): string => `${discs} discs are too many for a page, which ` +
         `takes ${most} at most; the command line has no such limit: ./swirl run --discs ${discs}.`,
 };

@@ -34,7 +34,7 @@ function refuseTrouble(dish: Engine, atTheEnd: boolean): void {
 function show(single = false): void {
     if (!engine) return;
     const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
-                          hash: engine.stateHash};
+                          hash: engine.stateHash, command: engine.command()};
     if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
     if (single || performance.now() - lastAverages > betweenAverages) {
         frame.rotation = engine.rotation();

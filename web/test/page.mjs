@@ -64,7 +64,7 @@ await open("?discs=28&mu=0.5&seed=3&events=20000");
 assert.equal(await text("state-hash"), wantedHash);
 assert.equal(await text("event-count"), "20000");
 // Averages of the command line leave out what the page leaves out, as soon as there are any.
-assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --seed 3 --warmup 20 --events 20000");
+assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --warmup 20 --seed 3 --events 20000");
 
 // It draws every disc where `swirl picture` draws it, to half a pixel: places in radii of a disc from
 // the middle of the dish, which has the widest circle.
@@ -162,15 +162,40 @@ await page.waitForSelector('canvas[aria-label^="48 spheres"]');
 await page.fill("#parameter-discs", "1000");
 await page.waitForFunction(() => !document.getElementById("refusal").hidden);
 assert.match(await text("refusal"), /1000 spheres do not fit/);
+assert.deepEqual([await text("command"), await page.isDisabled("#copy")], ["", true]);
 await page.fill("#parameter-discs", "12");
 await page.waitForFunction(() => document.getElementById("refusal").hidden &&
     document.getElementById("command").textContent.includes("--discs 12 "));
+// What is copied is what is shown.
+await page.click("#play");
+await page.evaluate(() => Object.defineProperty(navigator, "clipboard", {
+    value: {writeText: async (copied) => { globalThis.copied = copied; }}}));
+await page.click("#copy");
+assert.equal(await page.evaluate(() => globalThis.copied), await text("command"));
+// A value of more than one line, or with characters that are not shown, is another command than it seems.
+for (const [query, code] of [["?discs=5%0Atouch%20x%20%23", "000A"], ["?discs=5%0Aseed=7", "000A"],
+                             ["?seed=1&mu=0.5%0D", "000D"], ["?discs=5%00", "0000"], ["?seed=3%1B[2J", "001B"],
+                             ["?path=circle%E2%80%AE", "202E"], ["?discs=5%E2%80%A8", "2028"]]) {
+    await open(query);
+    assert.match(await text("refusal"), new RegExp(`control character U\\+${code},`), query);
+    assert.deepEqual([await text("command"), await page.isDisabled("#copy"), await text("event-count")],
+                     ["", true, ""], query);
+}
 await open("?disks=5");
 assert.match(await text("refusal"), /'disks'/);
 await open("?discs=5&events=-1");
 assert.match(await text("refusal"), /events=-1/);
 await open("?discs=30000&radius=0.01");
 assert.match(await text("refusal"), /30000 discs are too many for a page.* \.\/swirl run --discs 30000\.$/);
+
+// A container that is a dot beside its path is drawn, with its discs and marks.
+await open("?discs=5&amplitude=1e6&events=100");
+assert.ok(await page.evaluate(() => {
+    globalThis.drawnCircles = [];
+    document.getElementById("trails").click();
+    return globalThis.drawnCircles.length;
+}) >= 10);
+assert.deepEqual(complaints, []);
 
 // A collapse is no state: neither on the way to an event nor while one looks on.
 for (const events of ["&events=300000", ""]) {
