@@ -1,8 +1,11 @@
 # What ./swirl and ./check share: install the Debian packages that are missing, and build when the
 # sources are newer than the last build. Sourced by both; expects $home, the root of the tree, $me,
-# and $long, what a first build takes on two cores.
+# and $long, what a first build takes on two cores. Whoever wants other settings for cmake sets
+# $settings afterwards.
 #
 # Everything said here goes to stderr: stdout belongs to the program (`--json -`).
+
+settings= # not what the environment may have under that name
 
 say() { echo "$me: $*" >&2; }
 give_up() {
@@ -12,6 +15,23 @@ give_up() {
 wrong_call() {
     say "$*"
     exit 2
+}
+
+# A word as a shell reads it back.
+shell_word() {
+    case $1 in
+        '' | *[!A-Za-z0-9_+=./:,@%-]*) printf "'%s'" "$(printf %s "$1" | sed "s/'/'\\\\''/g")" ;;
+        *) printf %s "$1" ;;
+    esac
+}
+
+# Gives up if something in "$@", files and folders of $home/build, belongs to somebody else.
+require_writable() {
+    locked=$(find "$@" ! -type l ! -writable -print -quit 2>/dev/null) || true # some are not there yet
+    [ -n "$locked" ] || return 0
+    say "cannot build: '$locked' cannot be written; it belongs to $(stat -c %U "$locked")."
+    say "hint: sudo chown -R $(id -u) $(shell_word "$home/build")"
+    exit 1
 }
 
 # The packages in the given sections of the file `packages`.
@@ -116,6 +136,7 @@ build() {
     if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
 
     mkdir -p "$folder" 2>/dev/null || give_up "cannot write to $home/build, where the program is built."
+    require_writable "$home/build/.lock" "$folder"
     # One at a time; whoever waited finds the work done.
     exec 9>"$home/build/.lock"
     flock 9
@@ -147,7 +168,7 @@ build() {
     reporter=$!
     built=yes
     # shellcheck disable=SC2086
-    (cd "$home" && cmake --preset "$1" ${settings-}) >>"$log" 2>&1 &&
+    (cd "$home" && cmake --preset "$1" $settings) >>"$log" 2>&1 &&
         cmake --build "$folder" ${4:+--target} ${4-} >>"$log" 2>&1 || built=no
     kill "$reporter" 2>/dev/null || true
     if [ $built = no ]; then

@@ -38,6 +38,10 @@ while [ $# -gt 0 ]; do
         --out=*) out=${1#*=} && shift ;;
         --no-browser) browser=no && shift ;;
         --quiet) quiet=yes && shift ;;
+        --)
+            [ $# -eq 1 ] || wrong_call "There is no use for '$2' of swirl lab."
+            break
+            ;;
         *) wrong_call "There is no option '$1' of swirl lab; --port, --out, --no-browser and --quiet are all." ;;
     esac
 done
@@ -55,13 +59,17 @@ fi
 page=$home/build/lab/index.html
 build_page() {
     mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to $home/build, where the page is built."
-    exec 9>"$home/build/.lab.lock"
+    # Opened for reading: a page that is up to date may belong to another user.
+    lock=$home/build/.lab.lock
+    [ -e "$lock" ] || : 2>/dev/null >"$lock" || give_up "cannot write to $home/build, where the page is built."
+    exec 9<"$lock"
     flock 9
     # shellcheck disable=SC2086
     changed=$(cd "$home" && find src/math src/physics src/simulation src/measure src/run bindings/wasm web \
         -path web/node_modules -prune -o -path web/generated -prune -o -newer "$page" -type f -print \
         -quit 2>/dev/null || true)
     if [ -e "$page" ] && [ -z "$changed" ]; then return 0; fi
+    require_writable "$home/build/lab.log" "$home/build/lab" "$home/build/wasm" "$home/web/generated"
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
     log=$home/build/lab.log

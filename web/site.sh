@@ -32,6 +32,10 @@ while [ $# -gt 0 ]; do
             ;;
         --out=*) out=${1#*=} && shift ;;
         --report=*) report=${1#*=} && shift ;;
+        --)
+            [ $# -eq 1 ] || wrong_call "There is no use for '$2' of swirl site."
+            break
+            ;;
         *) wrong_call "There is no option '$1' of swirl site; --out and --report are all." ;;
     esac
 done
