@@ -437,7 +437,7 @@ class Laboratory(unittest.TestCase):
             packed = gzip.compress(opened.read(), 9)
         self.assertLessEqual(len(packed), 400_000)
 
-    def test_it_moves_soon_and_is_drawn_often(self):
+    def test_it_goes_on_moving(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page,

