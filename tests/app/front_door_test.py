@@ -97,6 +97,22 @@ class FrontDoor(InFolder):
                 with open(self.path("build/release/CMakeCache.txt"), encoding="utf-8") as cache:
                     self.assertFalse("LEAKED" in cache.read())
 
+    def test_an_empty_entry_of_pythonpath_is_not_the_current_folder(self):
+        os.makedirs(self.path("bindings/python"))
+        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
+                    self.path("bindings/python"))
+        self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
+        for given, others in (("", []), (":", []), (":/x::/y:", ["/x", "/y"])):
+            with self.subTest(given):
+                done = subprocess.run(
+                    [self.path("swirl"), "python", "-P", "-S", "-c", "import sys; print(*sys.path)"],
+                    capture_output=True, text=True, timeout=100, cwd="/tmp",
+                    env=dict(os.environ, PYTHONPATH=given))
+                path = done.stdout.split()
+                self.assertEqual(path[:1 + len(others)],
+                                 [self.path("build/release/python"), *others], done.stderr)
+                self.assertNotIn("/tmp", path)
+
     def test_a_stale_build_that_belongs_to_somebody_else_is_an_error_with_a_hint(self):
         self.assertEqual(self.word(), "first")
         as_other = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}

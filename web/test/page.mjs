@@ -167,11 +167,13 @@ await page.fill("#parameter-discs", "12");
 await page.waitForFunction(() => document.getElementById("refusal").hidden &&
     document.getElementById("command").textContent.includes("--discs 12 "));
 // What is copied is what is shown.
-await page.click("#play");
-await page.evaluate(() => Object.defineProperty(navigator, "clipboard", {
-    value: {writeText: async (copied) => { globalThis.copied = copied; }}}));
-await page.click("#copy");
-assert.equal(await page.evaluate(() => globalThis.copied), await text("command"));
+const [copied, shown] = await page.evaluate(() => {
+    let copied;
+    Object.defineProperty(navigator, "clipboard", {value: {writeText: async (text) => { copied = text; }}});
+    document.getElementById("copy").click();
+    return [copied, document.getElementById("command").textContent];
+});
+assert.equal(copied, shown);
 // A value of more than one line, or with characters that are not shown, is another command than it seems.
 for (const [query, code] of [["?discs=5%0Atouch%20x%20%23", "000A"], ["?discs=5%0Aseed=7", "000A"],
                              ["?seed=1&mu=0.5%0D", "000D"], ["?discs=5%00", "0000"], ["?seed=3%1B[2J", "001B"],
