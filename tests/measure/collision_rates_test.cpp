@@ -23,6 +23,19 @@ TEST(CollisionRates, CountPerDiscAndTime) {
     EXPECT_NEAR(rates.mean_free_time().error, 0.0, 1e-15);
 }
 
+// Rates of 1 and 3 per unit time: 2 ± 1. The mean free time is 1/2, and d(1/x) = dx/x².
+TEST(CollisionRates, TheErrorOfTheMeanFreeTimeIsThatOfTheRateOverItsSquare) {
+    CollisionRates rates;
+    for (const int hits : {1, 3}) {
+        for (int k = 0; k < hits; ++k) rates.sample(event_of(EventKind::disc_wall));
+        rates.close_block(1.0, 1);
+    }
+    EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 2.0);
+    EXPECT_DOUBLE_EQ(rates.disc_wall().error, 1.0);
+    EXPECT_DOUBLE_EQ(rates.mean_free_time().mean, 0.5);
+    EXPECT_DOUBLE_EQ(rates.mean_free_time().error, 0.25);
+}
+
 TEST(CollisionRates, WithoutTimeDiscsOrCollisions) {
     CollisionRates rates;
     EXPECT_TRUE(std::isnan(rates.disc_disc().mean));

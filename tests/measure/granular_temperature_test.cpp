@@ -38,6 +38,25 @@ TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
     EXPECT_NEAR(temperature.of_the_spin().mean, 80.0, 1e-12);
 }
 
+// Two discs with the velocities ±2 in one cell, six with ±4 in another: temperatures of ½ 2² = 2
+// and ½ 4² = 8. Each disc counts the same, so the average is (2·2 + 6·8)/8.
+TEST(GranularTemperature, ACellCountsWithTheDiscsFoundInIt) {
+    Snapshot s = empty_dish(0.3);
+    const MFrame f = m_frame(s);
+    const auto add = [&](const Vec2& place, double speed) {
+        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back({speed, 0.0}));
+    };
+    for (const double sign : {1.0, -1.0}) add({-3.0, -3.0}, 2.0 * sign);
+    for (int k = 0; k < 3; ++k)
+        for (const double sign : {1.0, -1.0}) add({3.0, 3.0}, 4.0 * sign);
+    GranularTemperature temperature(R, 2, 1);
+    temperature.sample(s);
+    temperature.close_block();
+    EXPECT_NEAR(temperature.temperature(0), 2.0, 1e-14);
+    EXPECT_NEAR(temperature.temperature(3), 8.0, 1e-14);
+    EXPECT_NEAR(temperature.granular().mean, 6.5, 1e-14);
+}
+
 TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
     GranularTemperature temperature(R, 5, 1);
     EXPECT_TRUE(std::isnan(temperature.granular().mean));

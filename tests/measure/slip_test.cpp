@@ -70,6 +70,26 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     EXPECT_NEAR(none.pinned_region().mean, 0.0, 1e-13);
 }
 
+// Two discs half a radius from the centre of mass, one on each side, turn about it 40 times as fast
+// as the rim: they do not count. Two at one and a half radii do.
+TEST(Slip, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
+    for (const double distance : {0.5, 1.5}) {
+        Snapshot s = rim(0.3, 1.0);
+        const MFrame f = m_frame(s);
+        for (const double sign : {1.0, -1.0}) {
+            const Vec2 p{sign * distance, 0.0};
+            add_disc(s, f.lab_position(p), f.lab_velocity(p, 40.0 * f.wall_velocity(p)));
+        }
+        Slip slip(1), rims(1);
+        slip.sample(s);
+        rims.sample(rim(0.3, 1.0));
+        slip.close_block();
+        rims.close_block();
+        const double counted = distance < 1.0 ? 1.0 : (23.0 + 2.0 * 40.0) / 25.0;
+        EXPECT_NEAR(slip.cluster().mean, counted * rims.cluster().mean, 1e-12);
+    }
+}
+
 // A disc in the wall layer counts from the first sample of a stay on, once the stay has lasted long
 // enough; one that flies along far inside never does, whatever the SI's criterion says of it.
 TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {

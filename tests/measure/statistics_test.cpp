@@ -70,6 +70,20 @@ TEST(Statistics, CorrelatedBlocksCountForLess) {
     EXPECT_NEAR(e.error, std::sqrt(9.0 / 3.0 / (1.0 - a * a) / 2000.0), 0.02);
 }
 
+// Γ_k = γ_2k + γ_2k+1, and 10 γ_k = 22, 4, 1, 0, −1, 4, …: Γ = 2.6, 0.1, 0.3, and below zero after
+// that. A later Γ counts no more than an earlier one, so τ = 2 (2.6 + 0.1 + 0.1)/2.2 − 1 = 17/11.
+TEST(Statistics, NoPairOfCorrelationsCountsMoreThanThePairBefore) {
+    BlockSeries series;
+    for (const double value : {6.0, 7.0, 6.0, 6.0, 3.0, 6.0, 6.0, 3.0, 4.0, 3.0})
+        series.add(value, 1.0);
+    EXPECT_NEAR(series.autocorrelation_time(5.0), 17.0 / 11.0, 1e-15);
+    const Estimate e = series.estimate();
+    EXPECT_DOUBLE_EQ(e.mean, 5.0);
+    EXPECT_NEAR(e.effective_samples, 110.0 / 17.0, 1e-14);
+    // error² = τ · 10/9 · Σ d² / 10², Σ d² = 22.
+    EXPECT_NEAR(e.error, std::sqrt(17.0 / 11.0 * 10.0 / 9.0 * 22.0) / 10.0, 1e-15);
+}
+
 TEST(Statistics, ErrorsCoverTheTruthAsOftenAsTheySay) {
     const double a = 0.5;
     int within = 0;

@@ -307,5 +307,35 @@ RC_GTEST_PROP(CollisionLaw, TheWallIsTheLimitOfAHeavyDisc, ()) {
     RC_ASSERT(std::abs(heavy.i.spin - wall.i.spin) < 1e-10);
 }
 
+TEST(TcModel, ACollisionSoonerThanTheDurationOfAContactIsElastic) {
+    Surface surface;
+    surface.restitution = 0.5;
+    surface.contact_duration = 0.1;
+    EXPECT_TRUE(is_elastic_by_tc_model(surface, 0.0));
+    EXPECT_TRUE(is_elastic_by_tc_model(surface, 0.099));
+    EXPECT_FALSE(is_elastic_by_tc_model(surface, 0.1));
+    EXPECT_FALSE(is_elastic_by_tc_model(surface, 3.0));
+    EXPECT_EQ(at_contact(surface, 0.099).restitution, 1.0);
+    EXPECT_EQ(at_contact(surface, 0.1).restitution, 0.5);
+    // All else is left as it is.
+    surface.mu = 0.3;
+    surface.tangential_restitution = 0.2;
+    const Surface elastic = at_contact(surface, 0.0);
+    EXPECT_EQ(elastic.mu, 0.3);
+    EXPECT_EQ(elastic.tangential_restitution, 0.2);
+    EXPECT_EQ(elastic.contact_duration, 0.1);
+}
+
+TEST(TcModel, WithoutADurationOrALossNothingChanges) {
+    Surface surface;
+    surface.restitution = 0.5;
+    EXPECT_FALSE(is_elastic_by_tc_model(surface, 0.0));
+    EXPECT_EQ(at_contact(surface, 0.0).restitution, 0.5);
+    surface = {};
+    surface.contact_duration = 0.1;
+    EXPECT_FALSE(is_elastic_by_tc_model(surface, 0.0));
+    EXPECT_EQ(at_contact(surface, 0.0).restitution, 1.0);
+}
+
 }  // namespace
 }  // namespace swirl

@@ -1,0 +1,228 @@
+"""Mutation testing: does a test notice when the source is wrong? (docs/reliability.md)
+
+Each entry of mutations.py changes one piece of text in a source file of measure or physics. The
+mutated file goes to a scratch folder that the compiler searches first; the source tree stays as it
+is. For every test file of that layer that includes the mutated file, this script compiles one
+program and runs it, until one fails: then the mutation is killed. Each program must pass without
+the mutation before it may kill one.
+
+    mutate.py                       all mutations
+    mutate.py measure/slip          those of files whose path contains this text
+    mutate.py --number 17           one of them
+    mutate.py --check               only checks that each text occurs exactly once
+
+It exits with 1 if a mutation survives that the table does not declare equivalent, if one that it
+does is killed, if one does not compile, or if the table no longer matches the sources.
+"""
+
+import argparse
+import concurrent.futures
+import functools
+import hashlib
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+
+from mutations import MUTATIONS
+
+SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__)))))
+COMPILER = os.environ.get("CXX", "c++")
+FLAGS = ["-std=c++20", "-O1", "-w", "-DNDEBUG", "-fno-math-errno", "-fno-trapping-math",
+         "-ffp-contract=off", f'-DSWIRL_SOURCE_DIR="{SOURCE}"']
+WIDE = {"_avx2.cpp": ["-mavx2"],
+        "_avx512.cpp": ["-mavx512f", "-mavx512vl", "-mavx512dq", "-mavx512bw",
+                        "-mprefer-vector-width=512"]}
+LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest"]
+# Every test program of these layers needs a few seconds. A mutation may make it run for ever.
+CPU_SECONDS = 60
+
+
+def text_of(path):
+    with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+        return file.read()
+
+
+@functools.lru_cache(maxsize=None)
+def included(path):
+    """All files of ours that `path` includes, directly or through others; itself too."""
+    found, waiting = set(), [path]
+    while waiting:
+        path = waiting.pop()
+        if path in found:
+            continue
+        found.add(path)
+        for name in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
+            waiting.append("src/" + name.removeprefix("swirl/") if name.startswith("swirl/")
+                           else "tests/" + name)
+    return frozenset(found)
+
+
+def sources_in(folder, ending):
+    names = sorted(os.listdir(os.path.join(SOURCE, folder)))
+    return [f"{folder}/{name}" for name in names if name.endswith(ending)]
+
+
+@functools.lru_cache(maxsize=None)
+def parts(test):
+    """The test and the .cpp files whose functions it needs, by the headers that it includes."""
+    needed, grew = [test], True
+    while grew:
+        headers = frozenset().union(*(included(part) for part in needed))
+        more = [cpp for cpp in sources_in("src/measure", ".cpp") if cpp not in needed and
+                re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers]
+        needed, grew = needed + more, bool(more)
+    return tuple(needed)
+
+
+def tests_of(file):
+    """The test files of the layer that see the file: first the one of its name."""
+    layer = file.split("/")[1]
+    stem = os.path.basename(file).split(".")[0]
+    tests = [test for test in sources_in(f"tests/{layer}", "_test.cpp")
+             if any(file in included(part) for part in parts(test))]
+    return sorted(tests, key=lambda test: (os.path.basename(test) != stem + "_test.cpp",
+                                           file not in included(test), test))
+
+
+class Workshop:
+    """Compiles and runs test programs in a scratch folder; what was compiled is kept."""
+
+    def __init__(self, scratch):
+        self.scratch = scratch
+        self.lock = threading.Lock()
+        self.baselines = {}
+        self.headers = os.path.join(scratch, "headers.hpp")
+        with open(self.headers, "w", encoding="utf-8") as file:
+            file.write("#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
+                       "#include <rapidcheck.h>\n#include <rapidcheck/gtest.h>\n")
+        subprocess.run([COMPILER, *FLAGS, "-x", "c++-header", self.headers, "-o",
+                        self.headers + ".gch"], check=True)
+
+    def compiled(self, part, file, text, overlay):
+        """The object of `part`, with `text` in the place of `file`. None: it does not compile."""
+        seen = included(part)
+        hashed = hashlib.sha256(part.encode())
+        for path in sorted(seen):
+            hashed.update((text if path == file else text_of(path)).encode())
+        target = os.path.join(self.scratch, hashed.hexdigest()[:32] + ".o")
+        if os.path.exists(target):
+            return target
+        where = os.path.join(SOURCE, part)
+        if part == file:
+            where = os.path.join(overlay, "swirl", part.removeprefix("src/"))
+        wide = [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
+        # The file of standard headers was compiled without these; it does not fit.
+        headers = [] if wide else ["-include", self.headers]
+        made = target + f".{threading.get_ident()}"
+        search = ["-I" + folder for folder in (overlay, os.path.join(SOURCE, "include"),
+                                               os.path.join(SOURCE, "tests"))]
+        result = subprocess.run([COMPILER, *FLAGS, *wide, *headers, *search, "-c", where, "-o",
+                                 made], capture_output=True, text=True)
+        if result.returncode != 0:
+            return None
+        os.replace(made, target)
+        return target
+
+    def run(self, test, file=None, text=None, overlay=""):
+        """Compiles and runs one test file: ("passed" | "failed" | "time" | "not compiled", of
+        what)."""
+        objects = []
+        for part in parts(test):
+            made = self.compiled(part, file, text, overlay or self.scratch)
+            if made is None:
+                return "not compiled", part
+            objects.append(made)
+        program = os.path.join(overlay or self.scratch,
+                               "program_" + os.path.basename(test).removesuffix(".cpp"))
+        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", program], check=True)
+        result = subprocess.run(
+            [program, "--gtest_filter=-*Slow*:*Soak*", "--gtest_brief=1", "--gtest_fail_fast"],
+            capture_output=True, text=True, errors="replace",
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
+                                                  (CPU_SECONDS, CPU_SECONDS + 1)))
+        os.remove(program)
+        if result.returncode in (-24, -9):
+            return "time", test
+        if result.returncode == 0:
+            return "passed", test
+        failed = re.search(r"\[  FAILED  \] ([\w./]+)", result.stdout)
+        return "failed", failed.group(1) if failed else f"{test} (exit code {result.returncode})"
+
+    def passes_unchanged(self, test):
+        with self.lock:
+            if test not in self.baselines:
+                self.baselines[test] = self.run(test)
+        if self.baselines[test][0] != "passed":
+            sys.exit(f"error: {test} fails without a mutation: {self.baselines[test]}")
+
+    def judge(self, number):
+        """("killed" | "survived" | "not compiled", by what)."""
+        file, before, after, *_ = MUTATIONS[number]
+        text = text_of(file).replace(before, after)
+        overlay = os.path.join(self.scratch, f"mutation_{number}")
+        where = os.path.join(overlay, "swirl", file.removeprefix("src/"))
+        os.makedirs(os.path.dirname(where))
+        with open(where, "w", encoding="utf-8") as opened:
+            opened.write(text)
+        for test in tests_of(file):
+            self.passes_unchanged(test)
+            outcome, what = self.run(test, file, text, overlay)
+            if outcome == "not compiled":
+                return outcome, what
+            if outcome != "passed":
+                return "killed", what if outcome == "failed" else f"{what} (out of time)"
+        return "survived", ""
+
+
+def check_table():
+    """Each text before occurs exactly once, and the text after is another."""
+    wrong = 0
+    for number, (file, before, after, *_) in enumerate(MUTATIONS):
+        count = text_of(file).count(before)
+        if count != 1 or before == after:
+            print(f"error: mutation {number}: {before!r} occurs {count} times in {file}")
+            wrong += 1
+    return wrong
+
+
+def main():
+    call = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    call.add_argument("part", nargs="?", default="", help="mutate files whose path contains this")
+    call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
+    call.add_argument("--check", action="store_true", help="check the table only")
+    call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
+    options = call.parse_args()
+    os.nice(19 - os.nice(0))
+    if check_table() > 0:
+        return 1
+    chosen = [number for number, (file, *_) in enumerate(MUTATIONS) if options.part in file and
+              (not options.number or number in options.number)]
+    if options.check:
+        print(f"{len(MUTATIONS)} mutations, each text found exactly once")
+        return 0
+    count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
+    with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch, \
+            concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        workshop = Workshop(scratch)
+        for number, (outcome, what) in zip(chosen, pool.map(workshop.judge, chosen)):
+            file, before, after, description, *equivalent = MUTATIONS[number]
+            if outcome == "survived" and equivalent:
+                outcome, what = "equivalent", equivalent[0]
+            elif outcome != "killed" or equivalent:
+                wrong += 1
+            count[outcome] += 1
+            print(f"{number:3} {outcome:12} {file.removeprefix('src/')}: {description}"
+                  f"{' — ' + what if what else ''}", flush=True)
+            if outcome == "killed" and equivalent:
+                print("    error: the table declares it equivalent", flush=True)
+    print(f"{len(chosen)} mutations: " + ", ".join(f"{n} {name}" for name, n in count.items()))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
