@@ -20,6 +20,7 @@
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/simd.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl::python {
@@ -67,7 +68,7 @@ Extent xy(const Frames&) { return {2}; }
 
 py::tuple rotation_of(const Look& look) {
     const Snapshot s = look.snapshot();
-    const RotationSample sample = cluster_rotation(s);
+    const RotationSample sample = cluster_rotation(s, asked_width());
     const double omega = 2.0 * pi / s.period;
     return py::make_tuple(sample.individual / omega, sample.rigid / omega);
 }
@@ -409,7 +410,7 @@ class Dish {
         : config_(std::move(config)),
           own_(own),
           scene_(std::move(scene)),
-          simulation_(scene_, progress, stopped_by(stop)) {
+          simulation_(scene_, progress, asked_tuning(stop)) {
         scene_.discs.clear();
         scene_.discs.shrink_to_fit();
     }

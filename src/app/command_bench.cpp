@@ -8,6 +8,7 @@
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/simd.hpp"
 #include "swirl/study/bench.hpp"
 
 namespace swirl {
@@ -19,17 +20,15 @@ struct BenchCall {
 };
 
 std::vector<Width> read_widths(const std::string& text) {
-    const std::vector<std::pair<std::string, Width>> known = {
-        {"baseline", Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}};
     if (text == "best") return {Width::best};
     std::vector<Width> found;
-    for (const auto& [name, width] : known)
+    for (const auto& [name, width] : named_widths)
         if ((text == "all" && has_width(width)) || text == name) found.push_back(width);
     if (found.empty())
         throw WrongCall(
-            fmt::format("The width of the vectors cannot be '{}'; it must be best, all, baseline, "
-                        "avx2 or avx512.",
-                        text));
+            fmt::format("The width of the vectors cannot be '{}'; it must be best, all, {}, avx2 or "
+                        "avx512.",
+                        text, baseline_name));
     for (const Width width : found)
         if (!has_width(width))
             throw Failure(
@@ -77,7 +76,8 @@ void add_bench_command(Subcommand& subcommand) {
     subcommand.add_flag("--full", call->full, "10^5 and 10^6 discs, too");
     subcommand
         .add_option("--width", call->width,
-                    "of the vectors: best, all, baseline, avx2 or avx512 [best]")
+                    fmt::format("of the vectors: best, all, {}, avx2 or avx512 [best]",
+                                baseline_name))
         ->type_name("NAME");
     subcommand
         .add_option("--seconds", call->seconds,

@@ -19,6 +19,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
+#include "swirl/run/simd.hpp"
 #include "swirl/run/version.hpp"
 
 namespace swirl {
@@ -48,7 +49,8 @@ std::string made_by(const Json& result) {
 
 /// What says how, when and by whom a result was made, and not what it is.
 bool is_of_the_call(const std::string& name) {
-    for (const char* other : {"seconds", "events_per_second", "warnings", "version", "build"})
+    for (const char* other :
+         {"seconds", "events_per_second", "simd", "warnings", "version", "build"})
         if (name == other) return true;
     return false;
 }
@@ -269,7 +271,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     const RunConfig config = config_in(file, log.provenance("parameters"));
     Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
     const InitialState scene = make_initial_state(config, &stop_signal());
-    Simulation simulation(scene, {}, stopped_by(&stop_signal()));
+    Simulation simulation(scene, {}, asked_tuning(&stop_signal()));
     if (stop_signal().load()) throw Interrupted("Stopped before the first event.");
     verify_beginning(log, scene, simulation, comparison);
     Replay replay(log.initial(), log.swirl_end(), log.floor());

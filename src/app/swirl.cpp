@@ -12,6 +12,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/parser.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/simd.hpp"
 
 namespace {
 
@@ -50,6 +51,7 @@ int main_or_throw(int argc, char** argv) {
         std::fputs(call.usage.c_str(), stderr);
         return 2;
     }
+    (void)swirl::asked_width();  // A wrong SWIRL_SIMD ends every command before it begins.
     call.act();
     return 0;
 }

@@ -16,6 +16,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/simd.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
@@ -70,7 +71,7 @@ class FollowedSpheres {
   public:
     FollowedSpheres(const RunConfig& config, const std::atomic<bool>* stop)
         : path_(make_path(config)),
-          simulation_(make_initial_state(config, stop), Progress{}, stopped_by(stop)),
+          simulation_(make_initial_state(config, stop), Progress{}, asked_tuning(stop)),
           seen_(simulation_.snapshot()),
           stop_(stop) {
         seen_.turned.assign(seen_.size(), {});
@@ -145,7 +146,7 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
             return [spheres](double swirls) { return spheres->at(swirls); };
         }
         auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
-                                                       stopped_by(stop));
+                                                       asked_tuning(stop));
         refuse_stopped();
         // A few hundred thousand events at once.
         const double step = 3000.0 / static_cast<double>(config.discs);

@@ -10,6 +10,13 @@ namespace swirl {
 /// `best` is the widest that this processor has.
 enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
 
+/// Every processor that the program is built for has the baseline; on x86-64 it is SSE2.
+#if defined(__x86_64__)
+inline constexpr const char* baseline_name = "sse2";
+#else
+inline constexpr const char* baseline_name = "baseline";
+#endif
+
 /// Whether this processor can run code of that width.
 inline bool has_width(Width width) {
 #if defined(__x86_64__)

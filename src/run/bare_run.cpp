@@ -33,6 +33,8 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
       observation_times_(samples_per_period, config.period),
       events_to_look_(events_until_look()),
       watch_(simulation_.size(), mark()),
+      in_warmup_(tuning.width),
+      after_warmup_(tuning.width),
       next_question_(least_blocks_of_a_steady_state),
       warm_(config.warmup == 0),
       events_per_sample_(events_per_rotation_sample(simulation_.size())),
@@ -185,6 +187,7 @@ RunResult BareRun::result() {
     result_.energy = end.energy;
     result_.invariant = end.invariant;
     result_.state_hash = simulation_.state_hash();
+    result_.simd = simulation_.loop_counts().width;
     return result_;
 }
 

@@ -100,6 +100,7 @@ Json result_json(const RunResult& r) {
     json["state_hash"] = fmt::format("{:016x}", r.state_hash);
     json["seconds"] = r.seconds;
     json["events_per_second"] = r.events_per_second();
+    json["simd"] = r.simd;
     json["warnings"] = warnings(r);
     json["version"] = version();
     json["build"] = build_description();

@@ -6,6 +6,7 @@
 
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/simd.hpp"
 
 namespace swirl {
 
@@ -33,7 +34,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     if (series.frames == 0) throw Failure("There are no frames.");
     const Snapshot first = series.frame(0);
     Observation observation(first.container_radius, first.period, names, holds_tracks(series));
-    ClusterRotation rotation;
+    ClusterRotation rotation(asked_width());
     MeasuredSeries measured;
     std::int64_t swirl = first.swirls;
     auto next_break = series.breaks.begin();

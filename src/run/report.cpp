@@ -187,7 +187,8 @@ std::string report(const RunResult& r) {
     line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
     line("time",
-         fmt::format("{:.2f} s, {:.2f} million events/s", r.seconds, r.events_per_second() / 1e6));
+         fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds, r.events_per_second() / 1e6,
+                     r.simd));
     for (const std::string& warning : warnings(r)) text += warning + "\n";
     return text;
 }

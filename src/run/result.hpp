@@ -30,6 +30,7 @@ struct RunResult {
     /// is no friction (docs/physics.md).
     double invariant_at_start = 0.0, invariant = 0.0;
     std::uint64_t state_hash = 0;
+    const char* simd = "";  // the vector instructions of the event loop
     double seconds = 0.0;
 
     /// Steady if both are, drifting if either is.

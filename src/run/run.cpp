@@ -9,6 +9,7 @@
 #include "swirl/files/state_archive.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/simd.hpp"
 
 namespace swirl {
 namespace {
@@ -45,7 +46,7 @@ BareRun begin(const RunConfig& config, const RunControl& control) {
             throw FileError("The saved state is that of another run.");
         scene.discs = moment.discs;
     }
-    BareRun run(config, scene, control.observation, moment.progress, stopped_by(control.stop));
+    BareRun run(config, scene, control.observation, moment.progress, asked_tuning(control.stop));
     if (control.stop && control.stop->load())
         throw Interrupted(control.resume
                               ? "Stopped before the run went on; its checkpoint is as it was."

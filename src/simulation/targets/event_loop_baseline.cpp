@@ -1,5 +1,6 @@
+#include "swirl/math/cpu_width.hpp"
 #include "swirl/simulation/targets/event_loops.hpp"
 
 namespace swirl {
-const EventLoops event_loops_baseline = event_loops<32>("baseline");
+const EventLoops event_loops_baseline = event_loops<32>(baseline_name);
 }  // namespace swirl

@@ -1,0 +1,39 @@
+#include "swirl/run/simd.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "swirl/run/config.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+std::string names_of_widths_here() {
+    std::string names;
+    for (const auto& [name, width] : named_widths)
+        if (has_width(width)) names += (names.empty() ? "" : ", ") + std::string(name);
+    return names;
+}
+
+Width asked_width() {
+    const char* const given = std::getenv("SWIRL_SIMD");
+    if (!given || !*given || std::string_view(given) == "auto") return Width::best;
+    for (const auto& [name, width] : named_widths) {
+        if (std::string_view(given) != name) continue;
+        if (has_width(width)) return width;
+        throw WrongCall(fmt::format("SWIRL_SIMD cannot be '{}': this processor has {} only.", given,
+                                    names_of_widths_here()));
+    }
+    throw WrongCall(fmt::format("SWIRL_SIMD cannot be '{}'; it must be auto, {}, avx2 or avx512.",
+                                given, baseline_name));
+}
+
+Tuning asked_tuning(const std::atomic<bool>* stop) {
+    Tuning tuning = stopped_by(stop);
+    tuning.width = asked_width();
+    return tuning;
+}
+
+}  // namespace swirl

@@ -1,0 +1,100 @@
+"""Every width of the processor's vectors gives the same bits: SWIRL_SIMD chooses one."""
+
+import json
+import os
+import unittest
+
+from program import InFolder, swirl
+
+FLAGS = {"sse2": "sse2", "avx2": "avx2", "avx512": "avx512f"}
+
+
+def widths():
+    """Those that this processor has."""
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        flags = next(line for line in file if line.startswith("flags")).split()
+    return [name for name, flag in FLAGS.items() if flag in flags]
+
+
+@unittest.skipUnless(os.uname().machine == "x86_64", "these are widths of x86-64")
+class Simd(InFolder):
+    def result(self, width, *arguments):
+        done = swirl("run", *arguments, "--json", "-", "--quiet", environment={"SWIRL_SIMD": width})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
+        for of_the_call in ("seconds", "events_per_second", "command"):
+            del result[of_the_call]
+        return result
+
+    def test_every_width_gives_the_same_result(self):
+        # Five discs: one by one. 48: all pairs. 300: lists, and averages over groups of eight with a
+        # rest. Spheres on a floor, which are accelerated.
+        scenes = (("--discs", 5), ("--discs", 48, "--measure", "slip,energy"),
+                  ("--discs", 300, "--container-radius", 21.3), ("--discs", 20, "--path", "circle"),
+                  ("--preset", "experiment", "--discs", 21),
+                  ("--preset", "experiment", "--discs", 130, "--container-radius", 15))
+        self.assertGreaterEqual(len(widths()), 1)
+        for scene in scenes:
+            with self.subTest(scene=scene):
+                results = []
+                for width in widths():
+                    result = self.result(width, *scene, "--periods", 6, "--warmup", 1)
+                    self.assertEqual(result.pop("simd"), width)
+                    self.assertGreater(result["rotation"]["by_event"]["blocks"], 0)
+                    results.append(result)
+                for result in results[1:]:
+                    self.assertEqual(result, results[0])
+
+    def test_without_a_wish_it_is_the_widest(self):
+        for nothing in ("", "auto"):
+            self.assertEqual(self.result(nothing, "--discs", 5, "--events", 1000)["simd"], widths()[-1])
+
+    def test_the_report_names_the_width(self):
+        for width in widths():
+            done = swirl("run", "--discs", 5, "--events", 1000, environment={"SWIRL_SIMD": width})
+            self.assertRegex(done.stdout, rf"time .* million events/s, {width}\n")
+
+    def test_a_run_continues_with_another_width(self):
+        first, last = widths()[0], widths()[-1]
+        whole = self.result(last, "--discs", 48, "--periods", 30)
+        checkpoint = self.path("run.checkpoint")
+        self.result(first, "--discs", 48, "--periods", 12, "--checkpoint", checkpoint, "--warmup", 5,
+                    "--keep-checkpoint")
+        resumed = self.result(last, "--checkpoint", checkpoint, "--resume", "--periods", 30)
+        self.assertEqual(resumed["state_hash"], whole["state_hash"])
+
+    def test_verify_compares_the_results_of_two_widths(self):
+        result = self.path("result.json")
+        made = swirl("run", "--discs", 48, "--periods", 5, "--json", result, "--quiet",
+                     environment={"SWIRL_SIMD": widths()[0]})
+        self.assertEqual(made.returncode, 0, made.stderr)
+        done = swirl("verify", result, environment={"SWIRL_SIMD": widths()[-1]})
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_sweep_has_the_same_table(self):
+        tables = []
+        for width in widths():
+            folder, table = self.path(width), self.path(width + ".csv")
+            for call in (("sweep", "--discs", "5,9", "--periods", 12, "--out", folder, "--quiet"),
+                         ("collect", folder, "--csv", table)):
+                done = swirl(*call, environment={"SWIRL_SIMD": width})
+                self.assertEqual(done.returncode, 0, done.stderr)
+            with open(table, "rb") as file:
+                tables.append(file.read())
+        self.assertEqual(len(set(tables)), 1)
+
+    def test_an_unknown_width_and_one_that_the_processor_lacks_end_every_command(self):
+        for command in (("run", "--discs", 5, "--events", 1000), ("sweep", "--out", self.path("s")),
+                        ("verify", self.path("none.json"))):
+            done = swirl(*command, environment={"SWIRL_SIMD": "mmx"})
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("SWIRL_SIMD cannot be 'mmx'", done.stderr)
+        self.assertEqual(self.left_behind(), [])
+        for lacking in set(FLAGS) - set(widths()):
+            done = swirl("run", "--discs", 5, environment={"SWIRL_SIMD": lacking})
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"SWIRL_SIMD cannot be '{lacking}': this processor has", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
