@@ -25,10 +25,10 @@ std::vector<Width> read_widths(const std::string& text) {
     for (const auto& [name, width] : named_widths)
         if ((text == "all" && has_width(width)) || text == name) found.push_back(width);
     if (found.empty())
-        throw WrongCall(
-            fmt::format("The width of the vectors cannot be '{}'; it must be best, all, {}, avx2 or "
-                        "avx512.",
-                        text, baseline_name));
+        throw WrongCall(fmt::format(
+            "The width of the vectors cannot be '{}'; it must be best, all, {}, avx2 or "
+            "avx512.",
+            text, baseline_name));
     for (const Width width : found)
         if (!has_width(width))
             throw Failure(
@@ -75,9 +75,9 @@ void add_bench_command(Subcommand& subcommand) {
     const auto call = std::make_shared<BenchCall>();
     subcommand.add_flag("--full", call->full, "10^5 and 10^6 discs, too");
     subcommand
-        .add_option("--width", call->width,
-                    fmt::format("of the vectors: best, all, {}, avx2 or avx512 [best]",
-                                baseline_name))
+        .add_option(
+            "--width", call->width,
+            fmt::format("of the vectors: best, all, {}, avx2 or avx512 [best]", baseline_name))
         ->type_name("NAME");
     subcommand
         .add_option("--seconds", call->seconds,

@@ -186,9 +186,8 @@ std::string report(const RunResult& r) {
     line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
     line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
-    line("time",
-         fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds, r.events_per_second() / 1e6,
-                     r.simd));
+    line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds,
+                             r.events_per_second() / 1e6, r.simd));
     for (const std::string& warning : warnings(r)) text += warning + "\n";
     return text;
 }

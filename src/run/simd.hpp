@@ -1,5 +1,5 @@
-// Which vector instructions a user asks for, by name. Every width gives the same bits, so this is no
-// parameter of a run. The environment variable SWIRL_SIMD asks for one, in every command and in
+// Which vector instructions a user asks for, by name. Every width gives the same bits, so this is
+// no parameter of a run. The environment variable SWIRL_SIMD asks for one, in every command and in
 // Python.
 #pragma once
 

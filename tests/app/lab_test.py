@@ -34,7 +34,7 @@ SCENES = [
 ]
 EVENTS = 20000
 # Of a result on the command line: which build it was and how it was called, and how long it took.
-NOT_OF_A_PAGE = {"seconds", "events_per_second", "version", "build", "command", "config_text"}
+NOT_OF_A_PAGE = {"seconds", "events_per_second", "simd", "version", "build", "command", "config_text"}
 
 NODE = """
 const engineOf = async (path) => {

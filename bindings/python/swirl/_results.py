@@ -265,7 +265,7 @@ class Result:
                             of equal runs, everywhere
     warnings                what to know before believing the numbers: full sentences
     max_overlap, energy, energy_at_start, invariant, invariant_at_start, seconds,
-    events_per_second, version, build
+    events_per_second, simd, version, build
     """
 
     def __init__(self, text: str, measured: Mapping[str, Measured], headline: str,
@@ -294,6 +294,7 @@ class Result:
         self.state_hash: str = found["state_hash"]
         self.seconds = float(found["seconds"])
         self.events_per_second = float(found["events_per_second"])
+        self.simd: str = found["simd"]  # the vector instructions of the event loop
         self.warnings: list[str] = found["warnings"]
         self.version: str = found["version"]
         self.build: str = found["build"]
