@@ -435,6 +435,7 @@ EXPORTED(result) std::uint32_t result() {
     for (const std::string& warning : warnings(r))
         said += (said.empty() ? "" : ",") + quoted(warning);
     return answer(JsonObject()
+                      .add("format", fmt::format("{}", result_format))
                       .add("config", given.text())
                       .add("complete", "true")
                       .add("events", events.text())

@@ -50,7 +50,7 @@ std::string made_by(const Json& result) {
 /// What says how, when and by whom a result was made, and not what it is.
 bool is_of_the_call(const std::string& name) {
     for (const char* other :
-         {"seconds", "events_per_second", "simd", "warnings", "version", "build"})
+         {"format", "seconds", "events_per_second", "simd", "warnings", "version", "build"})
         if (name == other) return true;
     return false;
 }
@@ -89,6 +89,10 @@ void verify_result(const std::string& file, bool quiet) {
     const Json json = Json::parse(read_regular_file(file), nullptr, false);
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
+    if (const Json format = json.value("format", Json(result_format)); format != result_format)
+        throw Failure(
+            fmt::format("'{}' is in format {} of swirl {}, but this program reads format {}.", file,
+                        format.dump(), made_by(json), result_format));
     if (json.value("complete", Json()) != Json(true))
         throw Failure(fmt::format(
             "'{}' is of a run that was stopped before its end, and cannot be compared.", file));

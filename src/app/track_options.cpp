@@ -34,6 +34,10 @@ TrackTexts completed(TrackTexts texts, const std::string& file) {
             "'{}' is not what `swirl track` writes beside its tracks; remove it, or track the film "
             "again.",
             beside.string()));
+    if (const auto format = json.value("format", nlohmann::json(camera_format));
+        format != camera_format)
+        throw Failure(fmt::format("'{}' is in format {}, but this program reads format {}.",
+                                  beside.string(), format.dump(), camera_format));
     // Any of these would be of another calibration than the rest.
     const bool clockwise = texts.clockwise;
     for (const auto& [name, text] :

@@ -30,6 +30,8 @@ bool is_trajectory(const std::string& file);
 /// Tracks of ours (HDF5), a table of trackpy or a LAMMPS dump, by what it begins with, mended
 /// (files/track_mending.hpp). Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
+/// Of a .camera.json, its key `format`. Files without it are in format 1.
+inline constexpr int camera_format = 1;
 /// tracks.csv or tracks.h5 → tracks.camera.json: what `swirl track` found of the dish, beside the
 /// tracks.
 std::filesystem::path camera_file(std::filesystem::path tracks);

@@ -79,7 +79,8 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
         kinds.push_back(
             {{"number", kind.number}, {"radius", kind.radius}, {"radius_scatter", kind.scatter}});
     const TrackScale scale = film.scale();
-    return {{"film", source.film},
+    return {{"format", camera_format},
+            {"film", source.film},
             {"pictures", film.pictures},
             {"size", {film.width, film.height}},
             {"fps", film.fps > 0.0 ? Json(film.fps) : Json(nullptr)},

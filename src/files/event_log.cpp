@@ -83,6 +83,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
             file.set_attribute("/floor", "lie_flat", std::vector<std::int64_t>{1});
     }
     file.create_group(parameters);
+    h5md::write_format(file);
     for (const auto& [name, text] : provenance) file.write(parameters + "/" + name, text);
     file.set_attribute(parameters, "period", initial.period);
     file.set_attribute(parameters, "swirl_end", swirl_end);
@@ -175,6 +176,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     if (!file_->has("/events/clock") || !file_->has("/initial/position"))
         throw FileError(fmt::format(
             "'{}' is an HDF5 file, but not an event log: it has no /events.", path.string()));
+    h5md::require_known_format(*file_, path);
     const auto column = [&](const char* name) {
         return file_->column(std::string("/events/") + name);
     };

@@ -1,10 +1,31 @@
 #include "swirl/files/h5md.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cstdint>
 #include <map>
 #include <vector>
 
+#include "swirl/files/file_error.hpp"
+
 namespace swirl::h5md {
+
+void write_format(Hdf5File& file) {
+    file.set_attribute(parameters, "format", std::vector<std::int64_t>{recording_format});
+}
+
+void require_known_format(const Hdf5File& file, const std::filesystem::path& path) {
+    if (!file.has(parameters) || !file.has_attribute(parameters, "format")) return;
+    const auto format = file.integers_attribute(parameters, "format");
+    if (format == std::vector<std::int64_t>{recording_format}) return;
+    const std::string by = parameters + "/version";
+    throw FileError(fmt::format(
+        "'{}' is in format {} of swirl {}, but this program reads format {}. Use the program that "
+        "wrote it, or a newer one.",
+        path.string(), fmt::join(format, ","), file.has(by) ? file.read_text(by) : "?",
+        recording_format));
+}
 
 void create_head(Hdf5File& file, const std::string& group) {
     file.create_group("/h5md");
@@ -24,6 +45,7 @@ void create_head(Hdf5File& file, const std::string& group) {
 void create_parameters(Hdf5File& file,
                        const std::vector<std::pair<std::string, std::string>>& provenance) {
     file.create_group(parameters);
+    write_format(file);
     for (const auto& [name, text] : provenance) {
         file.write(parameters + "/" + name, text);
         if (name == "version") file.set_attribute("/h5md/creator", "version", text);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,13 @@ inline const std::string particles = "/particles/trajectory";
 inline const std::string tracks = "/particles/tracks";  // of a camera
 inline const std::string observables = "/observables";
 inline const std::string parameters = "/parameters";
+
+/// Of trajectories, event logs and tracks: attribute `format` of /parameters. Files without it were
+/// written before there was one, and are in format 1.
+inline constexpr std::int64_t recording_format = 1;
+void write_format(Hdf5File& file);
+/// Throws FileError if the file is in another format, with what wrote it.
+void require_known_format(const Hdf5File& file, const std::filesystem::path& path);
 
 /// What every H5MD file begins with, and one group of particles without a box.
 void create_head(Hdf5File& file, const std::string& group);

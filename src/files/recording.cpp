@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/h5md.hpp"
 #include "swirl/files/whole_file.hpp"
 
 namespace swirl {
@@ -14,6 +15,7 @@ std::filesystem::path partial_name(const std::filesystem::path& path) {
 
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name) {
     const Hdf5File recording(file, StagedFile::Mode::read);
+    h5md::require_known_format(recording, file);
     const std::string at = "/parameters/" + name;
     return recording.has(at) ? recording.read_text(at) : "";
 }

@@ -109,6 +109,7 @@ class TrackReader {
         if (!file_.has(place_of("position/value")) || !file_.has(place_of("id/value")))
             throw FileError(fmt::format("'{}' is an HDF5 file, but holds no tracks: it has no {}.",
                                         path.string(), place_of("position")));
+        h5md::require_known_format(file_, path);
         number_ = file_.column(place_of("position/step")).read<std::int64_t>();
         id_ = file_.column(place_of("id/value")).read<std::int64_t>();
         position_ = file_.column(place_of("position/value")).read<double>();

@@ -36,6 +36,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
         throw FileError(fmt::format(
             "'{}' is an H5MD file of another program: it has no record of the container.",
             path.string()));
+    h5md::require_known_format(*file_, path);
     position_ = file_->column(particles + "/position/value");
     velocity_ = file_->column(particles + "/velocity/value");
     angle_ = file_->column(particles + "/angle/value");

@@ -17,7 +17,8 @@
 //       swirls (i64), clock              time = swirls·T + clock, but exact for ever
 //       events (i64)                     events executed before the frame
 //       container_x, container_y, container_vx, container_vy
-//   /parameters                          attributes: period, container_radius, complete (0 or 1);
+//   /parameters                          attributes: format (1), period, container_radius,
+//                                        complete (0 or 1);
 //                                        of spheres and coins floor (0 or 1); of coins
 //                                        lie_flat (1);
 //                                        texts: one dataset for each entry of the provenance

@@ -87,7 +87,8 @@ Json row_json(const ReportRow& row) {
 }
 
 Json result_json(const RunResult& r) {
-    Json json = {{"config", config_json(r.config)},
+    Json json = {{"format", result_format},
+                 {"config", config_json(r.config)},
                  {"complete", r.complete},
                  {"events", counts_json(r.events)},
                  {"periods", r.periods},

@@ -54,6 +54,16 @@ Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
     return about;
 }
 
+/// A state goes on by the law that led to it, or the run would be that of neither program.
+void require_own_law(const std::filesystem::path& file, const Json& about, Shape shape) {
+    const Json law = about.value("law", Json(1));  // what was written before laws had numbers
+    if (law == law_of(shape)) return;
+    throw FileError(fmt::format(
+        "The checkpoint '{}' is of swirl {}, in which such bodies moved by another law ({} there, "
+        "{} here). Resume it with the program that wrote it, or start again.",
+        file.string(), about.value("version", std::string("?")), law.dump(), law_of(shape)));
+}
+
 std::string difference(const Json& there, const Json& here) {
     for (const auto& [name, value] : here.at("parameters").items())
         if (there.at("parameters").value(name, Json()) != value)
@@ -163,6 +173,7 @@ class Recorder {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
         const Json about = about_in(files_.checkpoint, kept),
                    here = identity(config_, files_, observation_);
+        require_own_law(files_.checkpoint, about, config_.shape());
         if (is_of_another_length(about.at("identity"), here)) {
             if (!files_.trajectory.empty() || !files_.event_log.empty())
                 throw WrongCall(fmt::format(
@@ -231,6 +242,7 @@ class Recorder {
         state(frames, logged, events_, frame_times_);
         state.as_text([&](StateWriter& kept) { run.write(kept); });
         const Json about{{"version", version()},
+                         {"law", law_of(config_.shape())},
                          {"identity", identity(config_, files_, observation_)},
                          {"run", run_name_},
                          {"call", files_.call},

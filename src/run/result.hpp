@@ -11,6 +11,9 @@
 
 namespace swirl {
 
+/// Of a result as JSON, its key `format`. Results without it are in format 1.
+inline constexpr int result_format = 1;
+
 struct RunResult {
     RunConfig config;
     bool complete = false;      // false: stopped before its end

@@ -79,12 +79,12 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         return value.is_null() ? not_known : value.get<double>();  // throws for a text
     };
     try {
-        if (json.value("format", 0) != sweep_format)
+        if (json.value("format", 0) != result_format)
             throw FileError(fmt::format(
                 "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
                 "call `swirl sweep` again, or collect with the program that wrote it.",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
-                sweep_format));
+                result_format));
         refuse_result_of_another_point(file, json, plan, point);
         for (const char* name : estimators) {
             const Json& found = json.at("rotation").at(name);

@@ -128,7 +128,7 @@ class SweepWork {
         if (!result.complete) return false;
         count(1.0 - counted, result.events.total() - counted_events);
 
-        Json json{{"format", sweep_format}, {"point", point}, {"replica", plan_.replica(point)}};
+        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
         Json found = result_json(result);
         for (auto& [name, value] : found.items()) json[name] = std::move(value);
         json["command"] = command;

@@ -86,5 +86,11 @@ TEST(CellAverages, MergedAreOneLongRun) {
     }
 }
 
+TEST(CellAverages, AnErrorHasNoSign) {
+    const Estimate e = scaled({.mean = 2.0, .error = 0.5}, -3.0);
+    EXPECT_EQ(e.mean, -6.0);
+    EXPECT_EQ(e.error, 1.5);
+}
+
 }  // namespace
 }  // namespace swirl

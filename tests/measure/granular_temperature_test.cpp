@@ -80,5 +80,14 @@ TEST(GranularTemperature, MissingSpinsAreStated) {
     EXPECT_FALSE(std::isnan(temperature.granular().mean));
 }
 
+TEST(GranularTemperature, EnergyThatTheVelocitiesMissIsAdded) {
+    GranularTemperature temperature(R, 5, 1);
+    for (const double sign : {1.0, -1.0})
+        temperature.sample(jiggling(temperature.grid(), 0.1, sign));
+    temperature.close_block();
+    temperature.add_energy(0.125);
+    EXPECT_NEAR(temperature.granular().mean, 0.25 + 0.125, 1e-13);
+}
+
 }  // namespace
 }  // namespace swirl

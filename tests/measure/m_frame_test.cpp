@@ -137,5 +137,21 @@ TEST(MFrameView, OfNothingAndOfOneDisc) {
         std::isnan(view.centre_of_mass().varpi(view.position(0), view.relative_velocity(0))));
 }
 
+TEST(MFrameView, TheCentreOfMassIsWeightedWithTheMasses) {
+    Snapshot s = empty_dish(0.4);
+    const MFrame f = m_frame(s);
+    const auto add = [&](const Vec2& place, const Vec2& velocity, double mass) {
+        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity), 0.0, 1.0,
+                 mass);
+    };
+    add({1.0, 0.0}, {0.5, -1.0}, 1.0);
+    add({5.0, 4.0}, {2.5, 3.0}, 3.0);
+    const CentreOfMass centre = MFrameView(s).centre_of_mass();
+    EXPECT_NEAR(centre.position.x, 4.0, 1e-14);
+    EXPECT_NEAR(centre.position.y, 3.0, 1e-14);
+    EXPECT_NEAR(centre.velocity.x, 2.0, 1e-14);
+    EXPECT_NEAR(centre.velocity.y, 2.0, 1e-14);
+}
+
 }  // namespace
 }  // namespace swirl

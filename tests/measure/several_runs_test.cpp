@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "math/deviate.hpp"
@@ -197,6 +199,17 @@ TEST(SeveralRuns, FewSeedsHoldTheTruthAsOftenAsIsSaid) {
         // The last digit said, and two standard deviations, √(p (1 − p)/4000).
         EXPECT_NEAR(worst.held, said.held, 0.02) << said.seeds;
         EXPECT_NEAR(worst.beyond_three, said.beyond_three, 0.015) << said.seeds;
+    }
+}
+
+// Whichever comes first: a direction is the nearest of those that differ by whole turns.
+TEST(SeveralRuns, DirectionsOnBothSidesOfZeroHaveZeroBetweenThem) {
+    for (const auto& [first, second] : {std::pair{10.0, 350.0}, std::pair{350.0, 10.0}}) {
+        const std::vector<Estimate> runs{run_of(first, 20.0), run_of(second, 20.0)};
+        const double mean = several_directions(runs).estimate.mean;
+        EXPECT_NEAR(std::remainder(mean, 360.0), 0.0, 1e-12) << first;
+        EXPECT_GE(mean, 0.0);
+        EXPECT_LT(mean, 360.0);
     }
 }
 

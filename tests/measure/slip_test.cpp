@@ -53,6 +53,32 @@ TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
     }
 }
 
+// Of 24 discs on the rim two opposite ones are at rest in the M-frame, and these are pinned.
+TEST(Slip, ThePinnedRegionHasTheRotationOfThePinnedDiscs) {
+    Snapshot s = rim(0.3, 1.0, 24);
+    const MFrame f = m_frame(s);
+    std::vector<std::uint8_t> pinned(24, 0);
+    for (const std::size_t i : {3u, 15u}) {
+        const Vec2 p = f.position(s.position(i));
+        s.set(i, {s.position(i), f.lab_velocity(p, {}), 0.0, 0.0, s.clock, 1.0, 1.0, 10.0});
+        pinned[i] = 1;
+    }
+    Slip slip(1), rims(1);
+    slip.sample(s, pinned);
+    rims.sample(rim(0.3, 1.0, 24));
+    slip.close_block();
+    rims.close_block();
+    EXPECT_NEAR(slip.pinned_region().mean, 0.0, 1e-13);
+    EXPECT_NEAR(slip.cluster().mean, 22.0 / 24.0 * rims.cluster().mean, 1e-13);
+}
+
+TEST(Slip, RotationsOfBothSignsCancel) {
+    Slip slip(1);
+    for (const double grip : {1.0, -1.0}) slip.sample(rim(0.3, grip));
+    slip.close_block();
+    EXPECT_NEAR(slip.cluster().mean, 0.0, 1e-13);
+}
+
 TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
     Snapshot s = rim(0.3, 1.0);
     const Snapshot still = rim(0.3, 0.0);

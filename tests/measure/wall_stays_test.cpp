@@ -52,6 +52,21 @@ TEST(WallStays, AShortTouchIsNoStay) {
     EXPECT_NEAR(stays.share(WallStays::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
+// The least length is 40 steps: from the first to the last of 41 samples.
+TEST(WallStays, AStayOfExactlyTheLeastLengthCountsAndAShorterOneDoesNot) {
+    for (const int length : {41, 40}) {
+        WallStays stays;
+        for (int k = 0; k < 200; ++k) {
+            const bool at_wall = k >= 50 && k < 50 + length;
+            stays.sample(at_sample(k, {{0.0, at_wall ? 7.6 : 3.0}}));
+        }
+        stays.close_block();
+        EXPECT_EQ(stays.becoming_free().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_EQ(stays.becoming_pinned().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_NEAR(stays.share().mean, length == 41 ? 41.0 / 200.0 : 0.0, 1e-15);
+    }
+}
+
 // What the SI's criterion takes for pinned: along the wall, but far from it.
 TEST(WallStays, ADiscThatFliesAlongTheWallFarFromItIsNotPinned) {
     WallStays stays;
