@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "measure/snapshots.hpp"
 
@@ -63,6 +65,56 @@ TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
     profile.sample(s);
     profile.close_block();
     for (std::size_t k = 0; k < 8; ++k) EXPECT_TRUE(std::isnan(profile.normalised(k).mean));
+}
+
+/// Discs at places of the M-frame with velocities relative to the container.
+Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
+    Snapshot s = empty_dish(0.2);
+    const MFrame f = m_frame(s);
+    for (const auto& [place, velocity] : discs)
+        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity));
+    return s;
+}
+
+// Two discs that move alike turn at the rate 0 about their centre of mass (½, 0), so at −Ω in the
+// M-frame, where their speed is that of the frame's turning, Ω·½·|(5, 0)|. The wall at (±R, 0) has the
+// velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓ ½).
+TEST(AngularProfile, TheWallPassesACentreOfMassThatMoves) {
+    AngularProfile profile(2);
+    profile.sample(discs_at({{{3.0, 1e-9}, {0.5, 0.2}}, {{-2.0, -1e-9}, {0.5, 0.2}}}));
+    profile.close_block();
+    const double omega = 2.0 * pi / paper_period, R = paper_container_radius;
+    for (const std::size_t k : {0u, 1u}) {
+        const double sign = k == 0 ? 1.0 : -1.0;
+        EXPECT_NEAR(profile.plain(k).mean, -1.0, 1e-12);
+        // The places are 10⁻⁹ beside the axis.
+        EXPECT_NEAR(profile.wall(k).mean, -sign * 0.2 / (R - sign * 0.5) / omega - 1.0, 1e-8);
+        EXPECT_NEAR(profile.distance(k).mean, 2.5, 1e-8);
+        EXPECT_NEAR(profile.speed(k).mean, 2.5 * omega, 1e-8);
+    }
+}
+
+TEST(AngularProfile, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
+    AngularProfile profile(1);
+    profile.sample(discs_at({{{4.0, 0.0}, {0.0, 0.0}},
+                             {{-4.0, 0.0}, {0.0, 0.0}},
+                             {{0.0, 0.9}, {5.0, 0.0}},
+                             {{0.0, -0.9}, {-5.0, 0.0}}}));
+    profile.close_block();
+    EXPECT_EQ(profile.visits(0), 2.0);
+    EXPECT_NEAR(profile.plain(0).mean, -1.0, 1e-12);
+}
+
+TEST(AngularProfile, TheErrorOfTheNormalisedProfileHasNoSign) {
+    AngularProfile profile(1);
+    for (const double speed : {0.1, 0.3, 0.2}) {
+        profile.sample(discs_at({{{4.0, 0.0}, {0.0, speed}}, {{-4.0, 0.0}, {0.0, -speed}}}));
+        profile.close_block();
+    }
+    // The wall has −1 in the M-frame, as the centre of mass rests at C.
+    EXPECT_NEAR(profile.normalised(0).mean, -profile.plain(0).mean, 1e-12);
+    EXPECT_GT(profile.plain(0).error, 0.0);
+    EXPECT_NEAR(profile.normalised(0).error, profile.plain(0).error, 1e-12);
 }
 
 }  // namespace

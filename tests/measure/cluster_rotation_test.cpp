@@ -142,6 +142,22 @@ TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
     }
 }
 
+// The same with a disc there that moves through the centre of mass: about the ring's rate in the
+// mean, as Σ r = 0 on a ring, but r × v/r² of that disc would be 10¹⁵.
+TEST(ClusterRotation, ADiscThatPassesTheCentreOfMassIsLeftOutWhereverItStandsInTheList) {
+    constexpr int others = 46;
+    for (int place = 0; place <= others; ++place) {
+        Snapshot s = empty_dish();
+        for (int k = 0; k < others; ++k) {
+            if (k == place) add_disc(s, {0.0, 0.0}, {0.3, 0.4});
+            const Vec2 p = 4.0 * unit_circle(double(k) / others);
+            add_disc(s, p, 0.25 * perpendicular(p));
+        }
+        if (place == others) add_disc(s, {0.0, 0.0}, {0.3, 0.4});
+        EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-14) << place;
+    }
+}
+
 TEST(ClusterRotation, ALookInTimeAndTheFirstLookAfterAnEventSeeTheSame) {
     for (std::size_t n = 0; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));
