@@ -25,9 +25,11 @@ shell_word() {
     esac
 }
 
-# Gives up if something in "$@", files and folders of $home/build, belongs to somebody else.
+# Gives up if $home/build, or something in "$@" (files and folders in it, which need not exist),
+# belongs to somebody else.
 require_writable() {
-    locked=$(find "$@" ! -type l ! -writable -print -quit 2>/dev/null) || true # some are not there yet
+    locked=$home/build
+    [ ! -w "$locked" ] || locked=$(find "$@" ! -type l ! -writable -print -quit 2>/dev/null) || true
     [ -n "$locked" ] || return 0
     say "cannot build: '$locked' cannot be written; it belongs to $(stat -c %U "$locked")."
     say "hint: sudo chown -R $(id -u) $(shell_word "$home/build")"

@@ -61,7 +61,7 @@ build_page() {
     mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to $home/build, where the page is built."
     # Opened for reading: a page that is up to date may belong to another user.
     lock=$home/build/.lab.lock
-    [ -e "$lock" ] || : 2>/dev/null >"$lock" || give_up "cannot write to $home/build, where the page is built."
+    [ -e "$lock" ] || true 2>/dev/null >"$lock" || give_up "cannot write to $home/build, where the page is built."
     exec 9<"$lock"
     flock 9
     # shellcheck disable=SC2086

@@ -130,7 +130,7 @@ class FrontDoor(InFolder):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         said = done.stderr.splitlines()
         self.assertEqual(len(said), 2, done.stderr)
-        self.assertRegex(said[0], rf"^swirl: cannot build: '{self.folder}/build/.*' cannot be written")
+        self.assertRegex(said[0], rf"^swirl: cannot build: '{self.folder}/build.*' cannot be written")
         self.assertRegex(said[1], rf"^swirl: hint: sudo chown -R \d+ {self.folder}/build$")
 
     def test_never_runs_a_stale_program(self):
