@@ -233,7 +233,7 @@ TEST(Placement, AFewDiscsArePlacedInAContainerThatHardlyHoldsThem) {
     for (const double second : {0.1, 0.5, 3.0, 40.0}) expect_placed({1.0, second}, 1.0 + second, 1);
 }
 
-// Each took the whole budget of the relaxation, billions of steps, before it was refused.
+// From three on each took the whole budget of the relaxation, 10⁸ steps, before it was refused.
 TEST(Placement, AFewDiscsInAContainerThatIsTooSmallAreRefusedWithoutASearch) {
     long asked = 0;
     const auto count = [&] { return ++asked < 0; };
