@@ -53,10 +53,9 @@ swirl_floor(run -O1 PUBLIC swirl_files)
 swirl_floor(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
 swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
 swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
-# The program in its build tree draws with the scripts of its source tree.
-set_source_files_properties(src/paper/python_script.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-  COMPILE_DEFINITIONS
-  "SWIRL_SOURCE_FOLDER=\"${PROJECT_SOURCE_DIR}\";SWIRL_BUILD_FOLDER=\"${PROJECT_BINARY_DIR}\"")
+# The program in the build tree finds the scripts as an installed program does.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
 # The camera's floor is built where OpenCV is (section [camera] of `packages`); without it the rest
 # is, and `swirl track` says what is missing.
 option(SWIRL_CAMERA "Build `swirl track` where OpenCV is" ON)

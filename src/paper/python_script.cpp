@@ -137,15 +137,14 @@ fs::path figures_folder() {
         return fs::absolute(given);
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    if (program.parent_path() == fs::weakly_canonical(SWIRL_BUILD_FOLDER, ignored))
-        return fs::path(SWIRL_SOURCE_FOLDER) / "figures";
-    const fs::path installed =
-        (program.parent_path() / "../share/swirl/figures").lexically_normal();
-    if (has_scripts_of_owner(installed, program)) return installed;
+    for (const char* const where : {"../share/swirl/figures", "share/swirl/figures"})
+        if (const fs::path folder = (program.parent_path() / where).lexically_normal();
+            has_scripts_of_owner(folder, program))
+            return folder;
     throw Failure(fmt::format(
         "The scripts that draw are not in '{}', where an installed program has them; set "
         "SWIRL_FIGURES to the folder that holds them.",
-        installed.string()));
+        (program.parent_path() / "../share/swirl/figures").lexically_normal().string()));
 }
 
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,

@@ -9,9 +9,9 @@
 
 namespace swirl {
 
-/// Where SWIRL_FIGURES says; or figures/ of the source tree, for the program in its build tree; or
-/// ../share/swirl/figures from an installed program, if that belongs to the program's owner or to
-/// root. No other folder is searched. Throws Failure if it is not there.
+/// The folder in SWIRL_FIGURES; or share/swirl/figures above the program (installed) or next to it
+/// (build tree), if it belongs to the program's owner or to root. No other folder is searched.
+/// Throws Failure if there is none.
 std::filesystem::path figures_folder();
 
 /// Throws Failure, with what the script had to say, if it does not succeed; Interrupted if it was
