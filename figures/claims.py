@@ -24,8 +24,8 @@ import sys
 import tables
 import whole_file
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part, Value,  # noqa: F401
-                      above, agreed, below, either, every, falls, mean_of, parts, rises, scattered,
-                      step_back, trend, true, within)
+                      above, agreed, below, either, every, falls, mean_of, measured, parts, rises,
+                      scattered, step_back, trend, true, within)
 
 # What the paper leaves open.
 NEAR_OMEGA = 0.05          # of Ω: "remains at that of the container"
@@ -160,8 +160,7 @@ class Crossing:
 
 def value(row, name, error=None):
     """A number of a row with its error, and the point that it belongs to."""
-    return Value(row[name], row[error or name + "_error"],
-                 [row["point"]] if isinstance(row.get("point"), str) else ())
+    return measured(row, name, error)
 
 
 def number(mean, error=float("nan")):

@@ -246,7 +246,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                                               "stays.becoming_free=stay_ends",
                                               "stays.share=stay_share",
                                               "stays.length=stay_length"};
-        std::vector<std::string> heads = joined({"discs", "point", "steady_state"}, columns);
+        std::vector<std::string> heads = joined({"discs", "point", "averaged_runs", "steady_state"}, columns);
         heads = joined(std::move(heads), number_columns(angles));
         heads = joined(std::move(heads), {"becoming_free_resultant", "stay_ends_resultant"});
         Table table(heads);
@@ -256,7 +256,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
             const Json& measured = results[k]["measured"];
             for (std::size_t r = 0; r < measured["profile"]["theta"].size(); ++r) {
                 std::vector<Table::Cell> row{numbers[k], name_of_point(results[k]),
-                                             steadiness(results[k])};
+                                             averaged_runs(results[k]), steadiness(results[k])};
                 for (const std::string& column : columns)
                     row.emplace_back(number(measured["profile"][column][r]));
                 add_numbers(row, angles, results[k]);
@@ -311,7 +311,7 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
         plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         const std::vector<std::string> criteria{"pinned", "stays"};
-        std::vector<std::string> columns{"discs", "point", "steady_state", "theta"};
+        std::vector<std::string> columns{"discs", "point", "averaged_runs", "steady_state", "theta"};
         for (const char* what : {"si_pinned", "si_free", "stay_begins", "stay_ends"})
             columns = joined(std::move(columns), {what, fmt::format("{}_mean", what),
                                                   fmt::format("{}_mean_error", what),
@@ -323,7 +323,8 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
             const Json& theta = measured["stays"]["places"]["theta"];
             for (std::size_t r = 0; r < theta.size(); ++r) {
                 std::vector<Table::Cell> row{numbers[k], name_of_point(results[k]),
-                                             steadiness(results[k]), number(theta[r])};
+                                             averaged_runs(results[k]), steadiness(results[k]),
+                                             number(theta[r])};
                 for (const std::string& criterion : criteria)
                     for (const std::string which : {"pinned", "free"}) {
                         const Json& mean = measured[criterion]["becoming_" + which];

@@ -200,6 +200,7 @@ std::vector<std::string> rotation_columns() {
             "steady_state",
             "point",
             "seeds",
+            "averaged_runs",
             "steady_runs",
             "drifting_runs",
             "too_short_to_average",
@@ -214,6 +215,8 @@ Table::Cell whole(const Json& value) {
     return not_known;
 }
 
+Table::Cell averaged_runs(const Json& r) { return whole(at(r, {"seeds", "averaged"})); }
+
 void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     for (const char* which : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"}) {
         row.emplace_back(number(at(r, {"rotation", which, "mean"})));
@@ -225,7 +228,9 @@ void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     row.push_back(whole(at(r, {"warmup", "periods"})));
     row.emplace_back(steadiness(r));
     row.emplace_back(name_of_point(r));
-    for (const char* count : {"runs", "steady", "drifting", "too_short_to_average"})
+    row.push_back(whole(at(r, {"seeds", "runs"})));
+    row.push_back(averaged_runs(r));
+    for (const char* count : {"steady", "drifting", "too_short_to_average"})
         row.push_back(whole(at(r, {"seeds", count})));
     row.emplace_back(number(at(r, {"seeds", "scatter"})));
     row.emplace_back(std::int64_t{at(r, {"seeds", "disagree"}) == true});

@@ -89,6 +89,9 @@ Table::Cell whole(const nlohmann::ordered_json& value);
 /// Columns of the rotation, in the order of add_rotation(); empty for a run that failed.
 std::vector<std::string> rotation_columns();
 void add_rotation(std::vector<Table::Cell>& row, const nlohmann::ordered_json& result);
+/// How many runs its averages rest on. Their errors have one degree of freedom fewer
+/// (figures/verdicts.py).
+Table::Cell averaged_runs(const nlohmann::ordered_json& result);
 /// The name of its point, for the claims that rest on it.
 std::string name_of_point(const nlohmann::ordered_json& result);
 
