@@ -246,7 +246,8 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                                               "stays.becoming_free=stay_ends",
                                               "stays.share=stay_share",
                                               "stays.length=stay_length"};
-        std::vector<std::string> heads = joined({"discs", "point", "averaged_runs", "steady_state"}, columns);
+        std::vector<std::string> heads =
+            joined({"discs", "point", "averaged_runs", "steady_state"}, columns);
         heads = joined(std::move(heads), number_columns(angles));
         heads = joined(std::move(heads), {"becoming_free_resultant", "stay_ends_resultant"});
         Table table(heads);
@@ -311,7 +312,8 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
         plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         const std::vector<std::string> criteria{"pinned", "stays"};
-        std::vector<std::string> columns{"discs", "point", "averaged_runs", "steady_state", "theta"};
+        std::vector<std::string> columns{"discs", "point", "averaged_runs", "steady_state",
+                                         "theta"};
         for (const char* what : {"si_pinned", "si_free", "stay_begins", "stay_ends"})
             columns = joined(std::move(columns), {what, fmt::format("{}_mean", what),
                                                   fmt::format("{}_mean_error", what),
