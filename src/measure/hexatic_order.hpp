@@ -8,6 +8,10 @@
 // doi:10.1063/1.4774084). It is 1 for a perfect hexagon and 0 for a square. A disc at the wall has
 // neighbours on one side only; they count as they are.
 //
+// Six neighbours: the share of the discs that have exactly six in the Voronoi diagram, among the
+// discs that the wall does not keep from it: those farther than their diameter from the wall. In a
+// crystal it is 1, for points thrown at random 0.29.
+//
 // Average: over discs and samples, and over the pinned ones among them. Error from blocks of
 // periods. Units: none. Limits: a disc without neighbours has none and is left out.
 #pragma once
@@ -43,7 +47,22 @@ class HexaticOrder : public AllAndPinned {
     void sample(const MFrameView& view, const Voronoi& cells,
                 std::span<const std::uint8_t> pinned = {}) {
         add(view, pinned, [&](std::size_t i) { return hexatic_order(view, cells, i); });
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const Vec2 p = view.position(i);
+            const double inside = view.container_radius - 2.0 * view.radius[i];
+            if (!(inside > 0.0 && dot(p, p) < inside * inside)) continue;
+            const double six = cells.end(i) - cells.begin(i) == 6 ? 1.0 : 0.0;
+            six_.add(six);
+            if (i < pinned.size() && pinned[i] != 0) six_pinned_.add(six);
+        }
     }
+    void close_block() {
+        AllAndPinned::close_block();
+        six_.close_block();
+        six_pinned_.close_block();
+    }
+    Estimate six() const { return six_.estimate(); }
+    Estimate six_pinned() const { return six_pinned_.estimate(); }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
@@ -51,7 +70,24 @@ class HexaticOrder : public AllAndPinned {
         visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
         visit(ReportRow{"stays", "1", "hexatic order ψ6 of the discs on a stay at the wall",
                         on_stays()});
+        visit(ReportRow{"six", "1", "share with six neighbours, of the discs away from the wall",
+                        six()});
+        visit(ReportRow{"six_pinned", "1", "the same of the pinned discs", six_pinned()});
     }
+    void merge(const HexaticOrder& other) {
+        AllAndPinned::merge(other);
+        six_.merge(other.six_);
+        six_pinned_.merge(other.six_pinned_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        AllAndPinned::fields(visit);
+        six_.fields(visit);
+        six_pinned_.fields(visit);
+    }
+
+  private:
+    BlockMean six_, six_pinned_;
 };
 
 }  // namespace swirl

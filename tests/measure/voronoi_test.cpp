@@ -154,6 +154,32 @@ TEST(HexaticOrder, DoesNotDependOnTheDirectionOfTheCluster) {
     }
 }
 
+TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
+    // A hexagon of 19 discs whose outer ring touches the wall: the 7 within have six neighbours
+    // each, the 12 at the wall cannot, and do not count.
+    const auto share = [](const Snapshot& s, std::vector<std::uint8_t> pinned = {}) {
+        const MFrameView view(s);
+        Voronoi cells;
+        cells.find(view);
+        HexaticOrder order;
+        order.sample(view, cells, pinned);
+        order.close_block();
+        return std::pair{order.six().mean, order.six_pinned().mean};
+    };
+    EXPECT_EQ(share(lattice(2)).first, 1.0);
+    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // which are pinned is not known
+    // In a ring of five, one disc has five neighbours and five have three.
+    Snapshot five = empty_dish(0.15);
+    add_disc(five, five.container_centre, {0.0, 0.0});
+    for (int k = 0; k < 5; ++k)
+        add_disc(five, five.container_centre + 2.5 * unit_circle(k / 5.0), {0.0, 0.0});
+    EXPECT_EQ(share(five).first, 0.0);
+    // Of the pinned: the centre alone, and one at the wall, which does not count.
+    std::vector<std::uint8_t> pinned(19, 0);
+    pinned[centre_of(MFrameView(lattice(2)))] = pinned[0] = 1;
+    EXPECT_EQ(share(lattice(2), pinned).second, 1.0);
+}
+
 TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
     const Snapshot s = lattice(2);
     const MFrameView view(s);
