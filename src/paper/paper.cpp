@@ -123,13 +123,15 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
     const double swirls = events / expected_events_per_swirl(config);
     const double looks = measurements.empty() ? 0.0 : samples_per_period * swirls;
     const double cost = events + looks * cost_of_a_look;
-    return {key, cost, [config, measurements](const RunControl& control) {
-                const MeasuredRun done = measured_run(config, measurements, control);
-                if (!done.run.complete) throw Interrupted("Stopped.");
-                Json json = result_json(done.run);
-                json["measured"] = done.measured;
-                return json;
-            }};
+    PaperTask task{key, cost, [config, measurements](const RunControl& control) {
+                       const MeasuredRun done = measured_run(config, measurements, control);
+                       if (!done.run.complete) throw Interrupted("Stopped.");
+                       Json json = result_json(done.run);
+                       json["measured"] = done.measured;
+                       return json;
+                   }};
+    task.what = fmt::format("{} {}", config_json(config).dump(), fmt::join(measurements, ","));
+    return task;
 }
 
 std::int64_t PaperSettings::swirls(std::int64_t by_default, std::int64_t least) const {

@@ -48,6 +48,8 @@ struct PaperTask {
     /// Key of a larger piece whose result holds all that this one's does; empty: there is none. If
     /// that is done anyway, or was done before, it serves.
     std::string served_by = {};
+    /// The whole configuration, of a single run: tasks of one key must have the same.
+    std::string what = {};
 };
 
 /// A point of a curve or a map: the same work with several seeds, whose results are put together

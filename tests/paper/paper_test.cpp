@@ -6,6 +6,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "files/scratch.hpp"
 #include "swirl/paper/points.hpp"
@@ -63,6 +64,31 @@ FigurePlan impossible(const PaperSettings&) {
         throw Failure("Nothing can be drawn.");
     };
     return plan;
+}
+
+// A result is kept under the key of its task, for all figures: two different runs of one key would
+// be taken for each other.
+TEST_F(Paper, TasksOfOneKeyAreTheSameRun) {
+    for (const bool quick : {false, true}) {
+        settings.quick = quick;
+        std::map<std::string, std::string> runs;
+        for (const PaperFigure& figure : paper_figures())
+            for (const PaperPoint& point : figure.plan(settings).points)
+                for (const PaperTask& task : point.runs) {
+                    const auto [known, isnew] = runs.emplace(task.key, task.what);
+                    EXPECT_EQ(known->second, task.what) << task.key << " of figure " << figure.name;
+                }
+        EXPECT_GT(runs.size(), 100u);
+    }
+}
+
+// A verdict on three seeds would be one on chance: the figures that claims rest on have eight.
+TEST_F(Paper, PointsThatVerdictsRestOnHaveAllTheSeeds) {
+    for (const char* name :
+         {"1b", "3a", "4a", "4b", "5b", "states", "spheres", "spheres_sense", "spheres_few",
+          "spheres_pinned", "spheres_ingredients", "spheres_ingredients_rough"})
+        for (const PaperPoint& point : paper_figure(name).plan(settings).points)
+            EXPECT_EQ(point.runs.size(), 8u) << name << ": " << point.name;
 }
 
 TEST_F(Paper, ARunThatFailsLeavesAHoleAndIsNamed) {
