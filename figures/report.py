@@ -7,6 +7,7 @@ folder.
 import base64
 import html
 import json
+import math
 import os
 import re
 import struct
@@ -81,12 +82,14 @@ QUESTIONS = {
                  "take, and does the paper's average see the end of it?",
     "5b-steady": "Figure 5b once more, after a warm-up long enough for the spins.",
     "friction": "The paper shows that less friction moves the crossing to higher N. How?",
-    "inertia": "The paper's discs have more inertia than a rigid plane disc can have. What of "
-               "solid discs and of rings?",
+    "inertia": "The paper's discs have more inertia than a rigid plane disc can have. Where do solid discs "
+               "(I = ½), rings (1) and discs of other inertia change their direction?",
     "restitution": "The paper's collisions are elastic in the normal direction. What does a loss "
                    "change?",
     "tangential": "Friction only stops the slip in the paper. What if part of it is given back?",
     "polygon": "The paper's container runs along 30 straight sides. What does that change?",
+    "condensation": "Without disc friction the paper sees a loose, gas-like cluster. How long does it "
+                    "last, and what comes after it?",
     "energy": "The paper's program crashes when both frictions are zero. Where does the energy "
               "come from?",
     "map": "Which of the two frictions decides?",
@@ -113,7 +116,8 @@ CAPTIONS = {
     "2c": "The same of many discs. Each map has its own scale of colours.",
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, "
           "against the angle θ; one curve for each number of discs. Dashed: −Ω, the wall's. Discs move "
-          "clockwise, to smaller θ. Triangles: where stays in the wall layer begin, on average, "
+          "clockwise, to smaller θ. Slices are 5° wide; the paper's slice slides around the container, and its width "
+          "is not given (figures/figure_3a.py draws slices of any width that slide by 5°). Triangles: where stays in the wall layer begin, on average, "
           "circles: where they end.",
     "3b": "The same, divided by the angular velocity that the wall has at this θ about the same centre "
           "of mass: 1 (dashed) is motion with the wall.",
@@ -139,7 +143,7 @@ CAPTIONS = {
     "5a": "A snapshot of the simulation in the lab frame; the line on each disc turns with it. The "
           "circle is the path of the dish's centre C round S.",
     "5b": "Rotation of the cluster against the number of discs for five pairs of frictions, between discs "
-          "(μ_d) and at the wall (μ_w), averaged over events as in the paper.",
+          "(μ_d) and at the wall (μ_w), averaged over events as in the paper. Below, the same around zero.",
     "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in "
           "the paper; each map has its own scale.",
     "5d": "Mean velocity of the discs relative to the dish, in units of the speed of the dish, in the "
@@ -149,13 +153,17 @@ CAPTIONS = {
             "without slip. With e = 0.5 it loses energy where it hits the wall, with e = 1 none.",
     "states": "Motion in the M-frame with both frictions and without one of them. Left: the mean speed of "
               "the discs; right: the granular temperature, the mean energy of what is left after the local "
-              "mean flow is taken off.",
+              "mean flow is taken off. Without disc friction this is the state after 300 periods; what was before it "
+              "is in figure “condensation”.",
+    "condensation": "Without disc friction, from the start. Above: the period in which the cluster condenses, that "
+                    "is, from which on the discs hardly move in the M-frame and the cluster turns with ϖ = Ω. Below: "
+                    "the granular temperature until then and in the 50 periods after it.",
     "times": "How close in time two collisions of a run come, which is what the precision of the event "
              "times must resolve.",
     "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for several "
                "frictions μ of the spheres and the wall. Averages over time. The scale is coarser above the dotted "
-               "line. Up to 57 spheres fit; with 56 and 57 the packing that a run began with decides, not friction. "
-               "Some runs of 56 collapse: those are counted below, and the others averaged.",
+               "line. 56 and 57 spheres fit, too, and are left out: the packing that a run began with decides there, "
+               "not friction.",
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
                            "with one of them taken away. Vertical friction is the part of the contacts' friction "
                            "that acts on the vertical slip of spheres that roll.",
@@ -171,6 +179,8 @@ CAPTIONS = {
                      "of spheres and wall. Dashed: where the paper's experiment has the change.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their "
                            "contacts.",
+    "spheres_few": "A few spheres after a long warm-up: ϖ, and the share of them that is on a stay at the wall. A row that "
+                   "rolls along the wall with the swirl has 1 for both (ϖ in units of Ω).",
     "spheres_map": "Rotation of the cluster in colour and as a number: positive rotates with the swirl, "
                    "negative against it.",
 }
@@ -310,7 +320,8 @@ def how_to_read(about):
     return ("ϖ is the rotation frequency of the cluster, Ω that of the swirl, N the number of discs, μ "
             "the friction (μ_d between discs, μ_w at the wall). "
             "± is one standard error, between seeds and within runs, whichever is larger; three of "
-            "them decide. What they do not decide is undecided, after "
+            "them decide. A sign alone decides nothing: each claim has a size that would matter, which the text "
+            "gives. What they do not decide is undecided, after "
             f"{about.get('most_seeds_of_a_point', 32)} seeds at the points concerned. Verdicts are "
             "computed from the tables by the rules of figures/verdicts.py; every other number that "
             "a verdict depends on has a name in figures/claims.py. "
@@ -335,7 +346,7 @@ def known(rows, column="by_event"):
 
 
 def lowest_of(folder, setting):
-    return rotation_at(min(known(folder.curve("5b", setting=setting)),
+    return rotation_at(min(known(folder.curve("5b", most=math.inf, setting=setting)),
                            key=lambda row: row["by_event"]))
 
 
@@ -408,6 +419,28 @@ def found_pinned(folder):
             f"{said.get(rolls.verdict, 'is not confirmed')} ({told}).")
 
 
+def found_condensation(folder):
+    """No claim of the paper's: what comes after the gas."""
+    every_row = folder.table("condensation")
+    rows = [row for row in every_row if row["condensed"]]
+    if not rows:
+        return ""
+    times = ", ".join(f"{claims.number(claims.value(row, 'waiting'))} periods at N = {row['discs']:.0f}"
+                      for row in rows)
+    late = [f"{row['seeds'] - row['condensed']:.0f} of {row['seeds']:.0f} at N = {row['discs']:.0f}"
+            for row in every_row if row["condensed"] < row["seeds"]]
+    after = [claims.value(row, "after_by_time") for row in rows]
+    return ("Without friction between the discs the cluster is a gas at first and then condenses into a crystal that "
+            f"turns with the swirl (ϖ/Ω = {min(v.mean for v in after):.3f} to {max(v.mean for v in after):.3f}): "
+            f"after {times}." + (f" Runs that did not condense: {', '.join(late)}." if late else ""))
+
+
+def inertia_of_discs(folder):
+    """Where frustration is blamed: the paper's discs have none of the rolling, and what decides."""
+    sentence = claims.inertia_sentence(folder)
+    return f" Discs do not roll; where they change their direction depends on their inertia{sentence}." if sentence else ""
+
+
 def found_spheres(folder):
     turn, _ = claims.spheres_transition(folder)
     blame, _ = claims.spheres_frustration(folder)
@@ -416,7 +449,7 @@ def found_spheres(folder):
         f"{claims.number(claims.spheres_at(folder, 'spheres_ingredients', curve, discs))} {words}"
         for curve, words in ((f"{claims.PLASTIC:g}", "with it"), ("no-vertical", "without")))
     numbers = f"(ϖ/Ω at N = {discs}, μ = {claims.PLASTIC:g}: {numbers})"
-    what = "friction of the contacts along the vertical, which keeps them from rolling,"
+    what = "friction of the contacts along the vertical, which opposes their rolling,"
     cause = statement(blame, f"{what} drives them that way", f"{what} does not drive them that way",
                       f"whether {what} drives them that way is undecided")
     try:
@@ -426,7 +459,8 @@ def found_spheres(folder):
     changes = ", ".join(f"{claims.number(at)} (μ = {mu:g})" for mu, at in sorted(changes.items()))
     where = f" Their sense changes for the last time at N = {changes}." if changes else ""
     return statement(
-        turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.{where}",
+        turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.{where}"
+        f"{inertia_of_discs(folder)}",
         f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.{where}",
         f"Whether many spheres that roll on a floor counterrotate is undecided {numbers}.{where}")
 
@@ -435,12 +469,13 @@ def what_was_found(path):
     """The main results as sentences: each is chosen by the verdict on its claim, and says the numbers of
     the tables. Without its tables a sentence is missing."""
     sentences = []
-    for say in (found_transition, found_order, found_both_needed, found_pinned, found_spheres):
+    for say in (found_transition, found_order, found_both_needed, found_condensation, found_pinned,
+                found_spheres):
         try:
             sentences.append(say(claims.Folder(path)))
         except (FileNotFoundError, IndexError, KeyError, ValueError, ZeroDivisionError):
             continue
-    return sentences
+    return [sentence for sentence in sentences if sentence]
 
 
 # The same discs in several figures, whose N_c the report has more than once: (figure, curve, how).

@@ -227,36 +227,36 @@ def parts(*statements):
     return Part(HOLDS if HOLDS in verdicts else FAILS)
 
 
-# A step back of this share of the whole rise is none.
-STEP_BACK = 0.1
+# A curve that rises may fall from any of its points to any later one by this share of its whole rise.
+# A tenth is what the symbols of the paper's Figure 4 hide. All pairs are compared, not neighbours alone:
+# between the neighbours of a finer grid any curve falls by less.
+REVERSAL = 0.1
 # Of fewer points one cannot say that they rise all the way.
 LEAST_POINTS = 3
 
 
-def step_back(values):
-    """Of a curve that should rise: (k, k + 1) of the neighbours between which it falls most, if it
-    certainly falls there by more than STEP_BACK of the whole; None if it does so nowhere."""
-    known = [k for k, v in enumerate(values) if v.mean == v.mean]
-    if not known:
-        return None
-    rise = values[known[-1]] - values[known[0]]
-    steps = [(values[b] - values[a], (a, b)) for a, b in zip(known, known[1:])]
-    back = [(step.mean, pair) for step, pair in steps
-            if below(step, -STEP_BACK * abs(rise.mean)).verdict == HOLDS]
-    return min(back)[1] if back else None
+def largest_reversal(values):
+    """Of a curve that should rise: (i, j), i < j, between which it falls most; None if it never falls."""
+    known = [k for k, v in enumerate(values) if v.known]
+    falls_by = [(values[i].mean - values[j].mean, (i, j))
+                for n, i in enumerate(known) for j in known[n + 1:]]
+    most = max(falls_by, default=(0.0, None))
+    return most[1] if most[0] > 0 else None
 
 
-def rises(values):
-    """A curve that rises: certainly higher at its end than at its beginning, and with no certain
-    fall between neighbours of more than STEP_BACK of the whole."""
+def rises(values, least=0.0):
+    """A curve that rises: from its beginning to its end by more than `least`, the size that matters, and
+    between no two points does it fall by more than REVERSAL of that rise."""
     values = [v for v in values if v.mean == v.mean]
     if len(values) < LEAST_POINTS:
         return Part(UNDECIDED, frozenset().union(*(v.points for v in values)))
-    overall = above(values[-1] - values[0], 0.0)
+    rise = values[-1] - values[0]
+    overall = above(rise, least)
     if overall.verdict != HOLDS:
         return overall
-    return Part(FAILS if step_back(values) else HOLDS)
+    return every([below(a - b, REVERSAL * rise.mean)
+                  for k, a in enumerate(values) for b in values[k + 1:]])
 
 
-def falls(values):
-    return rises([-v for v in values])
+def falls(values, least=0.0):
+    return rises([-v for v in values], least)

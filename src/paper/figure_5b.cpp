@@ -95,11 +95,15 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
     std::vector<PointOfFigure5b> points = points_of_5b(settings);
     for (const PointOfFigure5b& p : points)
         plan.points.push_back(point(settings, p.friction, p.discs));
-    // Where ϖ has its minimum, and rises again.
-    for (const std::int64_t n : numbers_beyond(settings)) {
-        points.push_back({high_friction, n});
-        plan.points.push_back(dense_point(settings, high_friction, n));
-    }
+    // With both frictions 1, where ϖ has its minimum and rises again; with the others, whether a
+    // curve that does not cross up to the paper's last number crosses beyond it.
+    for (const Friction& friction : frictions_of_5b)
+        for (const std::int64_t n : numbers_beyond(settings)) {
+            points.push_back({friction, n});
+            plan.points.push_back(friction.name == high_friction.name
+                                      ? dense_point(settings, friction, n)
+                                      : point(settings, friction, n));
+        }
     plan.finish = [points](const std::vector<Json>& results, const std::filesystem::path& out) {
         return finish("5b", points, results, out);
     };

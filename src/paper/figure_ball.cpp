@@ -10,6 +10,9 @@
 #include <cmath>
 
 #include "swirl/files/table.hpp"
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/circular_mean.hpp"
+#include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/several_runs.hpp"
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
@@ -38,20 +41,31 @@ RunConfig ball_run(const PaperSettings& settings, const Ball& ball) {
     return config;
 }
 
-/// γ of one run: the spin is averaged over every swirl after the warm-up.
-Estimate gamma_of(const RunConfig& config, const RunControl& control) {
+struct BallAverages {
+    Estimate gamma, theta;
+};
+
+/// Of one run, averaged over every swirl after the warm-up: γ from the spin, and the direction of
+/// the ball about C in the M-frame, in degrees.
+BallAverages ball_averages(const RunConfig& config, const RunControl& control) {
     Run run(config, control);
     SampleTimes times = run.sample_times(64);
     BlockMean gamma;
+    CircularMean direction;
     while (run.next_event()) {
         const bool counts = run.event().swirls >= *config.warmup;
-        while (run.next_sample(times))
-            if (counts) gamma.add(1.0 - run.snapshot().spin.front() / config.omega());
+        while (run.next_sample(times)) {
+            if (!counts) continue;
+            gamma.add(1.0 - run.snapshot().spin.front() / config.omega());
+            direction.add(MFrameView(run.snapshot()).position(0));
+        }
         run.pass_event();
-        if (counts && run.snapshot().swirls > run.event().swirls) gamma.close_block();
+        if (!counts || run.snapshot().swirls == run.event().swirls) continue;
+        gamma.close_block();
+        direction.close_block();
     }
     if (!run.complete()) throw Interrupted("Stopped.");
-    return gamma.estimate();
+    return {gamma.estimate(), scaled(direction.angle(), degrees_per_radian)};
 }
 
 PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
@@ -61,16 +75,20 @@ PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
                         ball.restitution, *config.warmup, *config.periods, seeds, config.seed),
             100.0 * static_cast<double>(*config.periods * seeds),
             [config, seeds](const RunControl& control) {
-                std::vector<Estimate> runs;
+                std::vector<Estimate> gammas, thetas;
                 for (int s = 0; s < seeds; ++s) {
                     RunConfig one = config;
                     one.seed += static_cast<std::uint64_t>(s);
-                    runs.push_back(gamma_of(one, control));
+                    const BallAverages found = ball_averages(one, control);
+                    gammas.push_back(found.gamma);
+                    thetas.push_back(found.theta);
                 }
-                const SeveralRuns all = several_runs(runs);
+                const SeveralRuns all = several_runs(gammas);
+                const Estimate theta = several_directions(thetas).estimate;
                 return Json{{"mean", all.estimate.mean},
                             {"error", all.estimate.error},
-                            {"scatter", all.scatter}};
+                            {"scatter", all.scatter},
+                            {"theta", {{"mean", theta.mean}, {"error", theta.error}}}};
             }};
 }
 
@@ -89,7 +107,8 @@ static FigurePlan plan_figure_ball(const PaperSettings& settings) {
     plan.finish = [balls, seeds = settings.seeds()](const std::vector<Json>& results,
                                                     const std::filesystem::path& out) {
         Table table({"ball_radius", "container_radius", "mu", "restitution", "gamma", "gamma_error",
-                     "gamma_no_slip", "slip", "slip_error", "seeds", "scatter"});
+                     "gamma_no_slip", "slip", "slip_error", "theta", "theta_error", "seeds",
+                     "scatter"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < balls.size(); ++k) {
             if (failed(results[k])) continue;
@@ -98,7 +117,9 @@ static FigurePlan plan_figure_ball(const PaperSettings& settings) {
             const double no_slip = model.gamma_no_slip();
             const double gamma = number(results[k]["mean"]), error = number(results[k]["error"]);
             table.add({balls[k].radius, model.container_radius, balls[k].mu, balls[k].restitution,
-                       gamma, error, no_slip, gamma / no_slip, error / no_slip, std::int64_t{seeds},
+                       gamma, error, no_slip, gamma / no_slip, error / no_slip,
+                       number(at(results[k], {"theta", "mean"})),
+                       number(at(results[k], {"theta", "error"})), std::int64_t{seeds},
                        number(results[k]["scatter"])});
             if (balls[k].radius == 5.0 && (balls[k].mu == 0.0 || balls[k].mu == 1.0))
                 outcome.findings.push_back(fmt::format(

@@ -26,13 +26,17 @@ struct VariedCurve {
     std::function<void(RunConfig&)> change;
 };
 
+/// "For each N between 5 and 48" (SI).
+constexpr std::int64_t most_discs_of_the_paper = 48;
+
 /// Half the events of the paper: many curves, and the error is small enough.
 std::int64_t events_of_a_curve(const PaperSettings& settings) {
     return settings.events.value_or(settings.quick ? 100'000 : 500'000);
 }
 
 FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
-                       const std::string& parameter, const std::vector<VariedCurve>& curves) {
+                       const std::string& parameter, const std::vector<VariedCurve>& curves,
+                       const std::vector<std::int64_t>& numbers) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
     struct Point {
@@ -41,14 +45,21 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
     };
     std::vector<Point> points;
     for (std::size_t c = 0; c < curves.size(); ++c)
-        for (const std::int64_t n : sparse_numbers(settings)) {
+        for (const std::int64_t n : numbers) {
             RunConfig config = paper_config(settings, high_friction, n);
             config.events = events_of_a_curve(settings);
+            // Denser than in the paper, where states last longer and events are many: by periods.
+            if (n > most_discs_of_the_paper) {
+                config.warmup = settings.swirls(settings.quick ? 20 : 40, 1);
+                config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 3);
+            }
             curves[c].change(config);
             points.push_back({c, n});
+            const std::string length =
+                config.periods ? fmt::format("{}of{}periods", *config.warmup, *config.periods)
+                               : fmt::format("{}events", config.events);
             plan.points.push_back(varied_point(
-                settings, fmt::format("{}_{}_N{}_{}events", name, curves[c].name, n, config.events),
-                config));
+                settings, fmt::format("{}_{}_N{}_{}", name, curves[c].name, n, length), config));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"curve", parameter, "discs"}, rotation_columns()));
@@ -225,6 +236,7 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
         search.config = paper_config(settings, {"", "", mu, mu}, 48);
         search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
         search.from = 20;
+        search.to = numbers_beyond(settings).back();  // μ = 0.2 crosses beyond the paper's numbers
         search.tolerance = settings.quick ? 0.5 : 0.2;
         search.rounds = settings.quick ? 1 : 4;
         plan.points.push_back(PaperTask{
@@ -271,17 +283,20 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_inertia(const PaperSettings& settings) {
     std::vector<VariedCurve> curves;
-    for (const double inertia : {0.5, 1.0, 10.0})
+    for (const double inertia : {0.5, 1.0, 3.0, 10.0, 100.0, 1e4})
         curves.push_back({fmt::format("{}", inertia), inertia,
                           [inertia](RunConfig& c) { c.inertia = inertia; }});
-    return plan_curves(settings, "inertia", "inertia", curves);
+    // Discs with an inertia that they can have cross beyond the paper's numbers, if at all.
+    std::vector<std::int64_t> numbers = sparse_numbers(settings);
+    for (const std::int64_t n : numbers_beyond(settings)) numbers.push_back(n);
+    return plan_curves(settings, "inertia", "inertia", curves, numbers);
 }
 
 static FigurePlan plan_figure_restitution(const PaperSettings& settings) {
     std::vector<VariedCurve> curves;
     for (const double e : {1.0, 0.99, 0.9})
         curves.push_back({fmt::format("{}", e), e, [e](RunConfig& c) { c.restitution = e; }});
-    return plan_curves(settings, "restitution", "restitution", curves);
+    return plan_curves(settings, "restitution", "restitution", curves, sparse_numbers(settings));
 }
 
 static FigurePlan plan_figure_tangential(const PaperSettings& settings) {
@@ -291,7 +306,8 @@ static FigurePlan plan_figure_tangential(const PaperSettings& settings) {
                               c.tangential_restitution = beta;
                               c.inertia = solid_inertia(c.mass, c.radius);
                           }});
-    return plan_curves(settings, "tangential", "tangential_restitution", curves);
+    return plan_curves(settings, "tangential", "tangential_restitution", curves,
+                       sparse_numbers(settings));
 }
 
 static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
@@ -374,32 +390,38 @@ static FigurePlan plan_figure_energy(const PaperSettings& settings) {
     plan.script = "figure_energy.py";
     const std::int64_t discs = 28, swirls = settings.swirls(settings.quick ? 100 : 400, 10);
     const std::vector<int> sides{6, 30, 300, 0};
-    for (const int m : sides) {
-        RunConfig config = paper_config(settings, {"", "", 0.0, 0.0}, discs);
-        config.periods = swirls;
-        config.warmup = 0;
-        if (m > 0)
-            config.sides = m;
-        else
-            config.path = PathShape::circle;
-        plan.points.push_back(PaperTask{
-            fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
-            3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
-            [config](const RunControl& control) { return energy_series(config, control); }});
-    }
+    const int seeds = settings.seeds();
+    for (const int m : sides)
+        for (int s = 0; s < seeds; ++s) {
+            RunConfig config = paper_config(settings, {"", "", 0.0, 0.0}, discs);
+            config.periods = swirls;
+            config.warmup = 0;
+            config.seed += static_cast<std::uint64_t>(s);
+            if (m > 0)
+                config.sides = m;
+            else
+                config.path = PathShape::circle;
+            plan.points.push_back(PaperTask{
+                fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
+                3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
+                [config](const RunControl& control) { return energy_series(config, control); }});
+        }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table({"sides", "discs", "swirl", "energy", "invariant"});
+        Table table({"sides", "discs", "seed", "swirl", "energy", "invariant"});
         FigureOutcome outcome;
-        for (std::size_t k = 0; k < sides.size(); ++k) {
+        for (std::size_t k = 0; k < results.size(); ++k) {
             if (failed(results[k])) continue;
+            const int m = sides[k / std::size_t(seeds)];
+            const auto seed = static_cast<std::int64_t>(k % std::size_t(seeds)) + 1;
             const Json &energy = results[k]["energy"], &invariant = results[k]["invariant"];
             for (std::size_t t = 0; t < energy.size(); ++t)
-                table.add({std::int64_t{sides[k]}, discs, static_cast<std::int64_t>(t),
+                table.add({std::int64_t{m}, discs, seed, static_cast<std::int64_t>(t),
                            number(energy[t]), number(invariant[t])});
+            if (seed > 1) continue;
             outcome.findings.push_back(fmt::format(
                 "No friction at all, {}: in {} swirls the energy goes from {:.0f} to {:.0f}, and "
-                "K − ΩL changes by {}.",
-                sides[k] > 0 ? fmt::format("{} sides", sides[k]) : "the true circle", swirls,
+                "K − ΩL changes by {} (first seed).",
+                m > 0 ? fmt::format("{} sides", m) : "the true circle", swirls,
                 number(energy.front()), number(energy.back()),
                 with_error(number(invariant.back()) - number(invariant.front()), not_known)));
         }
@@ -477,7 +499,7 @@ std::vector<PaperFigure> figures_beyond() {
         {"transient", "beyond the paper: spin and rotation from rest, μ_d = 0",
          plan_figure_transient},
         {"friction", "beyond the paper: the crossing N_c against μ", plan_figure_friction},
-        {"inertia", "beyond the paper: moment of inertia ½, 1, 10", plan_figure_inertia},
+        {"inertia", "beyond the paper: moment of inertia ½ to 10⁴", plan_figure_inertia},
         {"restitution", "beyond the paper: restitution e = 1, 0.99, 0.9", plan_figure_restitution},
         {"tangential", "beyond the paper: tangential restitution, solid discs",
          plan_figure_tangential},

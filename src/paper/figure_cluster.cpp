@@ -143,8 +143,8 @@ static FigurePlan plan_figure_4b(const PaperSettings& settings) {
          "frustration.stay_correlation", "frustration.along_wall",
          "frustration.correlation_by_impulse", "frustration.triangles", "frustration.coordination",
          "frustration.disc_sticking", "frustration.wall_sticking", "order.all=psi6",
-         "order.pinned=psi6_pinned", "order.stays=psi6_stays", "collisions.disc_disc_rate",
-         "collisions.disc_wall_rate"},
+         "order.pinned=psi6_pinned", "order.stays=psi6_stays", "order.six", "order.six_pinned",
+         "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             return std::vector<std::string>{
                 first_and_last("spin of the discs on a stay at the wall, in Ω", high_friction,

@@ -18,7 +18,8 @@ std::vector<PaperFigure> in_order() {
     std::vector<PaperFigure> all;
     for (const auto& of_a_file :
          {figures_of_pictures(), figures_of_the_ball(), figures_of_the_cluster(), figures_of_maps(),
-          figures_of_times(), figures_5b(), figures_beyond(), figures_of_spheres()})
+          figures_of_times(), figures_5b(), figures_beyond(), figures_of_condensation(),
+          figures_of_spheres()})
         all.insert(all.end(), of_a_file.begin(), of_a_file.end());
     const auto beyond = std::stable_partition(all.begin(), all.end(), is_of_the_paper);
     std::sort(all.begin(), beyond,

@@ -15,6 +15,7 @@ std::vector<PaperFigure> figures_of_maps();
 std::vector<PaperFigure> figures_of_the_ball();
 std::vector<PaperFigure> figures_of_times();
 std::vector<PaperFigure> figures_beyond();
+std::vector<PaperFigure> figures_of_condensation();
 std::vector<PaperFigure> figures_of_spheres();
 
 /// Whose runs others take up again.

@@ -43,7 +43,7 @@ struct Disc {
 };
 
 /// The paper's table gives I = 10 for m = r = 1, which no rigid plane disc can have (a ring has 1,
-/// a solid disc ½). It matters: with ½ the cluster does not counterrotate up to N = 48.
+/// a solid disc ½). It matters: with ½ the cluster counterrotates only beyond N = 52.
 inline constexpr double paper_inertia = 10.0;
 inline constexpr double ring_inertia(double mass, double radius) { return mass * radius * radius; }
 inline constexpr double solid_inertia(double mass, double radius) {

@@ -21,11 +21,14 @@ FIGURES = {
     "pinning": {"discs", "theta", "si_pinned", "si_free", "stay_begins", "stay_ends", "si_free_resultant",
                 "stay_ends_resultant", "stay_ends_mean", "stay_ends_mean_error"},
     "4b": {"discs", "stay_spin", "stay_correlation", "psi6_stays", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
-           "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "disc_disc_rate"},
+           "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "six", "six_pinned", "disc_disc_rate"},
     "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},
     "5c": {"discs", "x", "y", "by_event", "by_event_error", "by_time"},
     "5d": {"discs", "x", "y", "u_x", "u_x_error", "u_y", "u_y_error", "visits"},
-    "ball": {"ball_radius", "mu", "restitution", "gamma", "gamma_error", "gamma_no_slip", "slip"},
+    "ball": {"ball_radius", "mu", "restitution", "gamma", "gamma_error", "gamma_no_slip", "slip", "theta",
+             "theta_error"},
+    "condensation": {"discs", "seeds", "condensed", "waiting", "waiting_error", "before_granular",
+                     "before_coordination_error", "after_granular", "before_spin_correlation"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
 

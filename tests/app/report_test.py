@@ -137,7 +137,7 @@ class FirstPage(Tables):
                 for n in (44, 48)])
         tables(0.1, -0.05, 0.04)
         self.assertEqual(self.found(), "Spheres that roll on a floor counterrotate, too, when they are many; "
-                         "friction of the contacts along the vertical, which keeps them from rolling, "
+                         "friction of the contacts along the vertical, which opposes their rolling, "
                          "drives them that way (ϖ/Ω at N = 48, μ = 0.2: −0.0500 ± 0.0010 with it, 0.0400 ± 0.0010 "
                          "without).")
         # Where: of each friction the last change to counterrotation.
@@ -150,14 +150,34 @@ class FirstPage(Tables):
         self.assertIn("without). Their sense changes for the last time at N = 32.4 ± 0.3 (μ = 0.2), "
                       "14.0 ± 0.3 (μ = 0.5).", self.found())
         os.remove(os.path.join(self.folder, "figure_spheres_sense.csv"))
-        tables(0.1, -0.05, -0.05)
+        tables(0.1, -0.05, -0.025)
         self.assertIn("whether friction of the contacts along the vertical", self.found())
+        # Where frustration is blamed, the other thing that decides is told.
+        tables(0.1, -0.05, 0.04)
+        self.write("inertia_crossings", [
+            {"curve": inertia, "verdict": verdict, "crossing": at, "crossing_error": 0.2 if at else "",
+             "lowest": 0.02, "lowest_error": 0.001, "lowest_discs": 48}
+            for inertia, verdict, at in ((0.5, "always rotates", ""), (10, "crosses", 38.3))])
+        self.assertIn("where they change their direction depends on their inertia: I = 0.5: no crossing (always "
+                      "rotates; lowest ϖ/Ω = 0.0200 ± 0.0010 at N = 48); I = 10: N_c = 38.3 ± 0.2.", self.found())
         tables(0.1, -0.05, -0.09)
         self.assertIn("does not drive them that way", self.found())
         tables(0.1, -0.05, 0.04, error=0.02)
         self.assertIn("Whether many spheres that roll on a floor counterrotate is undecided", self.found())
         tables(0.1, 0.05, 0.06)
         self.assertIn("is not confirmed", self.found())
+
+
+    def test_the_condensation(self):
+        self.write("condensation", [
+            {"discs": n, "seeds": 8, "condensed": condensed, "waiting": waiting, "waiting_error": 2,
+             "after_by_time": 1.0, "after_by_time_error": 0.001}
+            for n, condensed, waiting in ((16, 0, ""), (28, 8, 44), (48, 6, 90))])
+        found = self.found()
+        self.assertIn("turns with the swirl (ϖ/Ω = 1.000 to 1.000): after 44 ± 2 periods at N = 28, 90 ± 2 periods "
+                      "at N = 48. Runs that did not condense: 8 of 8 at N = 16, 2 of 8 at N = 48.", found)
+        self.write("condensation", [{"discs": 16, "condensed": 0}])
+        self.assertEqual(self.found(), "")
 
 
 class Figures(Tables):
