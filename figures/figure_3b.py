@@ -1,6 +1,7 @@
 """Figure 3b: the same, divided by that of the wall.
 
-    /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv
+    /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv         slices of the table, 5° wide
+    /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv 20      slices of 20° that slide by 5°
 """
 
 import style

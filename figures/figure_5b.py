@@ -1,4 +1,5 @@
-"""Figure 5b: rotation of the cluster against the number of discs, for five frictions.
+"""Figure 5b: rotation of the cluster against the number of discs, for five frictions; below, the same
+around zero, where curves cross.
 
     /usr/bin/python3 figures/figure_5b.py out/figure_5b.csv
 """
@@ -6,6 +7,7 @@
 import style
 
 MOST = 48  # discs, in the paper
+NEAR_ZERO = 0.1  # of Ω: shown enlarged
 CURVES = [
     ("no-wall", r"no wall friction ($\mu_w = 0$)", style.GREEN, "^"),
     ("no-disc", r"no disc friction ($\mu_d = 0$)", style.ORANGE, "v"),
@@ -18,16 +20,26 @@ CURVES = [
 def main():
     table = style.table_from_arguments("figure_5b")
     rows = style.read(table)
-    drawing, axes = style.figure(height=3.1)
-    style.zero_line(axes)
+    drawing, (axes, near) = style.figure(height=4.6, nrows=2, sharex=True,
+                                         gridspec_kw={"height_ratios": (3, 2)})
+    for one in (axes, near):
+        style.zero_line(one)
     for name, label, color, marker in CURVES:
-        style.curve(axes, style.select(rows, setting=name), "discs", "by_event", label=label,
-                    color=color, marker=marker)
+        here = style.select(rows, setting=name)
+        style.curve(axes, here, "discs", "by_event", label=label, color=color, marker=marker)
+        close = [row for row in here if abs(row["by_event"]) + row["by_event_error"] <= NEAR_ZERO]
+        if close:
+            style.curve(near, close, "discs", "by_event", color=color, marker=marker)
     style.rotation_axes(axes, "by event")
+    axes.set_xlabel("")
+    style.rotation_axes(near, "by event")
+    near.set_ylabel("around zero")
+    near.set_ylim(-NEAR_ZERO, NEAR_ZERO)
     last = max(row["discs"] for row in rows)
     notes = []
     if last > MOST:
-        axes.axvspan(MOST + 0.5, last + 1.5, color="0.93", zorder=-1, linewidth=0)
+        for one in (axes, near):
+            one.axvspan(MOST + 0.5, last + 1.5, color="0.93", zorder=-1, linewidth=0)
         notes.append("grey: denser than in the paper")
     axes.set_xlim(3.5, last + 1.5)
     axes.set_ylim(bottom=min(-0.16, axes.get_ylim()[0]))

@@ -196,9 +196,28 @@ def rotation_axes(axes, average="by time", of="discs"):
     axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
 
 
+def sliding(rows, width):
+    """The profile of one number of discs in slices of `width` degrees that slide by one slice of the table:
+    the paper's "angular slice slides around the entire container". Every visit counts the same; the
+    normalised angular velocity is the ratio of the two means."""
+    result = []
+    for row in rows:
+        here = [other for other in rows
+                if abs((other["theta"] - row["theta"] + 180) % 360 - 180) < width / 2]
+        visits = sum(other["visits"] for other in here)
+
+        def mean(name):
+            return sum(other["visits"] * other[name] for other in here if other["visits"]) / visits
+        if visits:
+            result.append(row | {"visits": visits, "varpi_m": mean("varpi_m"), "wall": mean("wall"),
+                                 "normalised": mean("varpi_m") / mean("wall")})
+    return result
+
+
 def profiles(name, quantity, level, label):
     """A whole figure: a quantity against the angle θ, a curve for each number of discs, with the
-    places where discs become pinned and free."""
+    places where discs become pinned and free. A second argument is the width of a slice that slides."""
+    width = float(sys.argv.pop()) if len(sys.argv) == 3 and sys.argv[1][:1] != "-" else 0.0
     table = table_from_arguments(name)
     rows = read(table)
     numbers = sorted({row["discs"] for row in rows})
@@ -207,7 +226,8 @@ def profiles(name, quantity, level, label):
     span = max(numbers[-1] - numbers[0], 1)
     for discs in numbers:
         color = colors(0.95 * (discs - numbers[0]) / span)
-        shown = [row for row in select(rows, discs=discs) if row["visits"] > 200]
+        here = select(rows, discs=discs)
+        shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > 200]
         axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
                   linestyle=":" if not_steady(shown) else "-")
         for angle, marker in (("stay_begins", "v"), ("stay_ends", "o")):

@@ -87,8 +87,11 @@ TABLES = {
     "averages": curves("setting", FRICTIONS),
     "ball": [{"ball_radius": r, "mu": mu, "restitution": e, "gamma": 1 + mu, "gamma_error": 0.4,
               "gamma_no_slip": R / r} for r in (4.3, 5, 7) for mu in STEPS for e in (0.5, 1)],
-    "energy": [{"sides": m, "swirl": k, "energy": 10.0 + k * m} for m in (6, 30, 300, 0)
-               for k in range(1, 100)],
+    "condensation": [with_errors({"discs": n, "condensed": n > 16, "shortest": n, "longest": 3 * n},
+                                 waiting=2 * n, before_granular=1.0, after_granular=0.05)
+                     for n in range(16, 49, 4)],
+    "energy": [{"sides": m, "seed": seed, "swirl": k, "energy": 10.0 + k * m} for m in (6, 30, 300, 0)
+               for seed in (1, 2) for k in range(1, 100)],
     "friction": [{"mu": mu, "crosses": float(mu > 0.1), "crossing": 50 - 10 * mu,
                   "crossing_error": 0.5, "steady_state": "drifting"} for mu in (0.05, 0.1, 0.5, 2)],
     "inertia": curves("inertia", (0.5, 1, 10)),
@@ -219,6 +222,45 @@ class Drawings(unittest.TestCase):
         for name in ("5b", "spheres"):
             drawing = self.drawn(name, [row | none for row in TABLES[name]])
             self.assertTrue(drawing.axes[0].get_legend() or drawing.legends, name)
+
+    def test_figure_5b_shows_the_crossings_enlarged(self):
+        rows = [row for row in TABLES["5b"] if row["setting"] != "high"]
+        rows += list(rotation(range(24, 49), low=-0.07, setting="high"))  # by event down to −0.05
+        drawing = self.drawn("5b", rows)
+        whole, near = drawing.axes
+        self.assertEqual(near.get_ylim(), (-0.1, 0.1))
+        drawn = [y for line in near.lines if len(line.get_xdata()) > 5 for y in line.get_ydata()]
+        self.assertLess(min(drawn), -0.04)
+        self.assertGreater(max(drawn), 0.07)
+        self.assertGreater(whole.get_ylim()[1], 1.0)
+
+    def test_a_slice_that_slides_counts_every_visit_alike(self):
+        rows = [{"theta": 2.5 + 5 * k, "visits": 100 + k, "varpi_m": -1.0 - k, "wall": -2.0, "normalised": 0}
+                for k in range(72)]
+        one = style.sliding(rows, 5)
+        self.assertEqual([row["varpi_m"] for row in one], [row["varpi_m"] for row in rows])
+        three = style.sliding(rows, 15)
+        self.assertAlmostEqual(three[10]["varpi_m"], -(109 * 10 + 110 * 11 + 111 * 12) / 330)
+        self.assertAlmostEqual(three[10]["normalised"], (109 * 10 + 110 * 11 + 111 * 12) / 660)
+        self.assertEqual(three[10]["visits"], 330)
+        # Through zero.
+        self.assertAlmostEqual(three[0]["varpi_m"], -(171 * 72 + 100 + 101 * 2) / 372)
+        nobody = style.sliding([row | {"visits": 0} for row in rows], 15)
+        self.assertEqual(nobody, [])
+
+    def test_a_second_argument_is_the_width_of_a_slice(self):
+        def curve(*more):
+            with mock.patch.object(style, "table_from_arguments", lambda name: "figure_3a.csv"), \
+                    mock.patch.object(style, "read", lambda table: TABLES["3a"]), \
+                    mock.patch.object(style, "save", lambda drawing, table: made.append(drawing)), \
+                    mock.patch.object(sys, "argv", ["figure_3a.py", "figure_3a.csv", *more]):
+                made = []
+                style.profiles("figure_3a", "varpi_m", -1, "")
+            style.plt.close(made[0])
+            return made[0].axes[0].lines[0].get_ydata()
+        plain, wide = curve(), curve("90")
+        self.assertEqual(len(plain), len(wide))
+        self.assertLess(max(wide) - min(wide), 0.95 * (max(plain) - min(plain)))
 
     def test_spheres_all_near_zero_need_no_second_scale(self):
         near = curves("mu", (0.5,), range(8, 56, 4))
