@@ -62,7 +62,7 @@ def profile():
 
 FRICTIONS = ("no-wall", "no-disc", "low", "medium", "high")
 STEPS = (0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1)
-SPHERES = (0.1, 0.15, 0.2, 0.25, 0.3, 0.5)
+SPHERES = (0.1, 0.15, 0.17, 0.2, 0.23, 0.25, 0.3, 0.5)
 
 TABLES = {
     "1b": [with_errors(row, pancake=-0.1) for row in rotation(range(24, 49))],
@@ -94,7 +94,7 @@ TABLES = {
                for seed in (1, 2) for k in range(1, 100)],
     "friction": [{"mu": mu, "crosses": float(mu > 0.1), "crossing": 50 - 10 * mu,
                   "crossing_error": 0.5, "steady_state": "drifting"} for mu in (0.05, 0.1, 0.5, 2)],
-    "inertia": curves("inertia", (0.5, 1, 10)),
+    "inertia": curves("inertia", (0.5, 1, 3, 10, 100, 1e4)),
     "map": [row for a in STEPS for b in STEPS
             for row in rotation([48], high=b - a, mu_disc=a, mu_wall=b)],
     "polygon": [row for m in (6, 10, 30, 300, 0) for row in rotation((28, 48), sides=m)],
