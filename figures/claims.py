@@ -818,15 +818,6 @@ def more_collisions(folder):
 
 
 def six_fold(folder):
-    rows = folder.curve("4b", setting="high")
-    return above(value(rows[-1], "psi6_stays"), SIX_FOLD), (
-        f"Hexatic order ψ6 of the discs on a stay at the wall: {ends(rows, 'psi6_stays')} (often "
-        f"six-fold: above {SIX_FOLD}, that of a liquid of hard discs about to freeze; points without any "
-        f"order have {NO_ORDER}, a crystal 1); of all that are pinned by the SI's criterion: "
-        f"{ends(rows, 'psi6_pinned')}; of all discs: {ends(rows, 'psi6')}.")
-
-
-def six_fold(folder):
     """Of discs that can have six neighbours: those at the wall cannot."""
     rows = folder.curve("4b", setting="high")
     return above(value(rows[-1], "six_pinned"), MOST), (
