@@ -15,7 +15,8 @@
 //   Of spheres besides: /initial/rolling_spin f64[N][2]; /events/vertical_impulse f64; /floor
 //                velocity f64[M][2] on each of the M legs of the path, attribute deceleration,
 //                μ_f g; of coins, which are written likewise, also the attribute lie_flat
-//   /parameters  attributes: format (1), period, swirl_end, container_radius, complete; texts: provenance
+//   /parameters  attributes: format (1), period, swirl_end, container_radius, complete; texts of
+//                the provenance
 //
 // Replaying. A disc moves uniformly between its events, from the state it got at its last one:
 // x + (t − t₀) v, angle + (t − t₀) spin. An event brings its discs to its time in that form and

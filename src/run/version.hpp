@@ -16,9 +16,12 @@ std::string build_description();
 /// their trajectories: a checkpoint of another law is rejected.
 constexpr int law_of(Shape shape) {
     switch (shape) {
-        case Shape::disc: return 1;
-        case Shape::sphere: return 1;
-        case Shape::coin: return 1;
+        case Shape::disc:
+            return 1;
+        case Shape::sphere:
+            return 1;
+        case Shape::coin:
+            return 1;
     }
     return 0;
 }

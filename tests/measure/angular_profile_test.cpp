@@ -77,8 +77,8 @@ Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
 }
 
 // Two discs that move alike turn at the rate 0 about their centre of mass (½, 0), so at −Ω in the
-// M-frame, where their speed is that of the frame's turning, Ω·½·|(5, 0)|. The wall at (±R, 0) has the
-// velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓ ½).
+// M-frame, where their speed is that of the frame's turning, Ω·½·|(5, 0)|. The wall at (±R, 0) has
+// the velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓ ½).
 TEST(AngularProfile, TheWallPassesACentreOfMassThatMoves) {
     AngularProfile profile(2);
     profile.sample(discs_at({{{3.0, 1e-9}, {0.5, 0.2}}, {{-2.0, -1e-9}, {0.5, 0.2}}}));

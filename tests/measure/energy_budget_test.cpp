@@ -114,8 +114,8 @@ TEST(EnergyBudget, APathVertexCostsNothing) {
     EXPECT_EQ(budget.accounted(), 0.0);
 }
 
-// The kick goes along the normal as it is, also where that is no unit vector by rounding; here it is
-// too long by a thousandth, so that an error of the budget shows.
+// The kick goes along the normal as it is, also where that is no unit vector by rounding; here it
+// is too long by a thousandth, so that an error of the budget shows.
 TEST(EnergyBudget, ClosesForANormalThatIsNoUnitVector) {
     const Vec2 n{1.001, 0.0};
     constexpr double J = 0.9;

@@ -87,8 +87,8 @@ TEST(LongStays, OtherDiscsOrTimesThatFallBackBeginAnew) {
 // R = 8.6. Of a disc of radius 2 the layer begins at 8.6 − 1.5·2 = 5.6, of one of radius ½ at 7.85.
 TEST(WallLayer, IsOneAndAHalfOfTheDiscsOwnRadii) {
     Snapshot s = empty_dish();
-    for (const auto& [radius, distance] : {std::pair{2.0, 5.61}, std::pair{2.0, 5.59},
-                                           std::pair{0.5, 7.86}, std::pair{0.5, 7.84}})
+    for (const auto& [radius, distance] :
+         {std::pair{2.0, 5.61}, std::pair{2.0, 5.59}, std::pair{0.5, 7.86}, std::pair{0.5, 7.84}})
         add_disc(s, s.container_centre + Vec2{0.0, distance}, {}, 0.0, radius);
     const MFrameView view(s);
     EXPECT_TRUE(in_wall_layer(view, 0));
