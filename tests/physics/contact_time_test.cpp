@@ -264,6 +264,27 @@ TEST(TimeOfWallContact, OnTheCircleTheQuickWayFindsWhatTheParabolasFind) {
     EXPECT_GT(quick, asked / 4);
 }
 
+// A disc that overlaps the wall a little and leaves it counts as just inside: the quick way leads
+// it to where it overlaps as much again.
+TEST(TimeOfWallContact, OnTheCircleTheQuickWayLeadsFromAnOverlapToTheSameOverlap) {
+    const Leg leg = circular_path(1.892, 11.866071).legs[0];
+    constexpr double clearance = 7.6, overlap = 1e-8;
+    int quick = 0;
+    for (int k = 0; k < 64; ++k) {
+        const Vec2 out = unit_circle(k / 64.0);
+        const Flyer disc{leg.start + (clearance + overlap) * out,
+                         leg.velocity - 0.3 * out + 0.5 * perpendicular(out), 0.0};
+        const TurningWall wall(disc, leg.flight_at(0.0), leg.turning, clearance);
+        const TurningWall::Near start = wall.first();
+        const double wait = quick_turning_wall_contact(wall, start);
+        if (wait == never) continue;
+        ++quick;
+        // A dozen roundings of squares of order 60; the overlap's is 1.5·10⁻⁷.
+        EXPECT_NEAR(wall.at(wait).c, start.c, 1e-12) << k;
+    }
+    EXPECT_GT(quick, 10);
+}
+
 // Hop after hop along the wall, in which the centre does little more than push: each is as long as
 // a parabola, but for the turning of the push.
 TEST(TimeOfWallContact, OnTheCircleAShortHopKeepsItsDigits) {
