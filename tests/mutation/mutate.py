@@ -22,6 +22,7 @@ import hashlib
 import os
 import re
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -129,8 +130,8 @@ class Workshop:
         return target
 
     def run(self, test, file=None, text=None, overlay=""):
-        """Compiles and runs one test file: ("passed" | "failed" | "time" | "not compiled", of
-        what)."""
+        """Compiles and runs one test file. Returns "passed", "failed", "time" or "not compiled", and
+        of what."""
         objects = []
         for part in parts(test):
             made = self.compiled(part, file, text, overlay or self.scratch)
@@ -146,7 +147,7 @@ class Workshop:
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
                                                   (CPU_SECONDS, CPU_SECONDS + 1)))
         os.remove(program)
-        if result.returncode in (-24, -9):
+        if result.returncode == -signal.SIGXCPU:
             return "time", test
         if result.returncode == 0:
             return "passed", test
@@ -161,7 +162,7 @@ class Workshop:
             sys.exit(f"error: {test} fails without a mutation: {self.baselines[test]}")
 
     def judge(self, number):
-        """("killed" | "survived" | "not compiled", by what)."""
+        """Returns "killed", "survived" or "not compiled", and by what."""
         file, before, after, *_ = MUTATIONS[number]
         text = text_of(file).replace(before, after)
         overlay = os.path.join(self.scratch, f"mutation_{number}")

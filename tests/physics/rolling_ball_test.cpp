@@ -53,5 +53,20 @@ TEST(RollingBall, IsOppositeTheSwirlCentreWithoutLag) {
     EXPECT_EQ(snapshot_at({}, A, T, 3.0 * T + 1.0).swirls, 3);
 }
 
+TEST(RollingBall, TurnsAgainstTheSwirlInTheMFrame) {
+    EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).rotation_in_m_frame(), -1.5);
+    EXPECT_EQ((RollingBall{9.0, 6.0, 0.5}).rotation_in_m_frame(), -0.75);
+}
+
+TEST(RollingBall, LagsClockwiseBehindTheDirectionFromTheSwirlCentre) {
+    for (const double t : {0.0, 4.0, 11.0}) {
+        const Snapshot s = snapshot_at({8.6, 5.0, 1.0, 0.3}, A, T, t);
+        const Vec2 C = s.container_centre, out = s.position(0) - C;
+        // Lengths A and 3.6, each known to a few 10⁻¹⁵.
+        EXPECT_NEAR(cross(C, out), -A * 3.6 * std::sin(0.3), 1e-13);
+        EXPECT_NEAR(dot(C, out), A * 3.6 * std::cos(0.3), 1e-13);
+    }
+}
+
 }  // namespace
 }  // namespace swirl
