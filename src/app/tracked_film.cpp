@@ -156,7 +156,7 @@ std::vector<TrackColumn> columns_of(const TrackedFilm& film, const FilmSpins* sp
     add("seen", [&](std::size_t k, std::size_t i) { return film.seen[k][i] ? 1.0 : 0.0; });
     if (!spins) return columns;
     // Per second, where the film says how long that is.
-    const double rate = 1.0 / (film.times[1] - film.times[0]);
+    const double rate = 1.0 / film.step();
     const auto add_spin = [&](const char* name, auto value) {
         add(name, [&](std::size_t k, std::size_t i) { return value(spins->discs[k][i]); });
     };

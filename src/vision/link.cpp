@@ -1,9 +1,12 @@
 #include "swirl/vision/link.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace swirl {
 
@@ -18,6 +21,9 @@ Vec2 turned_by(const Vec2& v, double angle) {
 
 constexpr int ways = 6;  // straight on in three frames, at rest in two of them, with the flow
 constexpr double unsure_costs = 0.25;  // of the squared gate
+
+/// Whether a pair of this cost may be assigned. The bound keeps sums of costs finite.
+bool is_allowed(double cost) { return std::abs(cost) <= 1e100; }
 
 struct Track {
     std::size_t kind = 0;
@@ -174,7 +180,7 @@ void Linker::assign(std::size_t kind, const std::vector<SeenDisc>& discs,
                 cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_costs));
         }
     }
-    const std::vector<int> column = best_assignment(cost);
+    const std::vector<int> column = best_assignment(cost, settings_.listen);
     for (std::size_t r = 0; r < rows.size(); ++r)
         if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < nobody)
             of[columns[static_cast<std::size_t>(column[r])]] = static_cast<int>(rows[r]);
@@ -210,7 +216,7 @@ void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<
             if (disc.kind == t.kind && q < reach * reach) cost[r][c] = q / (radius * radius);
         }
     }
-    const std::vector<int> column = best_assignment(cost);
+    const std::vector<int> column = best_assignment(cost, settings_.listen);
     for (std::size_t r = 0; r < free_tracks.size(); ++r) {
         if (column[r] < 0 || cost[r][static_cast<std::size_t>(column[r])] >= out_of_reach) continue;
         const std::size_t t = free_tracks[r];
@@ -286,23 +292,30 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
 
 }  // namespace
 
-std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost) {
+std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
+                                 const std::function<void()>& listen) {
     const std::size_t rows = cost.size();
     if (rows == 0) return {};
     const std::size_t columns = cost.front().size();
-    // Shortest augmenting paths need at least as many columns as rows; the missing ones cost more
-    // than any other.
-    double most = 0.0;
+    double most = 0.0, least_cost = 0.0;
     for (const auto& row : cost)
-        for (const double c : row) most = std::max(most, c);
+        for (const double c : row)
+            if (is_allowed(c)) most = std::max(most, c), least_cost = std::min(least_cost, c);
+    // Shortest augmenting paths need at least as many columns as rows; the missing ones cost more
+    // than any other. One forbidden pair costs more than all others can differ by together, so as
+    // few as possible are taken, and these are removed at the end. All costs of the search are
+    // finite, so every pass of its inner loop adds a column, and it ends.
     const std::size_t width = std::max(rows, columns);
+    const double forbidden = (most - least_cost + 1.0) * static_cast<double>(width + 1);
     const auto at = [&](std::size_t r, std::size_t c) {
-        return c < columns ? cost[r][c] : most + 1.0;
+        if (c >= columns) return most + 1.0;
+        return is_allowed(cost[r][c]) ? cost[r][c] : forbidden;
     };
     constexpr double infinite = std::numeric_limits<double>::infinity();
     std::vector<double> u(rows + 1, 0.0), v(width + 1, 0.0);
     std::vector<std::size_t> row_of(width + 1, 0), way(width + 1, 0);
     for (std::size_t r = 1; r <= rows; ++r) {
+        if (listen) listen();
         row_of[0] = r;
         std::size_t c0 = 0;
         std::vector<double> least(width + 1, infinite);
@@ -336,17 +349,26 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost) {
     }
     std::vector<int> column(rows, -1);
     for (std::size_t c = 1; c <= columns; ++c)
-        if (row_of[c] != 0) column[row_of[c] - 1] = static_cast<int>(c - 1);
+        if (row_of[c] != 0 && is_allowed(cost[row_of[c] - 1][c - 1]))
+            column[row_of[c] - 1] = static_cast<int>(c - 1);
     return column;
 }
 
 Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
                  const std::vector<double>& times, const DishPath& path,
                  const LinkSettings& settings) {
+    if (times.size() != pictures.size()) throw std::invalid_argument("Every frame needs a time.");
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
+            throw std::invalid_argument(
+                fmt::format("The times of frames must be finite and ascend, but frame {} has {}.",
+                            k, times[k]));
     Linker linker(path, settings);
     Links links;
-    for (std::size_t k = 0; k < pictures.size(); ++k)
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+        if (settings.listen) settings.listen();
         links.track.push_back(linker.step(pictures[k], times[k]));
+    }
     for (const Track& t : linker.tracks) links.kind.push_back(t.kind);
     links.refused = linker.refused;
     return links;

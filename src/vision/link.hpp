@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "swirl/math/vec2.hpp"
@@ -34,6 +35,7 @@ struct LinkSettings {
     std::vector<double> radii;         // of the kinds
     std::vector<std::size_t> numbers;  // of discs of each kind; empty: not known
     double gate = 1.4;                 // in radii
+    std::function<void()> listen{};    // called often; throws to stop
 };
 
 struct Links {
@@ -43,12 +45,15 @@ struct Links {
     std::uint64_t refused = 0;      // sure discs that would have been one too many
 };
 
+/// Throws std::invalid_argument unless every picture has a finite time later than the one before.
 Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
                  const std::vector<double>& times, const DishPath& path,
                  const LinkSettings& settings);
 
-/// The columns assigned to the rows so that the sum is least; −1 where there are fewer columns.
-/// cost[r][c] finite, any shape.
-std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost);
+/// The column assigned to each row, or -1. As many pairs as possible are assigned, and of these
+/// choices the one with the least sum of costs is taken. A cost that is not finite, or beyond
+/// ±1e100, forbids its pair. Any shape; terminates for any costs. `listen` is called for each row.
+std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
+                                 const std::function<void()>& listen = {});
 
 }  // namespace swirl

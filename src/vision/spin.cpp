@@ -484,7 +484,7 @@ void fill_gaps(const TrackedFilm& film, FilmSpins& spins) {
 
 FilmSpins spins_of(const TrackedFilm& film, const TrackingSettings& settings) {
     constexpr double steps_of_a_swirl = 32.0;
-    const double per_swirl = 2.0 * pi / film.path.omega / (film.times[1] - film.times[0]);
+    const double per_swirl = 2.0 * pi / film.path.omega / film.step();
     FilmSpins spins;
     spins.step = std::max(1, static_cast<int>(std::lround(per_swirl / steps_of_a_swirl)));
     const Steps steps = measure_steps(film, settings, spins.step);

@@ -42,6 +42,7 @@ double quantile(std::vector<double> values, double share) {
 struct Seen {
     CircleFit rim;
     std::vector<Bead> beads;
+    bool timed = true;  // false: nothing is used of a frame without a time of its own
 };
 
 struct Survey {
@@ -206,7 +207,7 @@ void drop_leaps(const std::vector<Seen>& all, const TrackedFilm& film, Links& li
             if (const int t = links.track[k][d]; t >= 0)
                 places[static_cast<std::size_t>(t)].push_back(
                     {k, d, all[k].beads[d].centre - film.path.at(film.times[k])});
-    const double way = film.path.amplitude * film.path.omega * (film.times[1] - film.times[0]);
+    const double way = film.path.amplitude * film.path.omega * film.step();
     for (std::size_t t = 0; t < places.size(); ++t)
         for (std::size_t j = 1; j + 1 < places[t].size(); ++j) {
             const Place &before = places[t][j - 1], &now = places[t][j], &after = places[t][j + 1];
@@ -235,7 +236,7 @@ std::vector<std::vector<Wanted>> lost_discs(const std::vector<Seen>& all, const 
         Vec2 at_dish;
     };
     std::vector<std::optional<Last>> last(links.kind.size());
-    const double step = film.times[1] - film.times[0];
+    const double step = film.step();
     const auto longest = static_cast<std::size_t>(0.5 * pi / (film.path.omega * step) + 2.0);
     for (std::size_t k = 0; k < all.size(); ++k)
         for (std::size_t d = 0; d < all[k].beads.size(); ++d) {
@@ -285,7 +286,7 @@ void search_again(const TrackingSettings& settings, const Survey& found, const T
             if (const int t = links.track[k][d]; t >= 0)
                 last[static_cast<std::size_t>(t)] =
                     all[k].beads[d].centre - film.path.at(film.times[k]);
-        if (here.empty()) continue;
+        if (here.empty() || !all[k].timed) continue;
         const Picture picture(grey, shrink, found.look.blur);
         CircleFit rim = all[k].rim;
         rim.centre = film.lens.seen(rim.good ? rim.centre : film.path.at(film.times[k]));
@@ -404,6 +405,7 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
         settings.radii.push_back(kind.radius);
         settings.numbers.push_back(kind.number);
     }
+    settings.listen = [&given] { given.listen(); };
     Links links = link_discs(discs, film.times, film.path, settings);
     drop_overlaps(all, settings.radii, links);
     drop_leaps(all, film, links);
@@ -430,7 +432,7 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
     film.seen.resize(all.size());
     for (std::size_t k = 0; k < all.size(); ++k)
         film.tracks.frames[k].number = static_cast<std::int64_t>(k);
-    const double per_period = 2.0 * pi / film.path.omega / (film.times[1] - film.times[0]);
+    const double per_period = 2.0 * pi / film.path.omega / film.step();
     const auto longest = static_cast<std::size_t>(std::max(2.0, per_period / 12.0));
     std::int64_t id = 0;
     std::map<std::size_t, std::size_t> kinds;
@@ -639,7 +641,7 @@ double cut_off(const TrackedFilm& film) {
 /// What looks wrong, with its likely cause.
 void warn(TrackedFilm& film) {
     const auto say = [&](std::string sentence) { film.warnings.push_back(std::move(sentence)); };
-    const double step = film.times[1] - film.times[0];
+    const double step = film.step();
     const double per_period = 2.0 * pi / (film.path.omega * step);
     const double periods = double(film.pictures) / per_period;
     if (periods < 1.0)
@@ -827,7 +829,68 @@ void judge_leaps(const std::vector<Leap>& leaps, TrackedFilm& film) {
                                          100.0 * share, from, from + longest - 1));
 }
 
+/// Sets the time of every frame; returns whether these are the video's own because they are uneven.
+/// Steps that differ by no more than the rounding of the video's clock count as equal.
+bool set_times(const TrackingSettings& settings, const FilmTimes& times, std::vector<Seen>& all,
+               TrackedFilm& film) {
+    constexpr double most_untimed = 0.1;  // of the frames
+    film.fps = settings.fps.value_or(times.fps);
+    film.jitter = times.jitter;
+    const std::size_t frames = all.size();
+    const bool known = times.seconds.size() == frames ||
+                       (settings.most_pictures > 0 && times.seconds.size() > frames);
+    if (settings.fps || times.jitter <= 0.2 || !known) {
+        for (std::size_t k = 0; k < frames; ++k)
+            film.times.push_back(double(k) / (film.fps > 0.0 ? film.fps : 1.0));
+        return false;
+    }
+    const AscendingTimes own =
+        ascending_times({times.seconds.begin(), times.seconds.begin() + std::ptrdiff_t(frames)});
+    for (const double second : own.seconds) film.times.push_back(second - own.seconds.front());
+    film.warnings.push_back(fmt::format(
+        "The film's frame rate varies: the steps between its pictures differ by up to {:.0f} % "
+        "from their mean, as telephones do in poor light. Its own times are used; a fixed rate "
+        "(a setting of the camera) is better.",
+        100.0 * times.jitter));
+    if (own.untimed.empty()) return true;
+    for (const std::size_t k : own.untimed) all[k] = {{}, {}, false};
+    const std::string what = fmt::format(
+        "{} of the {} frames of '{}' have no time of their own, the first at frame {}: their times "
+        "do not advance.",
+        own.untimed.size(), frames, settings.film, own.untimed.front());
+    if (double(own.untimed.size()) > most_untimed * double(frames))
+        throw Failure(what + " If the frames are equally spaced in time, give --fps.");
+    film.warnings.push_back(what +
+                            " These frames are not used, and their positions are filled in "
+                            "from the frames around them. If the frames are equally spaced "
+                            "in time, --fps uses all of them.");
+    return true;
+}
+
+/// Throws Failure if the video's clock advances by half a period or more between two frames: then
+/// neither the turns of the container nor the discs can be followed. The period is that of the
+/// frames taken as equally spaced, which no gap can spoil.
+void reject_gaps(const std::string& name, const std::vector<Vec2>& centres,
+                 const std::vector<std::size_t>& numbers, const TrackedFilm& film) {
+    const auto by_frame = fit_path(centres, {numbers.begin(), numbers.end()});
+    if (!by_frame) return;
+    const double half_period = pi / by_frame->omega * film.step();
+    for (std::size_t k = 1; k < film.times.size(); ++k)
+        if (const double step = film.times[k] - film.times[k - 1]; step >= half_period)
+            throw Failure(fmt::format(
+                "Between frames {} and {} of '{}' {:.3g} s pass, {:.3g} periods; discs cannot be "
+                "followed across half a period or more. Cut the video there, or give --fps if its "
+                "frames are equally spaced in time.",
+                k - 1, k, name, step, 0.5 * step / half_period));
+}
+
 }  // namespace
+
+double TrackedFilm::step() const {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
+    return quantile(steps, 0.5);
+}
 
 TrackedFilm track_film(const TrackingSettings& settings) {
     TrackedFilm film;
@@ -859,20 +922,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     if (all.size() < 8)
         throw Failure(fmt::format("'{}' holds {} pictures, too few to see a dish swirl.",
                                   settings.film, all.size()));
-    // When they were taken: steps that are equal but for the rounding of the file's clock are
-    // equal.
-    film.fps = settings.fps.value_or(times.fps);
-    film.jitter = times.jitter;
-    const bool uneven = !settings.fps && times.jitter > 0.2 && times.seconds.size() == all.size();
-    for (std::size_t k = 0; k < all.size(); ++k)
-        film.times.push_back(uneven ? times.seconds[k] - times.seconds.front()
-                                    : double(k) / (film.fps > 0.0 ? film.fps : 1.0));
-    if (uneven)
-        film.warnings.push_back(fmt::format(
-            "The film's frame rate varies: the steps between its pictures differ by up to {:.0f} % "
-            "from their mean, as telephones do in poor light. Its own times are used; a fixed rate "
-            "(a setting of the camera) is better.",
-            100.0 * times.jitter));
+    const bool uneven = set_times(settings, times, all, film);
 
     std::vector<Vec2> centres;
     std::vector<double> when, supports;
@@ -887,6 +937,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
         numbers.push_back(k);
         supports.push_back(all[k].rim.support);
     }
+    if (uneven) reject_gaps(settings.film, centres, numbers, film);
     const auto path = fit_path(centres, when);
     if (!path)
         throw Failure(

@@ -46,8 +46,9 @@ struct TrackedKind {
 struct TrackedFilm {
     int width = 0, height = 0;
     std::int64_t pictures = 0;
-    double fps = 0.0;  // pictures per second; 0: not known, and times are in pictures
-    std::vector<double> times;
+    double fps = 0.0;           // pictures per second; 0: not known, and times are in pictures
+    std::vector<double> times;  // ascending
+    double step() const;        // the usual one between two times
 
     Lens lens;  // all places and radii are those of an ideal lens that looks straight down
     Tilt tilt;

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <optional>
 
 #include "swirl/draw/film.hpp"
@@ -74,6 +76,10 @@ constexpr const char* missing =
     "Films are read by the program ffmpeg, which was not found: install it (apt-get install "
     "ffmpeg).";
 
+constexpr const char* no_times =
+    "The times of the video's frames do not ascend. If the frames are equally spaced in time, give "
+    "--fps.";
+
 std::string no_film(const std::string& film, const std::string& words) {
     std::string cause;
     if (words.find("moov atom not found") != words.npos)
@@ -132,13 +138,56 @@ FilmTimes film_times(const std::string& film) {
     return times;
 }
 
+AscendingTimes ascending_times(const std::vector<double>& seconds) {
+    constexpr double least = 0.01;  // of the usual step
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < seconds.size(); ++k)
+        if (const double step = seconds[k] - seconds[k - 1]; std::isfinite(step) && step > 0.0)
+            steps.push_back(step);
+    if (steps.empty()) throw Failure(no_times);
+    std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+    const double usual = steps[steps.size() / 2];
+    // Later than all frames before it, and earlier than all behind it.
+    std::vector<char> timed(seconds.size(), 1);
+    double latest = -std::numeric_limits<double>::infinity(), earliest = -latest;
+    for (std::size_t k = 0; k < seconds.size(); ++k) {
+        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > least * usual)) timed[k] = 0;
+        if (std::isfinite(seconds[k])) latest = std::max(latest, seconds[k]);
+    }
+    for (std::size_t k = seconds.size(); k-- > 0;) {
+        if (!(earliest - seconds[k] > least * usual)) timed[k] = 0;
+        if (std::isfinite(seconds[k])) earliest = std::min(earliest, seconds[k]);
+    }
+    AscendingTimes found{seconds, {}};
+    std::optional<std::size_t> last;  // that has a time
+    for (std::size_t k = 0; k <= seconds.size(); ++k) {
+        if (k < seconds.size() && !timed[k]) found.untimed.push_back(k);
+        if (k < seconds.size() && !timed[k]) continue;
+        // The frames between two that have a time; the first and the last ones, by the usual step.
+        const std::size_t begin = last ? *last + 1 : 0;
+        const bool at_end = k == seconds.size();
+        const double step =
+            last && !at_end ? (seconds[k] - seconds[*last]) / double(k - *last) : usual;
+        for (std::size_t j = begin; j < k; ++j)
+            found.seconds[j] = last ? seconds[*last] + step * double(j - *last)
+                                    : seconds[k] - step * double(k - j);
+        last = k;
+    }
+    if (found.untimed.size() + 2 > seconds.size() ||
+        !std::is_sorted(found.seconds.begin(), found.seconds.end(), std::less_equal<>()))
+        throw Failure(no_times);
+    return found;
+}
+
 Video::Video(std::string film, std::int64_t every) : film_(std::move(film)) {
     std::vector<std::string> arguments = input_of(film_);
     const auto add = [&](std::initializer_list<std::string> more) {
         arguments.insert(arguments.end(), more.begin(), more.end());
     };
     add({"-an", "-fps_mode", "passthrough"});
-    if (every > 1) add({"-vf", fmt::format("select=not(mod(n\\,{}))", every)});
+    // Frames are numbered anew: ffmpeg would complain about times that do not advance.
+    const std::string select = every > 1 ? fmt::format("select=not(mod(n\\,{})),", every) : "";
+    add({"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
     add({"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing);
 }

@@ -24,6 +24,18 @@ struct FilmTimes {
 /// Reads the file through without decoding a picture. Throws Failure if it is no film.
 FilmTimes film_times(const std::string& film);
 
+/// Strictly ascending times, and which frames of the video had no time of their own.
+struct AscendingTimes {
+    std::vector<double> seconds;
+    std::vector<std::size_t> untimed;  // ascending
+};
+
+/// Frames without a finite time, and frames that share theirs: a step below a hundredth of the
+/// median step is none. Which of two such frames has the wrong time cannot be known, so both are
+/// untimed, and get times spread evenly between the neighbouring frames that have one. Throws
+/// Failure if fewer than two frames are left. `seconds` ascending.
+AscendingTimes ascending_times(const std::vector<double>& seconds);
+
 class Video {
   public:
     /// Every `every`th picture, the first one first. Throws Failure.

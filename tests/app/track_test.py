@@ -378,6 +378,56 @@ class FilmTest(InFolder):
                           "-qp", "14")
         self.assertIn("frame rate varies", said)
 
+    def with_times(self, film, name, times):
+        """The same pictures with other times: an expression of N, in frames."""
+        subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-vf", f"setpts='({times})/60/TB'",
+                        "-fps_mode", "passthrough", "-enc_time_base", "1/600", "-c:v", "libx264",
+                        "-bf", "0", "-qp", "10", self.path(name)], check=True)
+        return self.path(name)
+
+    def test_frames_that_share_a_time(self):
+        film = self.film()
+        # Frame 40 has the time of frame 39, or the other way round; three frames have one time.
+        for name, times, untimed in (("late.mkv", "if(eq(N,40),39,N)", {39, 40}),
+                                     ("early.mkv", "if(eq(N,39),40,N)", {39, 40}),
+                                     ("three.mkv", "if(between(N,39,41),39,N)", {39, 40, 41})):
+            with self.subTest(times=times):
+                tracks, said = self.track(self.with_times(film, name, times), name=name[:-4] + ".csv")
+                self.assertIn(f"{len(untimed)} of the 74 frames", said)
+                self.assertIn("the first at frame 39", said)
+                self.assertNotIn("damaged", said)
+                with open(tracks[:-4] + ".camera.json", encoding="utf-8") as file:
+                    found = json.load(file)
+                truth = Truth(film).about
+                # 60 frames per second, as the other frames have it.
+                omega = found["path"]["omega"] / 60.0 / truth["omega"]
+                self.assertLess(abs(omega - 1.0), 1e-3)
+                seen = places(tracks)
+                self.assertEqual(set(range(74)) - set(seen), untimed)  # filled in, not seen
+                true = places(film[:-4] + ".truth.csv", "x_ideal", "y_ideal")
+                judged = Judged({k: true[k] for k in seen}, seen, truth)
+                self.assertEqual(judged.complete, 1.0)
+                self.assertEqual(judged.exchanges, 0)
+                self.assertLess(judged.rms, 0.4)  # as of the film with good times
+        # All frames are used where their spacing is given.
+        tracks, said = self.track(self.path("late.mkv"), "--fps", 60, name="given.csv")
+        self.assertNotIn("time of their own", said)
+        self.assertEqual(set(places(tracks)), set(range(74)))
+
+    def test_times_that_cannot_be_right_are_rejected(self):
+        film = self.film()
+        out = self.path("tracks.csv")
+        # An hour passes between two frames; every other frame shares its time.
+        for name, times, word in (("pause.mkv", "if(gte(N,40),N+216000,N)", "3.6e+03 s pass"),
+                                  ("period.mkv", "if(gte(N,40),N+47,N)", "half a period"),
+                                  ("half.mkv", "2*floor(N/2)", "do not ascend")):
+            with self.subTest(times=times):
+                self.refused(1, word, "--fps", call=swirl(
+                    "track", self.with_times(film, name, times), "--out", out))
+        # A gap of 30 frames, less than half a period, is none of these.
+        tracks, said = self.track(self.with_times(film, "gap.mkv", "if(gte(N,40),N+20,N)"))
+        self.assertIn("frame rate varies", said)
+
     def test_wrong_calls(self):
         for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
                                  (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),

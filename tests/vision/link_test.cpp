@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
@@ -46,6 +48,69 @@ TEST(BestAssignment, IsTheBestOfAllPermutations) {
         } while (std::next_permutation(order.begin(), order.end()));
         EXPECT_NEAR(sum, best, 1e-12);
     }
+}
+
+/// The best of all partial assignments: as many pairs as possible, then the least sum.
+struct Best {
+    std::size_t pairs = 0;
+    double sum = 0.0;
+};
+Best by_trial(const std::vector<std::vector<double>>& cost, std::size_t row,
+              std::vector<char>& used) {
+    if (row == cost.size()) return {};
+    Best best = by_trial(cost, row + 1, used);
+    for (std::size_t c = 0; c < used.size(); ++c) {
+        if (used[c] || !(std::abs(cost[row][c]) <= 1e100)) continue;
+        used[c] = 1;
+        Best here = by_trial(cost, row + 1, used);
+        used[c] = 0;
+        ++here.pairs;
+        here.sum += cost[row][c];
+        if (here.pairs > best.pairs || (here.pairs == best.pairs && here.sum < best.sum))
+            best = here;
+    }
+    return best;
+}
+
+TEST(BestAssignment, IsTheBestOfAllPairsThatAreAllowedAndEndsForAnyCosts) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double odd[] = {std::numeric_limits<double>::quiet_NaN(), infinite, -infinite, 1e300,
+                          -1e300};
+    Random random(3);
+    for (int trial = 0; trial < 500; ++trial) {
+        const std::size_t rows = 1 + random.below(5), columns = 1 + random.below(5);
+        const std::size_t strange = random.below(6);  // of five costs
+        std::vector<std::vector<double>> cost(rows, std::vector<double>(columns));
+        for (auto& row : cost)
+            for (double& c : row)
+                c = random.below(5) < strange ? odd[random.below(5)] : 2.0 * random.uniform() - 1.0;
+        const std::vector<int> found = best_assignment(cost);
+        std::vector<char> used(columns, 0);
+        Best mine;
+        for (std::size_t r = 0; r < rows; ++r) {
+            if (found[r] < 0) continue;
+            const auto c = static_cast<std::size_t>(found[r]);
+            ASSERT_LT(c, columns);
+            ASSERT_FALSE(used[c]);
+            used[c] = 1;
+            ++mine.pairs;
+            mine.sum += cost[r][c];
+        }
+        std::vector<char> none(columns, 0);
+        const Best best = by_trial(cost, 0, none);
+        ASSERT_EQ(mine.pairs, best.pairs);
+        // Five costs below 1, next to forbidden ones of at most 18: rounding is below 1e-13.
+        ASSERT_NEAR(mine.sum, best.sum, 1e-12);
+    }
+}
+
+TEST(BestAssignment, ListensForEveryRow) {
+    const std::vector<std::vector<double>> cost(9, std::vector<double>(9, 1.0));
+    int heard = 0;
+    best_assignment(cost, [&] { ++heard; });
+    EXPECT_EQ(heard, 9);
+    EXPECT_THROW(best_assignment(cost, [] { throw std::runtime_error("stop"); }),
+                 std::runtime_error);
 }
 
 /// A cluster that goes round with the given angular velocity about the middle of a swirled dish,
@@ -173,6 +238,51 @@ TEST(Linking, NobodyIsBornBeyondTheNumber) {
     open.numbers.clear();
     EXPECT_EQ(link_discs(scene.pictures, scene.times, scene.path, open).kind.size(),
               scene.pictures.front().size() + 1);
+}
+
+TEST(Linking, TimesThatDoNotAscendAreRejected) {
+    for (const double wrong : {19.0, 18.0, std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::infinity()}) {
+        Scene scene(0.4, 40);
+        scene.times[20] = wrong;
+        EXPECT_THROW(link_discs(scene.pictures, scene.times, scene.path, scene.settings()),
+                     std::invalid_argument);
+    }
+}
+
+TEST(Linking, EndsAfterStepsOfAnySize) {
+    // Discs cannot be followed across such a step, but every one is still followed at most once.
+    for (const double step : {1e-300, 1e-15, 1e15, 1e300})
+        for (const bool counted : {true, false}) {
+            Scene scene(0.4, 40);
+            for (std::size_t k = 20; k < 40; ++k)
+                scene.times[k] = scene.times[19] + step + double(k - 20);
+            for (std::size_t k = 20; k < 40; ++k)
+                if (!(scene.times[k] > scene.times[k - 1]))
+                    scene.times[k] = std::nextafter(scene.times[k - 1], 1e308);
+            LinkSettings settings = scene.settings();
+            if (!counted) settings.numbers.clear();
+            const Links links = link_discs(scene.pictures, scene.times, scene.path, settings);
+            ASSERT_EQ(links.track.size(), 40u);
+            for (const auto& tracks : links.track) {
+                std::vector<int> sorted;
+                for (const int t : tracks)
+                    if (t >= 0) sorted.push_back(t);
+                std::sort(sorted.begin(), sorted.end());
+                EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end());
+            }
+        }
+}
+
+TEST(Linking, StopsWhenItIsTold) {
+    const Scene scene(0.4, 40);
+    LinkSettings settings = scene.settings();
+    int heard = 0;
+    settings.listen = [&] {
+        if (++heard == 30) throw std::runtime_error("stop");
+    };
+    EXPECT_THROW(link_discs(scene.pictures, scene.times, scene.path, settings), std::runtime_error);
+    EXPECT_EQ(heard, 30);
 }
 
 }  // namespace
