@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "swirl/files/track_mending.hpp"
 #include "swirl/files/track_recording.hpp"
@@ -23,39 +27,105 @@ bool is_hdf5(const std::string& file) {
     return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
 }
 
+/// A number of the calibration, by its name as an option and in a camera file.
+struct CameraNumber {
+    const char* name;
+    std::string TrackTexts::*text;
+    double otherwise, least;
+};
+constexpr CameraNumber camera_numbers[] = {
+    {"camera-fps", &TrackTexts::fps, 1.0, 1e-12},
+    {"scale", &TrackTexts::scale, 1.0, 1e-12},
+    {"omega", &TrackTexts::omega, 1.0, 1e-12},
+    {"phase", &TrackTexts::phase, 0.0, -std::numeric_limits<double>::infinity()},
+    {"amplitude", &TrackTexts::amplitude, 0.0, 0.0},
+    {"container-radius", &TrackTexts::container_radius, 1.0, 1e-12},
+};
+
+double given_number(const TrackTexts& texts, std::string_view name) {
+    const auto number = std::find_if(std::begin(camera_numbers), std::end(camera_numbers),
+                                     [&](const CameraNumber& n) { return n.name == name; });
+    return number_option(number->name, texts.*number->text, number->otherwise, number->least);
+}
+
+/// What `swirl track` wrote of the dish. Every field must be there, once and of its type: a field
+/// that is skipped would leave its default, and wrong results.
+class CameraFile {
+  public:
+    explicit CameraFile(std::filesystem::path path) : path_(std::move(path)) {
+        std::vector<std::set<std::string>> keys;  // of the objects that are open
+        const auto check = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& part) {
+            using Event = nlohmann::json::parse_event_t;
+            if (event == Event::object_start) keys.emplace_back();
+            if (event == Event::object_end) keys.pop_back();
+            if (event == Event::key && !keys.back().insert(part.get<std::string>()).second)
+                wrong(fmt::format("'{}' appears twice", part.get<std::string>()));
+            return true;
+        };
+        const auto json = nlohmann::json::parse(read_regular_file(path_), check, false);
+        if (json.is_object())
+            if (const auto format = json.value("format", nlohmann::json(camera_format));
+                format != camera_format)
+                throw Failure(fmt::format("'{}' is in format {}, but this program reads format {}.",
+                                          path_.string(), format.dump(), camera_format));
+        if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
+            wrong("it has no 'camera'");
+        camera_ = json["camera"];
+    }
+    double number(const CameraNumber& number) const {
+        const double value = number_in(field(number.name), number.name);
+        if (value < number.least)
+            wrong(fmt::format("{} is {}, but it must be at least {}", number.name, value,
+                              number.least));
+        return value;
+    }
+    Vec2 point(const char* name) const {
+        const nlohmann::json& value = field(name);
+        if (!value.is_array() || value.size() != 2)
+            wrong(fmt::format("{} is {}, but it must be two numbers", name, value.dump()));
+        return {number_in(value[0], name), number_in(value[1], name)};
+    }
+    bool flag(const char* name) const {
+        const nlohmann::json& value = field(name);
+        if (!value.is_boolean())
+            wrong(fmt::format("{} is {}, but it must be true or false", name, value.dump()));
+        return value.get<bool>();
+    }
+
+  private:
+    [[noreturn]] void wrong(const std::string& what) const {
+        throw Failure(fmt::format(
+            "'{}' is not what `swirl track` writes beside its tracks: {}. Remove it, or track the "
+            "film again.",
+            path_.string(), what));
+    }
+    const nlohmann::json& field(const char* name) const {
+        const auto found = camera_.find(name);
+        if (found == camera_.end()) wrong(fmt::format("{} is missing", name));
+        return *found;
+    }
+    double number_in(const nlohmann::json& value, const char* name) const {
+        if (!value.is_number())
+            wrong(fmt::format("{} is {}, but it must be a number", name, field(name).dump()));
+        return value.get<double>();
+    }
+
+    std::filesystem::path path_;
+    nlohmann::json camera_;
+};
+
 /// What `swirl track` found, where nothing else was said.
 TrackTexts completed(TrackTexts texts, const std::string& file) {
     const std::filesystem::path beside = camera_file(file);
     if (!std::filesystem::is_regular_file(beside)) return texts;
-    const auto json = nlohmann::json::parse(read_regular_file(beside), nullptr, false);
-    const auto camera = json.is_object() ? json.find("camera") : json.end();
-    if (!json.is_object() || camera == json.end() || !camera->is_object())
-        throw Failure(fmt::format(
-            "'{}' is not what `swirl track` writes beside its tracks; remove it, or track the film "
-            "again.",
-            beside.string()));
-    if (const auto format = json.value("format", nlohmann::json(camera_format));
-        format != camera_format)
-        throw Failure(fmt::format("'{}' is in format {}, but this program reads format {}.",
-                                  beside.string(), format.dump(), camera_format));
-    // Any of these would be of another calibration than the rest.
-    const bool clockwise = texts.clockwise;
-    for (const auto& [name, text] :
-         {std::pair("camera-fps", &texts.fps), std::pair("scale", &texts.scale),
-          std::pair("omega", &texts.omega), std::pair("phase", &texts.phase),
-          std::pair("amplitude", &texts.amplitude),
-          std::pair("container-radius", &texts.container_radius)}) {
-        const auto value = camera->find(name);
-        if (text->empty() && value != camera->end() && value->is_number())
-            *text = fmt::format("{}", value->get<double>());
+    const CameraFile camera(beside);
+    for (const CameraNumber& number : camera_numbers) {
+        const std::string found = fmt::format("{}", camera.number(number));
+        if ((texts.*number.text).empty()) texts.*number.text = found;
     }
-    const auto centre = camera->find("centre");
-    if (texts.centre.empty() && centre != camera->end() && centre->is_array() &&
-        centre->size() == 2 && (*centre)[0].is_number() && (*centre)[1].is_number())
-        texts.centre = fmt::format("{},{}", (*centre)[0].get<double>(), (*centre)[1].get<double>());
-    const auto sense = camera->find("clockwise");
-    texts.clockwise =
-        clockwise || (sense != camera->end() && sense->is_boolean() && sense->get<bool>());
+    const Vec2 centre = camera.point("centre");
+    if (texts.centre.empty()) texts.centre = fmt::format("{},{}", centre.x, centre.y);
+    texts.clockwise = camera.flag("clockwise") || texts.clockwise;
     return texts;
 }
 
@@ -116,7 +186,6 @@ Tracks read_tracks(const std::string& file, const TrackScale& scale) {
 
 TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     const TrackTexts texts = completed(given, file);
-    constexpr double any = -std::numeric_limits<double>::infinity();
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty())
@@ -127,12 +196,12 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
                 "made of a film here have a file beside them that says all that.",
                 file, name));
     TrackScale scale;
-    scale.frames_per_time = number_option("camera-fps", texts.fps, 1.0, 1e-12);
-    scale.pixels_per_radius = number_option("scale", texts.scale, 1.0, 1e-12);
-    scale.period = 2.0 * pi / number_option("omega", texts.omega, 1.0, 1e-12);
-    scale.amplitude = number_option("amplitude", texts.amplitude, 0.0, 0.0);
-    scale.phase = number_option("phase", texts.phase, 0.0, any) * pi / 180.0;
-    scale.container_radius = number_option("container-radius", texts.container_radius, 1.0, 1e-12);
+    scale.frames_per_time = given_number(texts, "camera-fps");
+    scale.pixels_per_radius = given_number(texts, "scale");
+    scale.period = 2.0 * pi / given_number(texts, "omega");
+    scale.amplitude = given_number(texts, "amplitude");
+    scale.phase = given_number(texts, "phase") * pi / 180.0;
+    scale.container_radius = given_number(texts, "container-radius");
     scale.clockwise = texts.clockwise;
     if (texts.centre.empty()) return scale;
     const std::size_t comma = texts.centre.find(',');

@@ -103,10 +103,13 @@ std::vector<std::string_view> cells(std::string_view line) {
     }
 }
 
-std::optional<std::size_t> index_of(const std::vector<std::string_view>& names,
+/// Where the header line just read has this column.
+std::optional<std::size_t> index_of(const Lines& lines, const std::vector<std::string_view>& names,
                                     std::string_view name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) return {};
+    if (std::find(found + 1, names.end(), name) != names.end())
+        lines.wrong(fmt::format("there are two columns '{}'", name));
     return std::size_t(found - names.begin());
 }
 
@@ -197,8 +200,9 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     const std::string text = read_whole_file(path);
     Lines lines(path, text);
     const auto names = cells(lines.expect("a header line with frame, particle, x, y"));
-    const auto frame = index_of(names, "frame"), particle = index_of(names, "particle");
-    const auto x = index_of(names, "x"), y = index_of(names, "y");
+    const auto frame = index_of(lines, names, "frame"),
+               particle = index_of(lines, names, "particle");
+    const auto x = index_of(lines, names, "x"), y = index_of(lines, names, "y");
     if (!frame || !particle || !x || !y)
         lines.wrong(
             "the header must name the columns frame, particle, x and y, separated by commas");
@@ -209,7 +213,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     };
     std::map<std::int64_t, std::map<std::int64_t, Place>> tracks;  // by particle and frame
     const auto of_ours = [&](std::string_view name) {
-        return index_of(names, "seen") ? index_of(names, name) : std::nullopt;
+        return index_of(lines, names, "seen") ? index_of(lines, names, name) : std::nullopt;
     };
     const auto radius = of_ours("radius"), spin = of_ours("spin");
     // Counter-clockwise in the picture, where y is down.
@@ -275,14 +279,17 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
         } else if (line.starts_with("ITEM: ATOMS")) {
             if (atoms < 0) lines.wrong("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
             const auto names = split(line.substr(11), ' ');
-            const auto id = index_of(names, "id");
-            const auto x = index_of(names, "x") ? index_of(names, "x") : index_of(names, "xu");
-            const auto y = index_of(names, "y") ? index_of(names, "y") : index_of(names, "yu");
+            const auto id = index_of(lines, names, "id");
+            const auto x = index_of(lines, names, "x") ? index_of(lines, names, "x")
+                                                       : index_of(lines, names, "xu");
+            const auto y = index_of(lines, names, "y") ? index_of(lines, names, "y")
+                                                       : index_of(lines, names, "yu");
             if (!id || !x || !y)
                 lines.wrong("the atoms must have the columns id, x and y (or xu and yu)");
-            const auto vx = index_of(names, "vx"), vy = index_of(names, "vy");
-            const auto radius = index_of(names, "radius"), mass = index_of(names, "mass");
-            const auto omega = index_of(names, "omegaz");
+            const auto vx = index_of(lines, names, "vx"), vy = index_of(lines, names, "vy");
+            const auto radius = index_of(lines, names, "radius"),
+                       mass = index_of(lines, names, "mass");
+            const auto omega = index_of(lines, names, "omegaz");
             struct Row {
                 Vec2 position, velocity;
                 double radius, mass, spin;

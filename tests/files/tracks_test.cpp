@@ -1,5 +1,6 @@
 #include "swirl/files/tracks.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -81,6 +82,12 @@ TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
         EXPECT_NE(refused(missing).find("line 1: the header must name the columns"),
                   std::string::npos)
             << missing;
+    for (const char* name : {"frame", "particle", "x", "y"})
+        EXPECT_NE(refused(fmt::format("frame,particle,x,y,{}\n0,0,1,2,0\n", name))
+                      .find(fmt::format("line 1: there are two columns '{}'", name)),
+                  std::string::npos);
+    // Columns that are not read may have any name.
+    EXPECT_EQ(tracks_in("frame,particle,x,y,,\n0,0,1,2,,\n").frames.size(), 1u);
     EXPECT_NE(refused(head + "0,0,1,2\n0,1,nan,2\n").find("line 3: 'nan' is not a finite number"),
               std::string::npos);
     EXPECT_NE(refused(head + "0,0,,2\n").find("line 2: '' is not a finite number"),

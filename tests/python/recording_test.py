@@ -224,10 +224,23 @@ def test_what_was_mended_is_said(table):
 def test_a_film_tracked_here_needs_no_scale(table, tmp_path):
     table.assign(radius=20.0, seen=1).to_csv(tmp_path / "tracks.csv", index=False)
     camera = {name.replace("_", "-"): value for name, value in SCALE.items()}
+    camera.update({"phase": 0.0, "clockwise": False})
     (tmp_path / "tracks.camera.json").write_text(json.dumps({"camera": camera}))
     read, given = swirl.Tracks.read(tmp_path / "tracks.csv"), swirl.Tracks(table, **SCALE)
     np.testing.assert_array_equal(read[200].position, given[200].position)
     np.testing.assert_array_equal(read[200].radius, np.ones(20))
-    (tmp_path / "tracks.camera.json").write_text("{}")
-    with pytest.raises(swirl.Failure, match="is not what `swirl track` writes beside its tracks"):
+    good = json.dumps({"camera": camera})
+    wrong = ["{}", good.replace('"clockwise"', '"clockwise": true, "clockwise"')]
+    wrong += [json.dumps({"camera": {**camera, name: value}})
+              for name, value in (("phase", None), ("clockwise", 1), ("centre", [1.0]),
+                                  ("scale", "20"))]
+    for text in wrong:
+        (tmp_path / "tracks.camera.json").write_text(text)
+        with pytest.raises(swirl.Failure, match="is not what `swirl track` writes beside its tracks"):
+            swirl.Tracks.read(tmp_path / "tracks.csv")
+    (tmp_path / "tracks.camera.json").write_text(good)
+    text = (tmp_path / "tracks.csv").read_text().splitlines()
+    twice = [text[0] + ",x", *(line + ",0" for line in text[1:])]
+    (tmp_path / "tracks.csv").write_text("\n".join(twice) + "\n")
+    with pytest.raises(swirl.Failure, match="two columns 'x'"):
         swirl.Tracks.read(tmp_path / "tracks.csv")

@@ -145,6 +145,10 @@ class Tracks(Recording):
         """From a table of trackpy as CSV. What is not given is taken from NAME.camera.json beside
         NAME.csv, as `swirl track` writes it."""
         import pandas
+        header = pandas.read_csv(file, header=None, nrows=1, dtype=str).iloc[0]
+        for name in ("frame", "particle", "x", "y", "seen", "radius"):
+            if (header == name).sum() > 1:
+                raise _engine.Failure(f"'{file}' has two columns {name!r}.")
         beside = pathlib.Path(file).with_suffix(".camera.json")
         if beside.is_file():
             scale = {**_camera(beside), **scale}
@@ -165,17 +169,32 @@ def _of_our_tracker(table: Any) -> bool:
     return "seen" in names and "radius" in names
 
 
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    if len(dict(pairs)) < len(pairs):
+        raise ValueError("a name appears twice")
+    return dict(pairs)
+
+
 def _camera(file: pathlib.Path) -> dict[str, Any]:
-    """What was found of the dish, as arguments of Tracks."""
+    """What was found of the dish, as arguments of Tracks. Every field must be there, once and of its
+    type, as `swirl measure` has it: a field that is skipped would leave its default."""
+    numbers = ("omega", "container_radius", "amplitude", "camera_fps", "scale", "phase")
     try:
-        found = json.loads(file.read_text())["camera"]
-        return {argument: found[argument.replace("_", "-")]
-                for argument in ("omega", "container_radius", "amplitude", "camera_fps", "scale",
-                                 "centre", "phase", "clockwise")
-                if argument.replace("_", "-") in found}
-    except (ValueError, KeyError, TypeError):
-        raise _engine.Failure(f"'{file}' is not what `swirl track` writes beside its tracks; remove "
-                              "it, or track the film again.") from None
+        found = json.loads(file.read_text(), object_pairs_hook=_unique)["camera"]
+        camera = {argument: found[argument.replace("_", "-")]
+                  for argument in (*numbers, "centre", "clockwise")}
+        for name in numbers:
+            if type(camera[name]) not in (int, float):
+                raise TypeError(f"{name} is {camera[name]!r}, but it must be a number")
+        centre = camera["centre"]
+        if type(centre) is not list or [type(part) in (int, float) for part in centre] != [True, True]:
+            raise TypeError(f"centre is {centre!r}, but it must be two numbers")
+        if type(camera["clockwise"]) is not bool:
+            raise TypeError(f"clockwise is {camera['clockwise']!r}, but it must be true or false")
+        return camera
+    except (ValueError, KeyError, TypeError) as wrong:
+        raise _engine.Failure(f"'{file}' is not what `swirl track` writes beside its tracks: {wrong}. "
+                              "Remove it, or track the film again.") from None
 
 
 @dataclasses.dataclass(frozen=True)
