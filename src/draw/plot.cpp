@@ -10,9 +10,9 @@ namespace swirl {
 
 namespace {
 
-/// Where the curves go, once there is room for numbers to the left and beneath.
+/// Where the curves go: numbers stand to the left and beneath, the name of the quantity above.
 Rectangle inner_area(const Rectangle& area, const PlotStyle& style) {
-    const double left = 3.6 * style.type, below = 2.3 * style.type, above = 0.4 * style.type;
+    const double left = 3.6 * style.type, below = 2.3 * style.type, above = 1.7 * style.type;
     return {area.x + left, area.y + above, area.width - left - 0.6 * style.type,
             area.height - below - above};
 }
@@ -103,16 +103,24 @@ double round_step(double span, int count) {
 }
 
 void fit_range(PlotStyle& style, std::span<const Curve> curves) {
+    constexpr double tail = 0.025;  // of the raw values, on either side
     double lowest = 0.0, highest = 0.0;
     for (const Curve& curve : curves) {
+        std::vector<double> raw;
         for (std::size_t k = 0; k < curve.time.size(); ++k) {
-            const bool shown = curve.time[k] >= style.from && curve.time[k] <= style.to;
-            if (!shown || std::isnan(curve.smooth[k])) continue;
+            if (curve.time[k] < style.from || curve.time[k] > style.to) continue;
+            if (!std::isnan(curve.raw[k])) raw.push_back(curve.raw[k]);
+            if (std::isnan(curve.smooth[k])) continue;
             lowest = std::min(lowest, curve.smooth[k]);
             highest = std::max(highest, curve.smooth[k]);
         }
+        if (raw.empty()) continue;
+        std::sort(raw.begin(), raw.end());
+        const auto cut = static_cast<std::size_t>(tail * static_cast<double>(raw.size()));
+        lowest = std::min(lowest, raw[cut]);
+        highest = std::max(highest, raw[raw.size() - 1 - cut]);
     }
-    const double air = std::max(0.18 * (highest - lowest), 0.02);
+    const double air = std::max(0.05 * (highest - lowest), 0.02);
     style.lowest = lowest - air;
     style.highest = highest + air;
 }
@@ -162,6 +170,7 @@ void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& t
         draw_label(canvas, text, {x, p.y + 1.2 * style.type}, tick);
     }
     const LabelStyle name{.size = style.type, .color = theme.ink};
+    draw_label(canvas, style.vertical_label, {inner.x, inner.y - 0.5 * style.type}, name);
     draw_label(canvas, axis.label,
                {inner.x + 0.5 * (inner.width - label_width(canvas, axis.label, name)),
                 inner.y + inner.height + 2.2 * style.type},
@@ -209,22 +218,14 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
                         {p.x + (left ? -0.6 : 0.6) * style.type, p.y - 0.5 * style.type},
                         left ? Align::right : Align::left});
     }
-    // In the upper left corner stands the name of the quantity.
-    const bool in_corner = std::any_of(tags.begin(), tags.end(), [&](const Tag& tag) {
-        return tag.place.x < inner.x + 4.0 * style.type;
-    });
-    keep_apart(tags, inner.y + (in_corner ? 2.6 : 1.0) * style.type,
-               inner.y + inner.height - 0.2 * style.type, 1.1 * style.type);
+    keep_apart(tags, inner.y + 1.0 * style.type, inner.y + inner.height - 0.2 * style.type,
+               1.1 * style.type);
     for (const Tag& tag : tags)
         draw_label(canvas, tag.curve->label, tag.place,
                    {.size = 0.92 * style.type,
                     .color = tag.curve->color,
                     .align = tag.align,
                     .halo = theme.floor});
-    // The name of the quantity stands upright in the upper left corner, before all lines.
-    draw_label(canvas, style.vertical_label,
-               {inner.x + 0.5 * style.type, inner.y + 1.35 * style.type},
-               {.size = style.type, .color = theme.ink, .halo = theme.floor});
 }
 
 }  // namespace swirl

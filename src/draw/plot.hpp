@@ -11,7 +11,7 @@
 namespace swirl {
 
 /// One curve: samples in order of time. `smooth` is what is read off (the mean over the last
-/// swirl), `raw` the instantaneous value behind it, drawn faintly and cut at the edges.
+/// swirl), `raw` the instantaneous value behind it, drawn faintly.
 struct Curve {
     std::vector<double> time, raw, smooth;
     std::string label;
@@ -26,7 +26,9 @@ struct PlotStyle {
     double type;  // size of the type in pixels
 };
 
-/// A range that holds zero and every smooth value between `from` and `to`, with some air.
+/// A range that holds zero, every smooth value between `from` and `to`, and the middle 95 % of the
+/// raw values there, with some air. Rare spikes of the raw curve are cut at the edges; with room
+/// for them, the sign of the smooth curve could not be read.
 void fit_range(PlotStyle& style, std::span<const Curve> curves);
 
 /// Axes, grid, zero line: what does not change.

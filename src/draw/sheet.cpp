@@ -195,11 +195,11 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
         }
     }
     if (readable && spec_.plot) {
-        const double plot = std::clamp(0.15 * height, 6.0 * type_, 0.3 * height);
+        const double plot = std::clamp(0.17 * height, 7.0 * type_, 0.3 * height);
         const double plot_width = std::min(inner, 2.2 * height);
         plot_area_ = Rectangle{0.5 * (width - plot_width), bottom - plot, plot_width, plot};
         spec_.plot->type = 0.85 * type_;
-        bottom -= plot + 0.8 * type_;
+        bottom -= plot + 0.1 * type_;
     }
     if (readable && legend_height() > 0.0) {
         legend_area_ = Rectangle{margin_, bottom - 1.5 * type_, inner, 1.5 * type_};

@@ -11,11 +11,12 @@ import {MapsPanel} from "./maps";
 import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
 import {Recording} from "./recording";
 import {meansOf, swirlsOf, tableOf} from "./series";
-import {discAt, discOf, draw, pointedAt, turnBetween, type Coloring, type View} from "./scene";
+import {discAt, discOf, draw, pointedAt, recent, turnBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
 import {lesson, presets, symbols, texts} from "./texts";
 
-const trailLength = 45; // frames
+const trailLength = 45; // frames, at most
+const trailPeriods = 0.3; // at most, as swirl movie has it
 const settling = 350; // milliseconds after the last change before it is made
 
 // --- state ------------------------------------------------------------------------------------
@@ -169,8 +170,9 @@ function room(): number {
 
 function redraw(): void {
     if (!last) return;
+    const past = trails ? recent(history, last.frame, trailPeriods * Number(configuration["period"])) : [];
     for (const [each, canvas] of Object.entries(canvases) as [View, HTMLCanvasElement][]) {
-        draw(canvas, last.frame, {view: each, coloring, trails: trails ? history : [],
+        draw(canvas, last.frame, {view: each, coloring, trails: past,
                                   event: last.event, next: last.next, dark: dark(),
                                   omega: forces && !byHand ? 2 * Math.PI / Number(configuration["period"]) : 0,
                                   room: room(), turned, held});

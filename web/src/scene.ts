@@ -212,6 +212,12 @@ function drawTurned(context: CanvasRenderingContext2D, frame: Frame, turned: num
     context.globalAlpha = 1;
 }
 
+/** The part of the history, oldest first, that trails show: no earlier than `longest` before `now`. A
+ *  number of frames alone would cover the dish where each takes much of a period. */
+export function recent(history: Float64Array[], now: Float64Array, longest: number): Float64Array[] {
+    return history.filter((f) => f[0]! >= now[0]! - longest);
+}
+
 function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Look,
                     hair: number): void {
     const frames = [...look.trails, f];

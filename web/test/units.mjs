@@ -85,7 +85,7 @@ try {
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
     assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
 
-    const {turnBetween, discAt} = await load("scene");
+    const {turnBetween, discAt, recent} = await load("scene");
     const turned = (discs, by) => discs.map(([x, y]) => [
         3 + x * Math.cos(by) - y * Math.sin(by), 4 + x * Math.sin(by) + y * Math.cos(by)]);
     const pack = [[0, 0], [2, 0], [1, 3], [-4, 2]];
@@ -96,6 +96,13 @@ try {
     assert.equal(turnBetween(frame(pack), frame(pack.slice(1))), 0); // another dish
     assert.equal(discAt(frame(pack), 2.5, 0.5), 1);
     assert.equal(discAt(frame(pack), 2.9, 0.9), undefined);
+    // Trails reach back by a time, however much of it lies between two frames.
+    for (const [step, count] of [[0.01, 30], [0.1, 3], [0.2, 1], [2, 0]]) {
+        const history = Array.from({length: 45}, (_, k) => frame(pack, {time: step * (k - 45) - 1e-9}));
+        const past = recent(history, frame(pack), 0.3 + 1e-8);
+        assert.equal(past.length, count, `${past.length} frames of ${step} periods`);
+        assert.deepEqual(past, history.slice(45 - count)); // the newest ones, in order
+    }
 
     // The eight octants of a ball, however it is turned, cover what is seen of it, and nothing twice.
     const {seenFrom, turnedBy, visiblePart} = await load("ball");
