@@ -92,7 +92,8 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"rim_radius", film.rim_radius},
               {"reach_of_the_discs", film.reach},
               {"rim_seen", film.rim_support},
-              {"rims_missed", film.rims_missed}}},
+              {"rims_missed", film.rims_missed},
+              {"shake", film.shake}}},
             {"path",
              {{"centre", vector_json(film.path.centre)},
               {"centre_error", film.path.centre_error},
@@ -115,7 +116,8 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
               {"position_error", film.position_error},
               {"position_error_from_overlaps", film.overlap_error},
               {"filled_positions", film.filled},
-              {"discs_too_many", film.refused}}},
+              {"discs_too_many", film.refused},
+              {"pictures_with_discs_too_many", film.crowded}}},
             {"millimetres_per_pixel",
              source.disc_diameter   ? Json(*source.disc_diameter / (2.0 * film.radius))
              : source.dish_diameter ? Json(*source.dish_diameter / (2.0 * film.container_radius))

@@ -343,6 +343,18 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     return path;
 }
 
+double shake_of(const std::vector<Vec2>& centres, const std::vector<std::size_t>& numbers,
+                const DishPath& path) {
+    std::vector<double> bends;
+    for (std::size_t k = 1; k + 1 < centres.size(); ++k) {
+        if (numbers[k + 1] != numbers[k - 1] + 2) continue;
+        bends.push_back(std::abs(length(centres[k - 1] - path.centre) -
+                                 2.0 * length(centres[k] - path.centre) +
+                                 length(centres[k + 1] - path.centre)));
+    }
+    return bends.empty() ? 0.0 : 1.4826 * median(bends) / std::sqrt(6.0);
+}
+
 std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
                            const std::vector<std::size_t>& numbers, const DishPath& path) {
     constexpr std::size_t around = 5, fewest = 12;
@@ -380,11 +392,14 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
     std::vector<double> sorted = steps;
     std::sort(sorted.begin(), sorted.end());
     const double large = sorted[sorted.size() * 9 / 10];
+    // Steps of a shaking camera are near zero by chance.
+    const bool steady =
+        large * path.amplitude > stands_out * std::sqrt(2.0) * shake_of(centres, numbers, path);
     const auto moves = [&](std::size_t k) {
         return k >= steps.size() || (steps[k] > 0.5 * large && steps[k] < 1.5 * large);
     };
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        const bool stays = std::abs(steps[k]) < 0.15 * large &&
+        const bool stays = steady && std::abs(steps[k]) < 0.15 * large &&
                            large * path.amplitude > least_amplitude && moves(k - 1) && moves(k + 1);
         if (stays) {
             leap(k, large);

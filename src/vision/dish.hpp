@@ -55,6 +55,11 @@ CircleFit find_rim(const Picture& picture, const Rim& rim);
 std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
                                  const std::vector<double>& times);
 
+/// How far the camera shakes from frame to frame, rms of a coordinate: from the second differences
+/// of the centres' distances from the path's middle, which change slowly on any path.
+double shake_of(const std::vector<Vec2>& centres, const std::vector<std::size_t>& numbers,
+                const DishPath& path);
+
 /// Where the dish went another way between two pictures than between those around them: pictures
 /// that are lost, or are there twice. Angles about the path's middle, picture by picture, tell
 /// where they err by less than a sixth of a step; nothing is told where they do not.

@@ -367,7 +367,9 @@ Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
     Links links;
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         if (settings.listen) settings.listen();
+        const std::uint64_t refused = linker.refused;
         links.track.push_back(linker.step(pictures[k], times[k]));
+        if (linker.refused > refused) ++links.crowded;
     }
     for (const Track& t : linker.tracks) links.kind.push_back(t.kind);
     links.refused = linker.refused;

@@ -43,6 +43,7 @@ struct Links {
     std::vector<std::vector<int>> track;
     std::vector<std::size_t> kind;  // of each track
     std::uint64_t refused = 0;      // sure discs that would have been one too many
+    std::uint64_t crowded = 0;      // frames with at least one of these
 };
 
 /// Throws std::invalid_argument unless every picture has a finite time later than the one before.

@@ -412,6 +412,7 @@ void track(const TrackingSettings& given, const Survey& found, std::vector<Seen>
     search_again(given, found, film, all, links);
     part_overlaps(links, settings.radii, all, film);
     film.refused = links.refused;
+    film.crowded = links.crowded;
     // By track: where it was when.
     struct Place {
         std::size_t picture;
@@ -715,11 +716,17 @@ void warn(TrackedFilm& film) {
             "a sharper picture or a shorter exposure would help{}.",
             film.number, 100.0 * film.complete,
             film.kinds.size() == 1 ? "; --discs says how many there are" : ""));
-    if (double(film.refused) > 0.05 * double(film.pictures))
+    if (double(film.crowded) > 0.05 * double(film.pictures))
         say(fmt::format(
-            "In {:.0f} % of the pictures there are more discs than the {} that were counted; "
-            "--discs says how many there are.",
-            100.0 * double(film.refused) / double(film.pictures), film.number));
+            "In {:.0f} % of the frames there are more discs than the {} that were counted, {:.1f} "
+            "more in the mean of these frames; --discs says how many there are.",
+            100.0 * double(film.crowded) / double(film.pictures), film.number,
+            double(film.refused) / double(film.crowded)));
+    if (film.shake > std::max(0.5, 3.0 * film.position_error))
+        say(fmt::format(
+            "The container shakes by {:.1f} pixels from frame to frame: the camera was not steady, "
+            "or the rim is hard to see. Positions relative to the container err by as much.",
+            film.shake));
     if (film.touching > 0.0 && std::abs(film.touching - 1.0) > 0.03)
         say(
             fmt::format("Discs that touch are {:.3f} of the diameters apart that their outlines "
@@ -947,6 +954,7 @@ TrackedFilm track_film(const TrackingSettings& settings) {
     film.rim_radius = quantile(rims, 0.5);
     add_error_of_lens(centres, when, film);
     if (!uneven) judge_leaps(leaps_of(centres, numbers, film.path), film);
+    film.shake = shake_of(centres, numbers, film.path);
     film.polygon = polygon_of(centres, when, film.path);
     for (std::size_t k = 0; k < all.size(); ++k)
         film.rim_off.push_back(

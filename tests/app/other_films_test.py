@@ -80,6 +80,18 @@ class OtherFilms(InFolder):
             self.assertIn("cut the film", done.stderr)
             self.assertEqual(self.left_behind(), ["film.mp4"])
 
+    def test_a_shaking_camera_is_reported_and_no_frame_is_there_twice(self):
+        film, done = self.call(shake=1.7)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("shakes by", done.stdout)
+        self.assertNotIn("twice", done.stdout)
+        with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
+            camera = json.load(file)
+        self.assertAlmostEqual(camera["dish"]["shake"], 1.7, delta=0.5)  # of 84 frames
+        self.assertEqual(camera["discs"], len(film.radii))
+        omega = 2.0 * math.pi / film.per_swirl * camera["fps"]
+        self.assertLess(abs(camera["path"]["omega"] - omega), 3.0 * camera["path"]["omega_error"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -230,14 +230,16 @@ TEST(Linking, AStrayTrackIsTakenBackByTheDiscThatNobodyExplains) {
 TEST(Linking, NobodyIsBornBeyondTheNumber) {
     Scene scene(0.4, 30);
     for (std::size_t k = 10; k < 20; ++k)
-        scene.pictures[k].push_back({{scene.path.centre.x + 170.0, scene.path.centre.y}});
+        for (const double x : {170.0, 210.0})
+            scene.pictures[k].push_back({{scene.path.centre.x + x, scene.path.centre.y}});
     const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
     EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
-    EXPECT_EQ(links.refused, 10u);
+    EXPECT_EQ(links.refused, 20u);
+    EXPECT_EQ(links.crowded, 10u);  // frames, however many each has
     LinkSettings open = scene.settings();
     open.numbers.clear();
     EXPECT_EQ(link_discs(scene.pictures, scene.times, scene.path, open).kind.size(),
-              scene.pictures.front().size() + 1);
+              scene.pictures.front().size() + 2);
 }
 
 TEST(Linking, TimesThatDoNotAscendAreRejected) {
