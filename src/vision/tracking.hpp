@@ -57,7 +57,7 @@ struct TrackedFilm {
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     bool stopped = false;  // discs are hardly ever beyond `reach`: it is the wall
     std::size_t rims_missed = 0;
-    double shake = 0.0;  // of the camera from frame to frame, rms of a coordinate
+    double shake = 0.0;        // of the camera from frame to frame, rms of a coordinate
     Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
     double rim_support = 0.0;
     /// How far from the path the rim's centre was in each picture; below 0 where it was not seen.
@@ -78,7 +78,7 @@ struct TrackedFilm {
     double overlap_error = 0.0;   // distances that hard discs cannot have; without the tail
     std::uint64_t filled = 0;
     std::uint64_t refused = 0, crowded = 0;  // discs beyond the number, and frames with such
-    double jitter = 0.0;  // of the film's times, in steps
+    double jitter = 0.0;                     // of the film's times, in steps
     std::vector<std::string> warnings;
 
     TrackScale scale() const;  // for series_of()
