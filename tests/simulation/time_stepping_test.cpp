@@ -58,12 +58,21 @@ void rub_at_contact(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, doubl
     const double normal = (1.0 + e) * approach / bodies;
     const Vec3 tangent = outer(n, up);
     const double s_t = inner(slip_and_approach, tangent), s_z = slip_and_approach.z;
-    const double stop_t = -s_t / (bodies * (1.0 + 1.0 / inertia));
-    const double stop_z = -s_z / (bodies / inertia);
-    const double stop = std::hypot(stop_t, stop_z);
-    const double share = stop == 0.0 ? 0.0 : std::min(1.0, mu * normal / stop);
-    const Vec3 along_floor = normal * n + (share * stop_t) * tangent;  // on j
-    const Vec3 friction = (share * stop_t) * tangent + (share * stop_z) * up;
+    // Who is lifted responds with its mass; the wall has none.
+    const double lifted = j || s_z > 0.0 ? 1.0 : 0.0;
+    const double m_t = 1.0 / (bodies * (1.0 + 1.0 / inertia));
+    const double m_z = 1.0 / (lifted + bodies / inertia);
+    double J_t = -m_t * s_t, J_z = -m_z * s_z;
+    const double coulomb = mu * normal, stick = std::hypot(J_t, J_z), k = coulomb / stick;
+    if (k < 1.0) {
+        const double slip = std::hypot(s_t, s_z);
+        const double stops = slip * slip * slip / (s_t * s_t / m_t + s_z * s_z / m_z);
+        const double first = (1.0 - k * k) * std::min(coulomb, stops) / slip;
+        J_t = k * k * k * J_t - first * s_t;
+        J_z = k * k * k * J_z - first * s_z;
+    }
+    const Vec3 along_floor = normal * n + J_t * tangent;  // on j
+    const Vec3 friction = J_t * tangent + J_z * up;
     i.velocity = i.velocity - along_floor;
     i.spin = i.spin - (1.0 / inertia) * outer(n, friction);
     if (!j) return;
