@@ -108,6 +108,7 @@ bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
     b.vertical_wall = a.vertical_wall;
     b.floor_friction = a.floor_friction;
     b.gravity = a.gravity;
+    b.rolling_resistance = a.rolling_resistance;
     b.amplitude = a.amplitude;
     b.period = a.period;
     b.sides = a.sides;

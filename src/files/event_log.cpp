@@ -79,6 +79,8 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
         file.create_group("/floor");
         file.write("/floor/velocity", velocity, {floor.velocity.size(), 2});
         file.set_attribute("/floor", "deceleration", floor.floor.deceleration);
+        if (floor.floor.rolling_resistance != 0.0)
+            file.set_attribute("/floor", "rolling_resistance", floor.floor.rolling_resistance);
         if (floor.floor.bodies_lie_flat)
             file.set_attribute("/floor", "lie_flat", std::vector<std::int64_t>{1});
     }
@@ -202,7 +204,10 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
         vertical_impulse_ = column("vertical_impulse");
         floor_.emplace();
         floor_->floor = {file_->number_attribute("/floor", "deceleration"),
-                         file_->has_attribute("/floor", "lie_flat")};
+                         file_->has_attribute("/floor", "lie_flat"),
+                         file_->has_attribute("/floor", "rolling_resistance")
+                             ? file_->number_attribute("/floor", "rolling_resistance")
+                             : 0.0};
         const auto velocity = file_->column("/floor/velocity").read<double>();
         for (std::size_t k = 0; k + 1 < velocity.size(); k += 2)
             floor_->velocity.push_back({velocity[k], velocity[k + 1]});

@@ -6,7 +6,8 @@
 //   /events      one entry per event, in order:
 //     swirls     i64   whole periods before it
 //     clock      f64   time since the start of the current swirl
-//     kind       u8    0 disc–disc, 1 disc–wall, 2 path vertex, 3 a sphere begins to roll
+//     kind       u8    0 disc–disc, 1 disc–wall, 2 path vertex, 3 a sphere begins to roll, or
+//                      it or a coin comes to rest on the floor
 //     i, j       u32   the discs, i < j; j = i for the wall; both 0 at a path vertex
 //     normal_x, normal_y f64  unit vector from i to j, or from i outwards to the wall
 //     normal_impulse     f64  on j (on the wall) along the normal; i gets the opposite
@@ -14,7 +15,8 @@
 //     sticks     u8    1: the contact's slip was stopped, 0: it slid
 //   Of spheres besides: /initial/rolling_spin f64[N][2]; /events/vertical_impulse f64; /floor
 //                velocity f64[M][2] on each of the M legs of the path, attribute deceleration,
-//                μ_f g; of coins, which are written likewise, also the attribute lie_flat
+//                μ_f g; if it is not zero also the attribute rolling_resistance, μ_r g; of coins,
+//                which are written likewise, also the attribute lie_flat
 //   /parameters  attributes: format (1), period, swirl_end, container_radius, complete; texts of
 //                the provenance
 //

@@ -16,13 +16,15 @@
 // change of K that the snapshots show up to rounding: the budget closes, and a law that leaked
 // would show.
 //
-// Spheres (collision_law.hpp): L_t has the vertical part −J_z (s_z + s'_z)/2 too; a contact on a
-// floor may give back what pressing has stored, so L_n may be below 0 there. Between collisions the
-// floor acts, with the velocity u, which is constant on a leg. With P the momentum of all, and ΔP
-// and ΔK what the snapshots show from event to event less what the collisions did,
+// Spheres (collision_law.hpp): L_t has the vertical part −J_z (s_z + s'_z)/2 too, of the planar
+// motion, so with the energy that lifts one of them; a contact on a floor may give back what
+// pressing has stored, so L_n may be below 0 there. Between collisions the floor acts, with the
+// velocity u, which is constant on a leg. With P the momentum of all, and ΔP and ΔK what the
+// snapshots show from event to event less what the collisions did,
 //
 //   W_f = u·ΔP                work of the moving floor
-//   L_f = W_f − ΔK            what sliding on it takes, Σ μ_f m g ∫|c| dt ≥ 0
+//   L_f = W_f − ΔK            what sliding on it takes, Σ μ_f m g ∫|c| dt ≥ 0, and rolling against
+//                             a resistance, Σ μ_r m g times the way over the floor
 //
 // Here the floor is what is left over, so the budget closes by construction and says nothing of
 // that; that L_f is never negative does.
@@ -65,7 +67,7 @@ class EnergyBudget {
     Estimate disc_friction_power() const { return disc_friction_.estimate(); }
     Estimate wall_friction_power() const { return wall_friction_.estimate(); }
     Estimate inelastic_power() const { return inelastic_.estimate(); }
-    /// Of the floor, and lost in sliding on it; of spheres on a floor.
+    /// Of the floor, and lost in sliding and rolling on it; of spheres on a floor.
     Estimate floor_power() const { return floor_work_.estimate(); }
     Estimate floor_friction_power() const { return floor_friction_.estimate(); }
 
@@ -92,7 +94,8 @@ class EnergyBudget {
                         inelastic_power()});
         visit(ReportRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
                         floor_power()});
-        visit(ReportRow{"floor_friction_power", "m v³/r", "lost in sliding on the floor",
+        visit(ReportRow{"floor_friction_power", "m v³/r",
+                        "lost on the floor in sliding and to rolling resistance",
                         floor_friction_power()});
         visit(ReportRow{.name = "unaccounted_share",
                         .unit = "1",

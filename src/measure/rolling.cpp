@@ -20,9 +20,7 @@ void Rolling::sample_in_lab(const Snapshot& lab) {
     for (std::size_t i = 0; i < lab.size(); ++i) {
         mean_radius += lab.radius[i] / static_cast<double>(lab.size());
         const Disc d = lab.disc(i);
-        const Vec2 rolls = spin_of_rolling(d.velocity - lab.container_velocity, d.radius);
-        // Who rolls has these very spins (floor.hpp).
-        const bool does = rolls.x == d.rolling_spin.x && rolls.y == d.rolling_spin.y;
+        const bool does = lab.rolls(i);
         const Vec2 c = slip_on_floor(d, lab.container_velocity);
         rolls_.add(does ? 1.0 : 0.0);
         const Vec2 out = d.position - lab.container_centre;

@@ -3,7 +3,8 @@
 //
 // Seen at equal steps of time, every 7th sample:
 //
-//   rolling share    the share of the spheres that do not slip on the floor; and of those at the
+//   rolling share    the share of the spheres that do not slip on the floor (they roll, or rest on
+//   it); and of those at the
 //                    wall, the gap to which is below 0.1 R
 //   floor slip       ⟨|c|⟩, c = v − u − R ω × ẑ
 //   axis correlation Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
@@ -19,7 +20,7 @@
 //   vertical share   Σ J_z² / Σ (J_t² + J_z²): of friction's impulses, how much is vertical
 //   vertical friction  Σ |J_z| / Σ J_n: at most μ
 //   vertical power   what friction takes by the vertical components alone, per sphere and time,
-//                    −J_z (s_z + s'_z)/2
+//                    −J_z (s_z + s'_z)/2, with the energy that lifts one of them
 //
 // Touching: gap below 0.1 of the mean radius. Units as stated; errors from blocks of periods.
 // Limits: NaN for discs, which do not roll; without a floor everybody slips, and c says nothing.

@@ -10,7 +10,7 @@
 namespace swirl {
 
 /// The paper's three kinds of event (SI "Overview"), and a fourth: a sphere no longer slides on the
-/// floor.
+/// floor, or, against a rolling resistance, no longer rolls; or a coin comes to rest on it.
 enum class EventKind : std::uint8_t { disc_disc, disc_wall, path_vertex, begins_to_roll };
 
 struct Event {

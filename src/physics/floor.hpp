@@ -18,15 +18,24 @@
 //     Δv = Δu / (1 + m R²/I), 2/7 Δu for a solid sphere.
 // ω_z is no business of the floor: a point has no lever.
 //
+// Rolling resistance: a torque μ_r m g R against the rolling. Rolling with w = v − u, the floor's
+// friction f and this torque slow it down together: m dw/dt = −f and I dω/dt = f R − μ_r m g R with
+// w = ω R, so
+//     dw/dt = −μ_r g / (1 + I/(m R²)) ŵ,    5/7 μ_r g for a solid sphere,
+// up to its rest on the floor, after |w| over that; it then goes with the floor. The force that
+// this takes of the floor is below μ_f m g if μ_r ≤ μ_f, which is required, so it does not slide.
+// While a sphere slides the torque is left out: along ω and not along c, it would turn ĉ, and its
+// share of the torque of sliding is μ_r/μ_f.
+//
 // A coin is a disc that lies flat on the floor, which has no lever to turn it over. It slips at
 // c = v − u, so all is as above without the turning: dc/dt = −μ_f g ĉ, and it comes to rest on the
 // floor, v = u, after |c| / (μ_f g); that is the event at which a sphere begins to roll. Then
 // the floor takes it along, up to the end of the leg. What the floor does to the spin of a coin
 // (its rim rubs too, and hinders sliding less while it turns) is left out.
 //
-// Limits: one coefficient for sliding and sticking, no resistance to rolling, none to pivoting; a
-// floor that does not turn its velocity while somebody slides: polygons, not the exact circle.
-// Without a floor (μ_f g = 0) a sphere flies as a disc does.
+// Limits: one coefficient for sliding and sticking; resistance to rolling only while one rolls,
+// none to pivoting; a floor that does not turn its velocity while somebody slides: polygons, not
+// the exact circle. Without a floor (μ_f g = 0) a sphere flies as a disc does.
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -50,6 +59,7 @@ inline constexpr double shell_inertia(double mass, double radius) {
 struct Floor {
     double deceleration = 0.0;     // μ_f g, of a body that slides without turning; 0 is no floor
     bool bodies_lie_flat = false;  // coins
+    double rolling_resistance = 0.0;  // μ_r g, of spheres
 };
 
 /// Uniformly accelerated motion, as Flight is uniform: the state held at `time`.
@@ -71,8 +81,12 @@ struct Parabola {
 /// What the floor does to a sphere until something else happens to it.
 struct FloorMotion {
     Vec2 acceleration{0.0, 0.0};
-    Vec2 spin_rate{0.0, 0.0};       // (dω_x/dt, dω_y/dt)
-    double begins_to_roll = never;  // when it no longer slides; never, if it does not slide
+    Vec2 spin_rate{0.0, 0.0};  // (dω_x/dt, dω_y/dt)
+    /// When it no longer slides, and begins to roll or, a coin, rests on the floor; or when one
+    /// that slows down has come to rest on it. Never, if it does neither.
+    double begins_to_roll = never;
+    bool slows_down = false;        // rolls, against a resistance
+    Vec2 floor_velocity{0.0, 0.0};  // over which it does
 };
 
 /// (ω_x, ω_y) of a sphere that rolls with this velocity over the floor.
@@ -97,16 +111,30 @@ SWIRL_INLINE constexpr Vec2 rolling_spin_rate(const Vec2& acceleration, double m
     return {rate * acceleration.y, -(rate * acceleration.x)};
 }
 
+/// Of a sphere that rolls.
+SWIRL_INLINE FloorMotion rolling_motion(const Disc& d, const Floor& floor,
+                                        const Vec2& floor_velocity) {
+    if (floor.rolling_resistance == 0.0) return {};
+    const Vec2 w = d.velocity - floor_velocity;
+    const double speed = square_root(dot(w, w));
+    if (speed == 0.0) return {};
+    const double rate =
+        floor.rolling_resistance / (1.0 + d.inertia / (d.mass * d.radius * d.radius));
+    const Vec2 a = (-rate / speed) * w;
+    return {a, spin_of_rolling(a, d.radius), d.time + speed / rate, true, floor_velocity};
+}
+
 /// From the stored state alone.
 SWIRL_INLINE FloorMotion floor_motion(const Disc& d, const Floor& floor,
                                       const Vec2& floor_velocity) {
     if (floor.deceleration == 0.0) return {};
     // A coin at rest on the floor has the spin of a sphere that rolls with it: none.
     const Vec2 rolls = spin_of_rolling(d.velocity - floor_velocity, d.radius);
-    if (d.rolling_spin.x == rolls.x && d.rolling_spin.y == rolls.y) return {};
+    if (d.rolling_spin.x == rolls.x && d.rolling_spin.y == rolls.y)
+        return rolling_motion(d, floor, floor_velocity);
     const Vec2 c = slip_on_floor(d, floor_velocity);
     const double slip = square_root(dot(c, c));
-    if (slip == 0.0) return {};
+    if (slip == 0.0) return rolling_motion(d, floor, floor_velocity);
     const Vec2 a = (-floor.deceleration / slip) * c;
     if (floor.bodies_lie_flat) return {a, {0.0, 0.0}, d.time + slip / floor.deceleration};
     return {a, rolling_spin_rate(a, d.mass, d.radius, d.inertia),
@@ -125,16 +153,19 @@ SWIRL_INLINE constexpr Disc moved_to(const Disc& d, const FloorMotion& motion, d
     after.position = parabola(d, motion).position_at(t);
     after.velocity = parabola(d, motion).velocity_at(t);
     after.angle = d.angle + elapsed * d.spin;
-    after.rolling_spin = d.rolling_spin + elapsed * motion.spin_rate;
+    after.rolling_spin = motion.slows_down
+                             ? spin_of_rolling(after.velocity - motion.floor_velocity, d.radius)
+                             : d.rolling_spin + elapsed * motion.spin_rate;
     after.time = t;
     return after;
 }
 
-/// The end of sliding, at its time: from now on it rolls, or rests on the floor, exactly.
+/// The end of sliding or of slowing down, at its time: from now on it rolls, or rests on the floor,
+/// exactly.
 SWIRL_INLINE constexpr Disc set_rolling(const Disc& d, const FloorMotion& motion,
                                         const Floor& floor, const Vec2& floor_velocity) {
     Disc after = moved_to(d, motion, motion.begins_to_roll);
-    if (floor.bodies_lie_flat) after.velocity = floor_velocity;
+    if (floor.bodies_lie_flat || motion.slows_down) after.velocity = floor_velocity;
     after.rolling_spin = spin_of_rolling(after.velocity - floor_velocity, d.radius);
     return after;
 }

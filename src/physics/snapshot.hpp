@@ -62,9 +62,16 @@ struct Snapshot {
     Quaternion quaternion(std::size_t i, double t) const {
         return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i], spin_rate(i));
     }
-    /// (dω_x/dt, dω_y/dt) of a sphere.
+    /// Whether the sphere rolls, or rests, on the floor: it then has these very spins (floor.hpp).
+    bool rolls(std::size_t i) const {
+        const Vec2 over_floor = Vec2{vx[i], vy[i]} - container_velocity;
+        const Vec2 rolling = spin_of_rolling(over_floor, radius[i]);
+        return rolling.x == spin_x[i] && rolling.y == spin_y[i];
+    }
+    /// (dω_x/dt, dω_y/dt) of a sphere. One that rolls is accelerated by rolling resistance alone.
     Vec2 spin_rate(std::size_t i) const {
         if (lie_flat) return {0.0, 0.0};
+        if (rolls(i)) return spin_of_rolling({ax[i], ay[i]}, radius[i]);
         return rolling_spin_rate({ax[i], ay[i]}, mass[i], radius[i], inertia[i]);
     }
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
@@ -81,7 +88,8 @@ struct Snapshot {
         for (std::size_t i = 0; i < size(); ++i) {
             if (!turned.empty()) now.turned[i] = quaternion(i);
             FloorMotion motion;
-            if (are_spheres()) motion = {{ax[i], ay[i]}, spin_rate(i), never};
+            if (are_spheres())
+                motion = {{ax[i], ay[i]}, spin_rate(i), never, rolls(i), container_velocity};
             now.set(i, moved_to(disc(i), motion, clock));
         }
     }

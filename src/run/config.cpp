@@ -99,6 +99,8 @@ std::optional<std::string> not_without_floor(const RunConfig& c) {
     if (c.floor_friction != usual.floor_friction)
         return answer("--floor-friction", c.floor_friction);
     if (c.gravity != usual.gravity) return answer("--gravity", c.gravity);
+    if (c.rolling_resistance != usual.rolling_resistance)
+        return answer("--rolling-resistance", c.rolling_resistance);
     return {};
 }
 
@@ -119,9 +121,22 @@ std::optional<std::string> floor_too_rough(const RunConfig& c) {
         2.0 * bearable * speed / c.contact_duration);
 }
 
+/// Up to the floor's friction a sphere that slows down does not slide (floor.hpp).
+std::optional<std::string> resists_too_much(const RunConfig& c) {
+    if (c.rolling_resistance <= c.floor_friction) return {};
+    return fmt::format(
+        "--rolling-resistance is {}, but it must not be above --floor-friction, {}: the spheres "
+        "would slide instead of rolling.",
+        c.rolling_resistance, c.floor_friction);
+}
+
 /// What is of spheres alone, and what nobody on a floor can do.
 std::optional<std::string> not_for_this_body(const RunConfig& c) {
     if (c.body == Shape::disc) {
+        if (c.rolling_resistance != 0.0)
+            return fmt::format(
+                "--rolling-resistance is {}, but discs do not roll; --body sphere would be right.",
+                c.rolling_resistance);
         if (c.vertical_disc != 1.0)
             return fmt::format(
                 "--vertical-disc is {}, but discs do not slip vertically; --body sphere would be "
@@ -166,6 +181,7 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto answer = not_for_this_body(config)) return answer;
     if (auto answer = not_without_floor(config)) return answer;
     if (auto answer = floor_too_rough(config)) return answer;
+    if (auto answer = resists_too_much(config)) return answer;
     return warmup_too_long(config);
 }
 
@@ -197,7 +213,8 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
         {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_disc},
         {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_wall},
         c.shape(),
-        {c.floor ? c.floor_friction * c.gravity : 0.0, c.shape() == Shape::coin}};
+        {c.floor ? c.floor_friction * c.gravity : 0.0, c.shape() == Shape::coin,
+         c.floor ? c.rolling_resistance * c.gravity : 0.0}};
 }
 
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {

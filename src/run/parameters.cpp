@@ -210,6 +210,10 @@ ParameterValue write_floor(const RunConfig& config) {
 ParameterValue write_floor_friction(const RunConfig& config) {
     return config.floor ? ParameterValue(config.floor_friction) : ParameterValue();
 }
+ParameterValue write_rolling_resistance(const RunConfig& config) {
+    return config.rolling_resistance == 0.0 ? ParameterValue()
+                                            : ParameterValue(config.rolling_resistance);
+}
 ParameterValue write_vertical_disc(const RunConfig& config) {
     return config.vertical_disc == 1.0 ? ParameterValue() : ParameterValue(config.vertical_disc);
 }

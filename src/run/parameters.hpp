@@ -55,6 +55,7 @@ struct RunConfig {
     Shape body = Shape::disc;
     bool floor = false;  // that spheres slide and roll on, and coins slide
     double floor_friction = experiment_floor_friction, gravity = experiment_gravity;
+    double rolling_resistance = 0.0;                  // μ_r of spheres (floor.hpp)
     double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
     double container_radius = paper_container_radius;
     double amplitude = paper_amplitude;  // 0: the dish stands still
@@ -101,9 +102,9 @@ using ParameterSpeller = std::string(const RunConfig& config);
 /// Most parameters are a member of RunConfig and nothing else; the others have these of their own.
 ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_speed,
     read_path, read_sides, read_periods, read_warmup;
-ParameterWriter write_body, write_floor, write_floor_friction, write_gravity, write_vertical_disc,
-    write_vertical_wall, write_mixture, write_speed, write_omega, write_path, write_sides,
-    write_events, write_warmup;
+ParameterWriter write_body, write_floor, write_floor_friction, write_gravity,
+    write_rolling_resistance, write_vertical_disc, write_vertical_wall, write_mixture, write_speed,
+    write_omega, write_path, write_sides, write_events, write_warmup;
 ParameterSpeller spell_inertia, spell_mixture;
 
 /// When a row is read: after those of earlier times, in terms of which it is.
@@ -321,6 +322,19 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .usual = {0.5, 20, 0.5},
      .write = write_gravity,
      .by_default = "6.382",
+     .said_only_if_set = true},
+    {.name = "rolling_resistance",
+     .symbol = "μ_r",
+     .form = "NUMBER",
+     .description = "with --floor sliding: coefficient of rolling resistance of spheres, at most "
+                    "--floor-friction",
+     .group = parameter_group::discs,
+     .member = &RunConfig::rolling_resistance,
+     .lowest = 0,
+     .highest = largest_value,
+     .usual = {0, 0.05, 0.001},
+     .write = write_rolling_resistance,
+     .by_default = "0",
      .said_only_if_set = true},
     {.name = "vertical_disc",
      .symbol = "κ_d",

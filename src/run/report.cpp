@@ -178,7 +178,9 @@ std::string report(const RunResult& r) {
                          ? ""
                          : fmt::format(", {} times one {}", with_commas(r.events.begins_to_roll),
                                        r.config.shape() == Shape::coin ? "stops on the floor"
-                                                                       : "begins to roll")));
+                                       : r.config.rolling_resistance > 0.0
+                                           ? "begins to roll or stops on the floor"
+                                           : "begins to roll")));
     line("periods",
          fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
                      r.warmup, r.config.warmup_found ? " (found automatically)" : ""));

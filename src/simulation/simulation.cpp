@@ -701,10 +701,6 @@ Snapshot Simulation::snapshot() const {
 void Simulation::refresh(Snapshot& s, const Event& event) const {
     const EngineState& state = storage_->state;
     const Leg& leg = state.legs[state.leg];
-    s.swirls = state.swirls;
-    s.clock = state.clock;
-    s.container_centre = leg.position_at(state.clock);
-    s.container_velocity = leg.velocity_at(state.clock);
     const auto hand_over_sphere = [&](std::uint32_t i) __attribute__((noinline)) {
         if (!s.turned.empty()) s.turned[i] = s.quaternion(i, event.clock);
         const SphereState& sphere = state.spheres[i];
@@ -721,6 +717,11 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     } else if (state.leg == 0 || s.on_floor) {
         for (std::uint32_t i = 0; i < state.size; ++i) hand_over(i);
     }
+    // Last: how spheres have turned follows from the floor's velocity up to now.
+    s.swirls = state.swirls;
+    s.clock = state.clock;
+    s.container_centre = leg.position_at(state.clock);
+    s.container_velocity = leg.velocity_at(state.clock);
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -18,7 +18,7 @@ namespace swirl {
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
     std::uint64_t elastic_by_tc = 0;   // of the collisions, those made elastic by the TC model
-    std::uint64_t begins_to_roll = 0;  // of spheres on a floor
+    std::uint64_t begins_to_roll = 0;  // of spheres on a floor; or comes to rest on it
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex + begins_to_roll; }
 };
 

@@ -19,11 +19,13 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
          "speed": "2", "path": "circle", "periods": "50", "warmup": "2", "seed": "7",
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
-         "gravity": "2", "vertical_disc": "0.5", "vertical_wall": "0.5"}
+         "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5"}
 # Only in results of spheres, and what needs them.
-OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "vertical_disc", "vertical_wall"}
+OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
+              "vertical_wall"}
 WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
 WITH |= {name: ["--floor", "sliding"] for name in ("floor_friction", "gravity")}
+WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
 
 
 def rows():

@@ -82,6 +82,8 @@ def on_a_floor(draw, options):
     if more["floor"] == "sliding":
         more["floor-friction"] = usual_or(draw, 0.3, 1e-6, 1e6)
         more["gravity"] = usual_or(draw, 6.382, 1e-6, 1e6)
+        if more["body"] == "sphere" and draw.random() < 0.3:
+            more["rolling-resistance"] = draw.choice([1.0, 0.1, 0.01, 1e-6]) * more["floor-friction"]
     return more
 
 

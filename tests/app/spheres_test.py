@@ -41,7 +41,7 @@ def first_contact(apart, velocity, acceleration, reach, inside):
 
 
 class Dish:
-    def __init__(self, start, friction, floor_friction, coins):
+    def __init__(self, start, friction, floor_friction, coins, resistance=0.0):
         self.count = len(start["mass"])
         self.inertia, self.coins = start["moment_of_inertia"][0], coins
         flat = np.zeros((self.count, 1))
@@ -50,6 +50,7 @@ class Dish:
         rolling = np.zeros((self.count, 2)) if coins else start["rolling_spin"][:]
         self.spin = np.hstack([rolling, start["spin"][:].reshape(-1, 1)])
         self.friction, self.deceleration = friction, floor_friction * GRAVITY
+        self.torque = resistance * GRAVITY
         self.corners = [AMPLITUDE * np.array([math.cos(2 * math.pi * k / SIDES),
                                               math.sin(2 * math.pi * k / SIDES), 0]) for k in range(SIDES)]
         self.time, self.last = 0.0, [-math.inf] * self.count
@@ -59,15 +60,20 @@ class Dish:
         self.leg = leg % SIDES
         self.centre = self.corners[self.leg].copy()
         self.dish_velocity = (self.corners[(self.leg + 1) % SIDES] - self.centre) / (PERIOD / SIDES)
-        self.rolls = [False] * self.count
+        self.rolls, self.rests = [False] * self.count, [False] * self.count
         if self.leg == 0:  # the clock begins anew
             self.last = [t - self.time for t in self.last]
             self.time = 0.0
 
     def on_floor(self, i):
-        """Acceleration, its torque's, and how long it slides."""
-        if self.rolls[i]:
+        """Acceleration, its torque's, and how long it slides, or slows down."""
+        over_floor = self.velocity[i] - self.dish_velocity
+        if self.rests[i] or self.rolls[i] and self.torque == 0:
             return np.zeros(3), np.zeros(3), math.inf
+        if self.rolls[i]:
+            # The torque against ω, and the friction on the floor that keeps v = R ω × ẑ.
+            slows = -self.torque / (1 + self.inertia) * over_floor / np.linalg.norm(over_floor)
+            return slows, np.cross(UP, slows), np.linalg.norm(over_floor) / np.linalg.norm(slows)
         slip = self.velocity[i] - self.dish_velocity
         if not self.coins:
             slip = slip - np.cross(self.spin[i], UP)
@@ -107,6 +113,7 @@ class Dish:
         if kind == "corner":
             self.begin_leg(self.leg + 1)
         elif kind == "rolls":
+            self.rests[i] = self.rolls[i]
             self.rolls[i] = True
         else:
             impulses = self.collide(i, None if kind == "wall" else j)
@@ -145,20 +152,22 @@ class Dish:
         for k, sign in zip(partners, (-1, 1)):
             self.velocity[k] += sign * (pressed * normal + level)
             self.spin[k] += np.cross(-sign * normal, sign * rubbing) / self.inertia
-            self.rolls[k], self.last[k] = False, self.time
+            self.rolls[k], self.rests[k], self.last[k] = False, False, self.time
         return np.array([pressed, level @ np.array([normal[1], -normal[0], 0]), rubbing[2]])
 
 
 class Spheres(InFolder):
-    def compare(self, events, strict, *more, friction=0.2, floor_friction=0.3, coins=False):
+    def compare(self, events, strict, *more, friction=0.2, floor_friction=0.3, coins=False, resistance=0.0):
         log = self.path("events.h5")
+        if resistance:
+            more += ("--rolling-resistance", resistance)
         done = swirl("run", "--preset", "experiment", "--events", events, "--warmup", 0, "--mu", friction,
                      "--floor-friction", floor_friction, *more, "--log-events", log, "--quiet",
                      "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
         collisions = 0
         with h5py.File(log) as file:
-            dish = Dish(file["initial"], friction, floor_friction, coins)
+            dish = Dish(file["initial"], friction, floor_friction, coins, resistance)
             rows = {name: column[:] for name, column in file["events"].items()}
         for k in range(events):
             said = KINDS[rows["kind"][k]]
@@ -178,13 +187,19 @@ class Spheres(InFolder):
         return collisions
 
     def test_five_spheres(self):
-        self.assertGreater(self.compare(1200, 500, "--discs", 5), 40)
+        self.assertGreater(self.compare(1300, 500, "--discs", 5), 40)
 
     def test_fifteen_spheres(self):
         self.assertGreater(self.compare(700, 400, "--discs", 15), 50)
 
     def test_hollow_ones_that_stick_more(self):
         self.assertGreater(self.compare(400, 250, "--discs", 12, "--inertia", "shell", friction=0.5), 20)
+
+    def test_rolling_resistance(self):
+        self.assertGreater(self.compare(800, 400, "--discs", 12, resistance=0.02), 40)
+
+    def test_rolling_resistance_that_stops_them(self):
+        self.assertGreater(self.compare(800, 400, "--discs", 8, resistance=0.3), 10)
 
     def test_coins(self):
         self.assertGreater(self.compare(300, 150, "--discs", 12, "--body", "disc", "--inertia", "solid",

@@ -70,7 +70,8 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
 }
 
 TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
-    for (const Floor floor : {Floor{1.92}, Floor{0.0}, Floor{1.92, true}}) {
+    for (const Floor floor :
+         {Floor{1.92}, Floor{0.0}, Floor{1.92, true}, Floor{1.92, false, 0.5}}) {
         const Scratch scratch;
         InitialState scene = mixed_dish();
         scene.shape = floor.bodies_lie_flat ? Shape::coin : Shape::sphere;

@@ -129,6 +129,80 @@ TEST(Floor, ACoinSetSlidingStopsOnTheFloorAndKeepsItsSpin) {
     EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
 }
 
+/// As strong as its friction, so that both show.
+Floor resisting_floor(double resistance) { return {0.9, false, resistance}; }
+
+// a = μ_r g / (1 + I/(m R²)), 5/7 μ_r g of a solid sphere: it stops after w/a, w²/2a further on.
+TEST(Floor, AgainstAResistanceARollingSphereStopsAfterItsSpeedSquaredOverTwiceTheDeceleration) {
+    const double w = 0.8, a = 5.0 / 7.0 * 0.02;
+    const Vec2 u{0.25, -0.5};
+    const Floor floor = resisting_floor(0.02);
+    Disc start = sphere({u.x + w, u.y}, spin_of_rolling({w, 0.0}, 1.0));
+    start.spin = 0.7;
+    const FloorMotion motion = floor_motion(start, floor, u);
+    EXPECT_NEAR(motion.begins_to_roll, w / a, 1e3 * rounding);  // 56
+    const Disc rests = set_rolling(start, motion, floor, u);
+    EXPECT_EQ(rests.velocity.x, u.x);
+    EXPECT_EQ(rests.velocity.y, u.y);
+    EXPECT_EQ(dot(rests.rolling_spin, rests.rolling_spin), 0.0);
+    EXPECT_EQ(rests.spin, 0.7);
+    EXPECT_NEAR(rests.position.x, u.x * (w / a) + w * w / (2.0 * a), 1e3 * rounding);
+    EXPECT_NEAR(rests.position.y, u.y * (w / a), 1e3 * rounding);
+    EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
+}
+// I = 2/3 m r²: 3/5 μ_r g.
+TEST(Floor, AShellStopsLaterThanASolidSphere) {
+    Disc start = rolling_sphere({0.8, 0.0});
+    start.inertia = shell_inertia(1.0, 1.0);
+    EXPECT_NEAR(floor_motion(start, resisting_floor(0.02), {0.0, 0.0}).begins_to_roll,
+                0.8 / (3.0 / 5.0 * 0.02), 1e3 * rounding);
+}
+// It acts on what rolls only: what slides moves as ever, and slows down as soon as it rolls.
+TEST(Floor, ResistanceActsOnceASphereRolls) {
+    const Vec2 u{0.1, 0.2};
+    const Disc start = sphere({1.4, -0.3}, {0.2, 0.3});
+    const Floor without{0.9}, with = resisting_floor(0.05);
+    const FloorMotion a = floor_motion(start, without, u), b = floor_motion(start, with, u);
+    EXPECT_EQ(a.begins_to_roll, b.begins_to_roll);
+    EXPECT_EQ(a.acceleration.x, b.acceleration.x);
+    EXPECT_EQ(a.spin_rate.y, b.spin_rate.y);
+    const Disc rolls = set_rolling(start, b, with, u);
+    const FloorMotion slows = floor_motion(rolls, with, u);
+    EXPECT_NEAR(std::hypot(slows.acceleration.x, slows.acceleration.y), 5.0 / 7.0 * 0.05, rounding);
+    EXPECT_LT(dot(slows.acceleration, rolls.velocity - u), 0.0);
+}
+// On the way it rolls, to the last bit, and its energy in the frame of the floor falls by the work
+// of the torque, μ_r m g R times the angle.
+RC_GTEST_PROP(Floor, WhatSlowsDownRollsAndLosesTheWorkOfTheTorque, ()) {
+    Disc d = draw_sphere();
+    const Vec2 u = draw_vector(1.0);
+    d.rolling_spin = spin_of_rolling(d.velocity - u, d.radius);
+    const Floor floor = resisting_floor(draw(0.001, 0.9));
+    const FloorMotion motion = floor_motion(d, floor, u);
+    RC_PRE(motion.begins_to_roll != never);
+    const double t = d.time + draw(0.0, 1.0) * (motion.begins_to_roll - d.time);
+    const Disc later = moved_to(d, motion, t);
+    const Vec2 rolls = spin_of_rolling(later.velocity - u, d.radius);
+    RC_ASSERT(later.rolling_spin.x == rolls.x && later.rolling_spin.y == rolls.y);
+    // What the linear law of the spin says is the same.
+    const Vec2 spin = d.rolling_spin + (t - d.time) * motion.spin_rate;
+    RC_ASSERT(std::hypot(spin.x - rolls.x, spin.y - rolls.y) < 1e-11);
+    const auto energy = [&](Disc s) {
+        s.velocity = s.velocity - u;
+        return kinetic_energy(s);
+    };
+    const Vec2 way = later.position - d.position - (t - d.time) * u;
+    const double loss = d.mass * floor.rolling_resistance * std::hypot(way.x, way.y);
+    // Ways of up to 10⁴ where the resistance is small.
+    RC_ASSERT(std::abs(energy(d) - energy(later) - loss) < 1e-11 * (1.0 + energy(d)));
+}
+TEST(Floor, WithoutResistanceWhatRollsIsNotAccelerated) {
+    const FloorMotion motion =
+        floor_motion(rolling_sphere({0.5, 0.1}), resisting_floor(0.0), {0, 0});
+    EXPECT_EQ(motion.begins_to_roll, never);
+    EXPECT_FALSE(motion.slows_down);
+}
+
 // The force acts along a line through the point on the floor, so the angular momentum about a line
 // on the floor along it is untouched: m R v + I ω for both directions.
 RC_GTEST_PROP(Floor, AngularMomentumAboutTheLineOfFloorContactIsConserved, ()) {

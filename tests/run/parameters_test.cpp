@@ -75,10 +75,17 @@ TEST(RunParameters, EveryNameIsOnceInTheListAndResolves) {
 
 /// A text that makes another run than the paper's, for any parameter that can be given.
 std::string another(const Parameter& p) {
-    static const std::map<std::string, std::string> words = {
-        {"mu", "0.5"},      {"inertia", "ring"}, {"mixture", "2:1.2"}, {"speed", "2"},
-        {"path", "circle"}, {"periods", "50"},   {"warmup", "7"},      {"preset", "experiment"},
-        {"body", "sphere"}, {"floor", "sliding"}};
+    static const std::map<std::string, std::string> words = {{"mu", "0.5"},
+                                                             {"inertia", "ring"},
+                                                             {"mixture", "2:1.2"},
+                                                             {"speed", "2"},
+                                                             {"path", "circle"},
+                                                             {"periods", "50"},
+                                                             {"warmup", "7"},
+                                                             {"preset", "experiment"},
+                                                             {"body", "sphere"},
+                                                             {"floor", "sliding"},
+                                                             {"rolling_resistance", "0.01"}};
     if (const auto found = words.find(p.name); found != words.end()) return found->second;
     const ParameterValue value =
         p.said_only_if_set ? ParameterValue(std::stod(p.by_default)) : value_of(p, {});
@@ -97,9 +104,10 @@ TEST(RunParameters, EveryOneIsInTheJsonAndComesBackFromIt) {
             << p.name;
         if (!p.can_be_given()) continue;
         ParameterTexts texts{{p.name, another(p)}};
-        for (const char* of_spheres : {"floor", "vertical_disc", "vertical_wall"})
+        for (const char* of_spheres :
+             {"floor", "rolling_resistance", "vertical_disc", "vertical_wall"})
             if (p.name == std::string(of_spheres)) texts["body"] = "sphere";  // discs have none
-        for (const char* of_the_floor : {"floor_friction", "gravity"})
+        for (const char* of_the_floor : {"floor_friction", "gravity", "rolling_resistance"})
             if (p.name == std::string(of_the_floor)) texts["floor"] = "sliding";
         const RunConfig config = resolve(texts);
         const nlohmann::ordered_json json = config_json(config);
@@ -184,6 +192,17 @@ TEST(RunParameters, WhatSpheresCannotDoIsRefused) {
     EXPECT_THAT(refusal({{"body", "sphere"}, {"floor", "rough"}}),
                 testing::AllOf(testing::HasSubstr("collide without end"),
                                testing::HasSubstr("a large --floor-friction, 100")));
+}
+TEST(RunParameters, RollingResistanceIsOfSpheresOnAFloorAndNotAboveItsFriction) {
+    EXPECT_THAT(refusal({{"body", "sphere"}, {"rolling_resistance", "0.01"}}),
+                testing::HasSubstr("there is no floor"));
+    EXPECT_THAT(refusal({{"floor", "sliding"}, {"rolling_resistance", "0.01"}}),
+                testing::HasSubstr("discs do not roll"));
+    EXPECT_THAT(refusal({{"preset", "experiment"}, {"rolling_resistance", "0.31"}}),
+                testing::HasSubstr("--floor-friction, 0.3"));
+    EXPECT_THAT(refusal({{"preset", "experiment"}, {"rolling_resistance", "-0.1"}}),
+                testing::HasSubstr("from 0 to"));
+    EXPECT_EQ(refusal({{"preset", "experiment"}, {"rolling_resistance", "0.3"}}), "");
 }
 TEST(RunParameters, WhatOnlyAFloorDoesIsRefusedWithoutOne) {
     EXPECT_THAT(refusal({{"floor_friction", "0.5"}}), testing::HasSubstr("there is no floor"));

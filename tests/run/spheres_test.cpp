@@ -135,6 +135,13 @@ void expect_the_floor_takes_what_sliding_costs(const RunConfig& config) {
         if (k > 0)
             for (std::size_t i = 0; i < s.size(); ++i) {
                 if (s.ax[i] == 0.0 && s.ay[i] == 0.0) continue;
+                if (s.rolls(i)) {
+                    const Vec2 way = to.position(i) - from.position(i) -
+                                     (to.clock - from.clock) * from.container_velocity;
+                    heat += config.rolling_resistance * config.gravity * config.mass *
+                            std::sqrt(dot(way, way));
+                    continue;
+                }
                 const Vec2 a = slip_on_floor(from.disc(i), from.container_velocity),
                            b = slip_on_floor(to.disc(i), from.container_velocity);
                 heat += config.floor_friction * config.gravity * config.mass *
@@ -152,6 +159,9 @@ void expect_the_floor_takes_what_sliding_costs(const RunConfig& config) {
 TEST(RunOfSpheres, TheFloorTakesWhatSlidingOnItCosts) {
     expect_the_floor_takes_what_sliding_costs(experiment("20"));
     expect_the_floor_takes_what_sliding_costs(coins("20"));
+    RunConfig resisting = experiment("20");
+    resisting.rolling_resistance = 0.05;
+    expect_the_floor_takes_what_sliding_costs(resisting);
 }
 
 // In a steady state what comes in goes out.

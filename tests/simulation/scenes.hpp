@@ -101,6 +101,12 @@ inline InitialState sphere_dish(std::size_t n, double deceleration = 1.92, doubl
     scene.floor.deceleration = deceleration;
     return scene;
 }
+/// The same with a rolling resistance, μ_r g; this one brings many to rest on the floor.
+inline InitialState resisting_dish(std::size_t n, double resistance = 1.5) {
+    InitialState scene = sphere_dish(n);
+    scene.floor.rolling_resistance = resistance;
+    return scene;
+}
 /// The same of discs that lie flat on the floor.
 inline InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
     InitialState scene = sphere_dish(n, deceleration);

@@ -48,6 +48,16 @@ TEST_P(SpheresInEveryWidth, CoinsAreTheReferenceBitForBit) {
             for (const std::size_t n : {1u, 5u, 48u})
                 expect_same_trajectory(coin_dish(n, deceleration), 3000, {0, GetParam(), search});
 }
+TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitWithRollingResistance) {
+    for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
+        for (const double resistance : {0.01, 1.5})
+            for (const std::size_t n : {1u, 5u, 28u, 48u})
+                expect_same_trajectory(resisting_dish(n, resistance), 3000,
+                                       {0, GetParam(), search});
+    InitialState mixture = sphere_mixture();
+    mixture.floor.rolling_resistance = 0.1;
+    expect_same_trajectory(mixture, 5000, {0, GetParam()});
+}
 TEST_P(SpheresInEveryWidth, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
     for (const NeighbourSearch search : {NeighbourSearch::all_pairs, NeighbourSearch::cells}) {
         for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
@@ -105,10 +115,11 @@ TEST(Spheres, WithoutFloorAndVerticalFrictionTheyAreDiscsBitForBit) {
 
 TEST(Spheres, ResumedFromTheirStatesAndTheProgressTheyContinueBitForBit) {
     expect_resumed_bit_for_bit(sphere_dish(40), 30000, 12345);
+    expect_resumed_bit_for_bit(resisting_dish(40, 0.1), 30000, 12345);
 }
 
-TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
-    Simulation simulation(sphere_dish(20));
+void expect_refreshed_snapshots_are_new_ones(const InitialState& scene) {
+    Simulation simulation(scene);
     Snapshot kept = simulation.snapshot();
     for (int k = 0; k < 3000; ++k) {
         const Event event = simulation.step();
@@ -132,12 +143,18 @@ TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
         EXPECT_EQ(dated.held_at[i], dated.clock);
         EXPECT_EQ(dated.position(i).x, fresh.position(i).x);
         EXPECT_EQ(dated.vx[i], fresh.velocity(i).x);
+        EXPECT_EQ(dated.rolls(i), fresh.rolls(i));
     }
+}
+TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
+    expect_refreshed_snapshots_are_new_ones(sphere_dish(20));
+    expect_refreshed_snapshots_are_new_ones(resisting_dish(20));
 }
 
 // The two searches, where the reference would take too long.
 TEST(Spheres, CellsAndAllPairsAgreeBitForBitOverManySwirls) {
-    for (const InitialState& scene : {sphere_dish(48), coin_dish(48), sphere_dish(40, 0.05)}) {
+    for (const InitialState& scene :
+         {sphere_dish(48), coin_dish(48), sphere_dish(40, 0.05), resisting_dish(48, 0.1)}) {
         Simulation pairs(scene), cells(scene, {}, {0, Width::best, NeighbourSearch::cells});
         pairs.run(200000);
         cells.run(200000);
@@ -179,6 +196,62 @@ TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
         EXPECT_NEAR(simulation.disc(0).velocity.x, expected.x, 1e-13);
         EXPECT_NEAR(simulation.disc(0).velocity.y, expected.y, 1e-13);
     }
+}
+
+// Against a resistance it comes to rest on the floor: after 2/7 of a jump it rolls with 5/7 of it
+// over the floor, and stops before the next.
+TEST(Spheres, AgainstAResistanceASphereThatNeverMeetsTheWallStopsOnTheFloorOnEveryLeg) {
+    InitialState scene = resisting_dish(1);
+    const Vec2 u = scene.path.legs[0].velocity;
+    scene.discs[0].position = scene.path.legs[0].start;
+    scene.discs[0].velocity = u;
+    Simulation simulation(scene);
+    for (std::size_t k = 1; k < 15; ++k) {
+        ASSERT_EQ(simulation.step().kind, EventKind::path_vertex);
+        const double rolls = simulation.step().clock;
+        const Event rests = simulation.step();
+        ASSERT_EQ(rests.kind, EventKind::begins_to_roll);
+        const Vec2 jump = scene.path.legs[k].velocity - scene.path.legs[k - 1].velocity;
+        EXPECT_NEAR(rests.clock - rolls, 5.0 / 7.0 * std::hypot(jump.x, jump.y) / (5.0 / 7.0 * 1.5),
+                    1e-12);
+        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.legs[k].velocity.x);
+        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.legs[k].velocity.y);
+    }
+}
+
+// In a dish at rest: w²/2a, however many times the clocks have restarted on the way.
+TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDeceleration) {
+    InitialState scene = resisting_dish(1, 0.02);
+    scene.path = still_path(1.0);
+    const double w = 0.3, a = 5.0 / 7.0 * 0.02;
+    scene.discs[0].position = {-3.0, 0.0};
+    scene.discs[0].velocity = {w, 0.0};
+    scene.discs[0].rolling_spin = spin_of_rolling({w, 0.0}, 1.0);
+    Simulation simulation(scene);
+    int stops = 0;
+    while (simulation.swirls() < 30) stops += simulation.step().kind == EventKind::begins_to_roll;
+    EXPECT_EQ(stops, 1);  // 21 restarts before it
+    EXPECT_EQ(simulation.disc(0).velocity.x, 0.0);
+    EXPECT_NEAR(simulation.disc(0).position.x, -3.0 + w * w / (2.0 * a), 1e-12);
+}
+
+// How it has turned is the way over the floor, also where the floor has just taken another
+// velocity.
+TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
+    InitialState scene = resisting_dish(1, 0.5);
+    const Leg& leg = scene.path.legs[0];
+    const Vec2 w{0.6, 0.0};
+    scene.discs[0].position = leg.start;
+    scene.discs[0].velocity = leg.velocity + w;
+    scene.discs[0].rolling_spin = spin_of_rolling(w, 1.0);
+    Simulation simulation(scene);
+    Snapshot s = simulation.snapshot();
+    s.turned = {Quaternion{}};
+    const Event vertex = simulation.step();
+    ASSERT_EQ(vertex.kind, EventKind::path_vertex);
+    simulation.refresh(s, vertex);
+    const double way = 0.6 * leg.end - 0.5 * (5.0 / 7.0 * 0.5) * leg.end * leg.end;
+    EXPECT_NEAR(2.0 * std::acos(std::abs(s.turned[0].w)), way, 1e-9);
 }
 
 // The limits: a floor that hardly rubs is none, to the first order of what it does; on one that
