@@ -4,6 +4,8 @@ program logs, one after the other: kind, partners, time, impulses. Neighbouring 
 exponentially, and the two round differently, so the comparison is strict at first and ends in time."""
 
 import math
+import os
+import subprocess
 import sys
 import unittest
 
@@ -23,6 +25,7 @@ GRAVITY, RESTITUTION, CONTACT_DURATION = 6.382, 0.9, 1e-3
 PERIOD = 2 * math.pi * AMPLITUDE
 UP = np.array([0.0, 0.0, 1.0])
 KINDS = ("pair", "wall", "corner", "rolls")
+EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "vertical_impulses.py")
 AT_ONCE = 1e-9  # all that roll undisturbed begin to roll at one instant: in whatever order
 
 
@@ -204,6 +207,35 @@ class Spheres(InFolder):
     def test_coins(self):
         self.assertGreater(self.compare(300, 150, "--discs", 12, "--body", "disc", "--inertia", "solid",
                                         floor_friction=0.03, coins=True), 30)
+
+    def test_vertical_impulses_of_a_log(self):
+        log = self.path("events.h5")
+        done = swirl("run", "--preset", "experiment", "--discs", 20, "--events", 20000, "--warmup", 0, "--log-events",
+                     log, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = subprocess.run([sys.executable, EXAMPLE, log], capture_output=True, text=True, check=True).stdout
+        shares = {line[:56].strip(): float(line[56:]) for line in said.splitlines()}
+        with h5py.File(log) as file:
+            J, kind = file["events/vertical_impulse"][:], file["events/kind"][:]
+            clock, swirls = file["events/clock"][:], file["events/swirls"][:]
+        time = swirls * PERIOD + clock
+        weight = 20 * GRAVITY * (time[-1] - time[0])
+        # Of two spheres one is lifted and one pushed down; the wall (kind 1) gets J_z itself.
+        pairs = np.abs(J[kind == 0]).sum()
+        for name, wall in (("push down", J[(kind == 1) & (J > 0)].sum()), ("lift", -J[(kind == 1) & (J < 0)].sum())):
+            # Printed with four digits.
+            self.assertAlmostEqual(shares[f"impulses that {name} / weight x time"] * weight / (pairs + wall), 1,
+                                   delta=1e-3)
+        in_air = shares["share of the time in the air, if lifted spheres hopped"]
+        # Hops of 2 J/m g; fewer where one begins before another has ended.
+        self.assertLessEqual(in_air, 2.001 * shares["impulses that lift / weight x time"])
+        self.assertGreater(in_air, shares["impulses that lift / weight x time"])
+
+    def test_hops_that_overlap_count_once(self):
+        sys.path.insert(0, os.path.dirname(EXAMPLE))
+        from vertical_impulses import union
+        self.assertEqual(union(np.array([0.0, 1.0, 5.0]), np.array([2.0, 3.0, 6.0])), 4)
+        self.assertEqual(union(np.array([0.0, 1.0, 3.0]), np.array([5.0, 2.0, 7.0])), 7)
 
 
 if __name__ == "__main__":
