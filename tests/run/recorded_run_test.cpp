@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "files/scratch.hpp"
+#include "swirl/files/checkpoint.hpp"
+#include "swirl/files/file_error.hpp"
 
 namespace swirl {
 namespace {
@@ -41,6 +43,39 @@ TEST(RecordedRun, TheFramesOfTheCameraHardlySlowTheEngine) {
     }
     EXPECT_LT(with_frames, 1.5 * bare) << with_frames << " s instead of " << bare << " s";
     RecordProperty("ratio", std::to_string(with_frames / bare));
+}
+
+// The state of a program in which discs move otherwise leads nowhere here.
+TEST(RecordedRun, ACheckpointOfAnotherLawIsRejectedAndOneWithoutANumberIsOfTheFirst) {
+    const Scratch scratch;
+    RunConfig config;
+    config.discs = 5;
+    config.periods = 8;
+    config.warmup = 2;
+    RunFiles files;
+    files.checkpoint = scratch / "run.checkpoint";
+    files.keep_checkpoint = files.resume = true;
+    const RunResult whole = run_recorded(config, files, {}, {});
+    const Checkpoint kept = read_checkpoint(files.checkpoint);
+    const std::string entry = R"("law":1,)";
+    const std::size_t at = kept.about.find(entry);
+    ASSERT_NE(at, std::string::npos) << kept.about;
+    const auto with_law = [&](const std::string& law) {
+        std::string about = kept.about;
+        about.replace(at, entry.size(), law);
+        write_checkpoint(files.checkpoint, {about, kept.state});
+    };
+    with_law("");
+    EXPECT_EQ(run_recorded(config, files, {}, {}).state_hash, whole.state_hash);
+    with_law(R"("law":2,)");
+    try {
+        run_recorded(config, files, {}, {});
+        FAIL() << "a state of another law was resumed";
+    } catch (const FileError& error) {
+        EXPECT_NE(std::string(error.what()).find("another law (2 there, 1 here)"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace
