@@ -385,25 +385,38 @@ def identity(folder):
 def steady(folder):
     rows = [row for row in folder.table("5b")
             if row["setting"] in ("high", "medium", "low") and row["discs"] <= MOST_DISCS]
-    judged = [row for row in rows if row["steady_runs"] + row["drifting_runs"] > 0]
+    kinds = {"drifting_runs": "drift", "jumping_runs": "jump",
+             "switching_runs": "switch between two states"}
+
+    def changing(row):
+        return sum(row.get(kind, 0) for kind in kinds)
+    judged = [row for row in rows if row["steady_runs"] + changing(row) > 0]
     open_ones = [row for row in rows if row["steady_runs"] < row["seeds"]] or rows
     points = {row["point"] for row in open_ones if isinstance(row.get("point"), str)}
     if not judged:
         return Part(UNDECIDED, points), "All runs are too short to tell."
-    runs = [row["steady_runs"] + row["drifting_runs"] for row in judged]
-    drifting = [row["drifting_runs"] for row in judged]
-    # Every point counts once, however many seeds were spent on it: they are spent where runs drift.
-    share = sum(k / n for k, n in zip(drifting, runs)) / len(judged)
-    # The error of a point as if one more of its runs had been seen, that drifts as often as all do;
-    # of no drifting run among n one knows only that the share is below about 1/n.
-    seen = [(k + share) / (n + 1) for k, n in zip(drifting, runs)]
+    runs = [row["steady_runs"] + changing(row) for row in judged]
+    # Every point counts once, however many seeds were spent on it: they are spent where runs change.
+    share = sum(changing(row) / n for row, n in zip(judged, runs)) / len(judged)
+    # The error of a point as if one more of its runs had been seen, that changes as often as all do;
+    # of no changing run among n one knows only that the share is below about 1/n.
+    seen = [(changing(row) + share) / (n + 1) for row, n in zip(judged, runs)]
     error = math.sqrt(sum(p * (1 - p) / n for p, n in zip(seen, runs))) / len(judged)
     found = Value(share, max(error, 1 / sum(runs)), points)
-    return below(found, CHANCE_OF_DRIFT), (
-        f"{sum(drifting):.0f} of {sum(runs):.0f} runs with both frictions drift after 20 swirls "
-        f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short to tell), a share "
-        f"of {number(found)} if every N and friction counts alike; by chance, and for slow states, "
-        f"{100 * CHANCE_OF_DRIFT:.0f} % are allowed.")
+    # A point most of whose runs change has no steady state, however steady the others are.
+    exceptions = [row for row in judged if changing(row) > MOSTLY * row["seeds"]]
+    overall = below(found, CHANCE_OF_DRIFT)
+    part = parts(overall, true(False)) if exceptions else overall
+    kinds_found = [f"{sum(row.get(kind, 0) for row in judged):.0f} {word}"
+                   for kind, word in kinds.items()]
+    return part, (
+        f"Of {sum(runs):.0f} runs with both frictions after 20 periods, {', '.join(kinds_found)} "
+        f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short to tell). This is "
+        f"a share of {number(found)} if every N and friction counts alike; "
+        f"{100 * CHANCE_OF_DRIFT:.0f} % are allowed for chance and slow states." +
+        (" Most runs change at "
+         f"{', '.join(str(row.get('point', row['discs'])) for row in exceptions)}, so these have "
+         "no steady state within the paper's run." if exceptions else ""))
 
 
 def clockwise(folder):

@@ -346,16 +346,17 @@ EXPORTED(events) double events() {
 }
 EXPORTED(state_hash) std::uint64_t state_hash() { return dish->simulation().state_hash(); }
 
-/// ϖ/Ω so far, by event and by time, without the warm-up; by time block for block, with it, and how
+/// ϖ/Ω so far, by event and by time, without the warm-up. For the plot, the rigid-body rate by time
+/// block for block, with the warm-up: a disc near the centre of mass makes peaks in the other. How
 /// many of the blocks are the warm-up's and how many swirls a block has, there and after it: JSON.
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = dish->rotation().estimates();
     std::string blocks;
     for (const ClusterRotation* part : {&dish->rotation_in_warmup(), &dish->rotation()})
-        for (const double mean : part->by_time().block_means())
+        for (const double mean : part->rigid_by_time().block_means())
             blocks += (blocks.empty() ? "" : ",") + number(mean);
-    const BlockSeries &before = dish->rotation_in_warmup().by_time(),
-                      &after = dish->rotation().by_time();
+    const BlockSeries &before = dish->rotation_in_warmup().rigid_by_time(),
+                      &after = dish->rotation().rigid_by_time();
     return answer(fmt::format(
         R"({{"by_event":{},"by_time":{},"warmup":{},"warmup_blocks":{},"swirls_per_block":[{},{}],)"
         R"("blocks":[{}]}})",
@@ -423,7 +424,8 @@ EXPORTED(result) std::uint32_t result() {
         .add("elastic_by_tc_model", double(r.events.elastic_by_tc));
     if (r.events.begins_to_roll > 0) events.add("begins_to_roll", double(r.events.begins_to_roll));
     warmup.add("periods", double(r.warmup)).add("events", double(r.warmup_events.total()));
-    steady.add("verdict", quoted(verdict(r.steady_state())));
+    steady.add("verdict", quoted(verdict(r.steady_state())))
+        .add("found", quoted(steady_state_found(r)));
     r.report([&](std::string_view group, const ReportRow& row) {
         JsonObject& into = group == "rotation"       ? rotation
                            : group == "steady_state" ? steady

@@ -56,11 +56,11 @@ std::string text_of(const CrossingCall& call, const CrossingSettings& settings,
         text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
                                                  with_commas(search.events),
                                                  short_duration(search.seconds));
-    if (search.drifting > 0)
+    if (search.not_steady > 0)
         text += fmt::format(
             "{} of the runs that this rests on had not reached a steady state after the warm-up; a "
             "longer --warmup, or --warmup auto, would be right.\n",
-            search.drifting);
+            search.not_steady);
     if (search.too_short > 0)
         text += fmt::format(
             "{} of the runs that this rests on were too short to tell whether they are steady.\n",

@@ -140,6 +140,9 @@ void run_and_report(RunCall& call) {
     if (!measured.empty()) json["measured"] = measured_json(measured);
     std::string text =
         call.quiet ? headline(result) + "\n" : report(result) + measured_text(measured);
+    if (call.quiet)
+        for (const std::string& warning : warnings(result))
+            fmt::print(stderr, "warning: {}\n", warning);
     if (!call.tables.empty())
         for (const auto& file : write_measured_tables(measured, call.tables))
             if (!call.quiet) text += fmt::format("wrote {}\n", file.string());

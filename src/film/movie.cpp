@@ -47,9 +47,11 @@ double scale_end(std::vector<double> values) {
     return 10.0 * power;
 }
 
-/// ϖ; of one disc alone its spin, as the paper has it for the minimal model.
+/// The rigid-body rate Σ r × v / Σ r². At one moment the mean over the discs says little: a disc
+/// near the centre of mass has any angular velocity. A single disc has its spin, as in the minimal
+/// model.
 double rotation_of(const Snapshot& s) {
-    return s.size() == 1 ? s.spin[0] : cluster_rotation(s).individual;
+    return s.size() == 1 ? s.spin[0] : cluster_rotation(s).rigid;
 }
 
 /// What a first pass over the swirls finds: curves for the plot, ends of the colour scales.
@@ -228,8 +230,8 @@ std::optional<std::string> problem(const std::vector<FrameSource>& sources,
                                dish.caption);
         if (appearance.coloring == Coloring::slip && !dish.knows_slip)
             return fmt::format(
-                "{} has no spheres on a floor, so nothing can be coloured by the slip on it; "
-                "another --color would be right.",
+                "There are no spheres on a floor in '{}', so nothing can be coloured by the slip "
+                "on it; another --color would be right.",
                 dish.caption);
         if (appearance.coloring == Coloring::pinned && dish.ids)
             return fmt::format(
@@ -367,7 +369,7 @@ Sheet make_sheet(const std::vector<FrameSource>& sources, const Appearance& appe
                        .type = 10.0};
         fit_range(plot, curves);
         // A disc alone has no rotation about itself but its spin.
-        if (survey.single_disc) plot.vertical_label = "$ω$/$Ω$";
+        plot.vertical_label = survey.single_disc ? "$ω$/$Ω$" : "$ϖ_{rigid}$/$Ω$";
         spec.plot = plot;
     }
     return Sheet(spec);

@@ -12,28 +12,6 @@
 // doi:10.1214/ss/1177011137) and taken to be at least 1. n/τ is the number of effective samples.
 // Products never reach across the seam between two runs that were merged.
 //
-// Warm-up. MSER-5: blocks are averaged in fives, and the truncation d ≤ n/2 is the one that
-// minimises the squared standard error of what is left, Σ_{i>d}(Y_i − Ȳ_d)² / (n − d)²
-// (White 1997, doi:10.1177/003754979706900601; batches of five: White, Cobb, Spratt, Proceedings of
-// the 2000 Winter Simulation Conference).
-//
-// Steady state. After the truncation, the mean of the first fifth is compared with that of the
-// last half (Geweke 1992, doi:10.21034/sr.148, who takes a tenth; a fifth keeps more blocks in a
-// short run), each with its own correlated error: z = (m_1 − m_2)/√(error_1² + error_2²). It is a
-// drift if |z| is above the quantile of Student's t that 4 is for a normal deviate, with Welch's
-// degrees of freedom from the effective samples, ν = (Σ error²)²/Σ(error⁴/(n − 1)), because errors
-// of short pieces are uncertain themselves (expansion of the quantile in 1/ν: Abramowitz and
-// Stegun, 26.7.5). Four and not three, since a study tests hundreds of runs, and the z of steady
-// dishes scatters with a standard deviation of 1.3: the errors of correlated pieces come out a
-// little too small. A truncation that wants the whole first half is a drift too. Of a series in
-// which nothing is known (NaN) nothing can be said.
-//
-// Warm-up while a run goes on. The blocks so far are asked every now and then, from 50 of them on:
-// the beginning is forgotten when MSER-5 wants less than their first half cut off, and what is left
-// has no trend: |z| ≤ 2, with the errors of both pieces about their own straight lines, since a
-// trend would enlarge them and hide in them. (Two, because to wait a little longer costs less than
-// to begin too early.) All blocks up to then are the warm-up.
-//
 // Units and normalisation: those of what is added. Limits: fewer than two blocks have no error
 // (NaN); no blocks, or no weight, have no mean (NaN); a NaN added makes the mean NaN. The error
 // carries a relative uncertainty of about 1/√(2n/τ). Runs of very many periods are coarsened: when
@@ -242,113 +220,12 @@ inline Estimate estimate_of(std::span<const double> values) {
     return series.estimate();
 }
 
-/// Whether a run has forgotten how it began.
-struct SteadyState {
-    enum class Verdict : std::uint8_t {
-        steady,
-        drifting,   // still changing at the end
-        too_short,  // fewer than 50 blocks: nothing can be said
-    };
-    Verdict verdict = Verdict::too_short;
-    std::size_t warm_up = 0;   // blocks to drop (MSER-5)
-    double drift = not_known;  // Geweke's z after dropping them
-    double most_drift = 4.0;   // that may be chance
-
-    bool drifts() const { return !(std::abs(drift) <= most_drift); }
-};
-
-/// MSER-5: how many of the first blocks to drop; a multiple of five, at most half.
-inline std::size_t mser5_truncation(std::span<const double> blocks) {
-    const std::size_t n = blocks.size() / 5;
-    std::vector<double> batch(n);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < 5; ++k) batch[i] += blocks[5 * i + k] / 5.0;
-    // From the back, with Welford's update, so that nothing cancels.
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity(), mean = 0.0, squares = 0.0;
-    for (std::size_t d = n; d-- > 0;) {
-        const double left = static_cast<double>(n - d);
-        const double step = batch[d] - mean;
-        mean += step / left;
-        squares += step * (batch[d] - mean);
-        if (d > n / 2 || n - d < 2) continue;
-        const double score = squares / (left * left);
-        if (score <= least) {
-            least = score;
-            best = d;
-        }
-    }
-    return 5 * best;
-}
-
 /// The quantile of Student's t with this many degrees of freedom that `normal` is for a normal
 /// deviate.
 inline double student_quantile(double normal, double freedom) {
     const double z = normal, z3 = z * z * z, z5 = z3 * z * z;
     return z + (z3 + z) / (4.0 * freedom) +
            (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
-}
-
-/// Geweke's z, the first fifth of a series against its last half, and the most that may be chance.
-inline void test_for_drift(std::span<const double> blocks, SteadyState& state) {
-    const Estimate early = estimate_of(blocks.first(blocks.size() / 5));
-    const Estimate late = estimate_of(blocks.last(blocks.size() / 2));
-    const double a = early.error * early.error, b = late.error * late.error;
-    if (a + b == 0.0 && early.mean == late.mean) {
-        state.drift = 0.0;
-        return;
-    }
-    state.drift = (early.mean - late.mean) / std::sqrt(a + b);
-    const double freedom =
-        (a + b) * (a + b) /
-        (a * a / (early.effective_samples - 1.0) + b * b / (late.effective_samples - 1.0));
-    // At least one: fewer than two effective samples tell nothing of their own scatter.
-    state.most_drift = student_quantile(4.0, freedom >= 1.0 ? freedom : 1.0);
-}
-
-/// Blocks that it takes to say anything.
-inline constexpr std::size_t least_blocks_of_a_steady_state = 50;
-
-/// How much warm-up a run needed, and whether it has reached a steady state.
-inline SteadyState find_steady_state(std::span<const double> blocks) {
-    SteadyState state;
-    if (blocks.size() < least_blocks_of_a_steady_state) return state;
-    for (const double block : blocks)
-        if (std::isnan(block)) return state;
-    const std::size_t half = 5 * (blocks.size() / 5 / 2);
-    state.warm_up = mser5_truncation(blocks);
-    test_for_drift(blocks.subspan(state.warm_up), state);
-    const bool settled = state.warm_up < half && !state.drifts();
-    state.verdict = settled ? SteadyState::Verdict::steady : SteadyState::Verdict::drifting;
-    return state;
-}
-
-/// What is left of a series when its straight line is taken away.
-inline std::vector<double> without_trend(std::span<const double> blocks) {
-    const double n = static_cast<double>(blocks.size()), middle = (n - 1.0) / 2.0;
-    double mean = 0.0, slope = 0.0;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        mean += blocks[b] / n;
-        slope += (static_cast<double>(b) - middle) * blocks[b];
-    }
-    slope *= n > 1.0 ? 12.0 / (n * (n * n - 1.0)) : 0.0;
-    std::vector<double> rest(blocks.begin(), blocks.end());
-    for (std::size_t b = 0; b < rest.size(); ++b)
-        rest[b] -= mean + slope * (static_cast<double>(b) - middle);
-    return rest;
-}
-
-/// While a run goes on: are these, all blocks so far, warm-up enough?
-inline bool beginning_is_forgotten(std::span<const double> blocks) {
-    constexpr double most_trend = 2.0;
-    const SteadyState state = find_steady_state(blocks);
-    if (state.verdict != SteadyState::Verdict::steady) return false;
-    const auto left = blocks.subspan(state.warm_up);
-    const auto early = left.first(left.size() / 5), late = left.last(left.size() / 2);
-    const double change = std::abs(estimate_of(early).mean - estimate_of(late).mean);
-    const double a = estimate_of(without_trend(early)).error,
-                 b = estimate_of(without_trend(late)).error;
-    return change <= most_trend * std::sqrt(a * a + b * b);
 }
 
 }  // namespace swirl

@@ -248,7 +248,7 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
                 const CrossingSearch found = search_crossing(search, inner);
                 const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
                 return Json{{"crosses", crosses},
-                            {"drifting", found.drifting},
+                            {"not_steady", found.not_steady},
                             {"discs", found.crossing.discs},
                             {"error", found.crossing.error},
                             {"lower", found.crossing.lower},
@@ -260,15 +260,15 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
-                     "events", "drifting_runs", "steady_state"});
+                     "events", "runs_not_steady", "steady_state"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < frictions.size(); ++k) {
             const Json& r = results[k];
             if (failed(r)) continue;
             table.add({frictions[k], std::int64_t{r["crosses"].get<bool>()}, number(r["discs"]),
                        number(r["error"]), number(r["lower"]), number(r["upper"]), whole(r["runs"]),
-                       whole(r["events"]), whole(r["drifting"]),
-                       std::string(r["drifting"] == 0 ? "steady" : "drifting")});
+                       whole(r["events"]), whole(r["not_steady"]),
+                       std::string(r["not_steady"] == 0 ? "steady" : "not steady")});
             outcome.findings.push_back(
                 fmt::format("μ = {}: {}", frictions[k], r["report"].get<std::string>()));
         }

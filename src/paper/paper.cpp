@@ -226,23 +226,28 @@ std::optional<std::string> remark_on_failures(const FigurePlan& plan,
 std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results,
                                     const std::map<std::string, Json>& runs) {
     std::vector<std::string> remarks;
-    std::int64_t drifting = 0, too_short = 0, unaveraged = 0, judged = 0;
+    std::map<std::string, std::int64_t> count;
+    std::int64_t unaveraged = 0, judged = 0;
     std::vector<std::string> disagreeing;
     if (auto failures = remark_on_failures(plan, runs)) remarks.push_back(*failures);
     for (std::size_t k = 0; k < results.size(); ++k) {
         const Json& seeds = at(results[k], {"seeds"});
         if (!seeds.is_object()) continue;
         judged += seeds["runs"].get<std::int64_t>();
-        drifting += seeds["drifting"].get<std::int64_t>();
-        too_short += seeds["too_short"].get<std::int64_t>();
+        for (const char* verdict : {"drifting", "jumping", "switching", "too_short"})
+            count[verdict] += seeds[verdict].get<std::int64_t>();
         unaveraged += seeds["too_short_to_average"].get<std::int64_t>();
         if (at(seeds, {"disagree"}) == true) disagreeing.push_back(plan.points[k].name);
     }
-    if (drifting + too_short > 0)
+    const std::int64_t not_steady =
+        count["drifting"] + count["jumping"] + count["switching"] + count["too_short"];
+    if (not_steady > 0)
         remarks.push_back(fmt::format(
-            "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} too short to "
-            "tell). They are marked in the figure and in its table.",
-            drifting + too_short, judged, drifting, too_short));
+            "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} jumping, {} "
+            "switching between two states, {} too short to tell). They are marked in the figure "
+            "and in its table.",
+            not_steady, judged, count["drifting"], count["jumping"], count["switching"],
+            count["too_short"]));
     if (unaveraged > 0)
         remarks.push_back(fmt::format(
             "{} of them have fewer than {} swirls after their warm-up and are not averaged.",

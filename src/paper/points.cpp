@@ -203,6 +203,8 @@ std::vector<std::string> rotation_columns() {
             "averaged_runs",
             "steady_runs",
             "drifting_runs",
+            "jumping_runs",
+            "switching_runs",
             "too_short_to_average",
             "scatter",
             "seeds_disagree",
@@ -230,7 +232,7 @@ void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
     row.emplace_back(name_of_point(r));
     row.push_back(whole(at(r, {"seeds", "runs"})));
     row.push_back(averaged_runs(r));
-    for (const char* count : {"steady", "drifting", "too_short_to_average"})
+    for (const char* count : {"steady", "drifting", "jumping", "switching", "too_short_to_average"})
         row.push_back(whole(at(r, {"seeds", count})));
     row.emplace_back(number(at(r, {"seeds", "scatter"})));
     row.emplace_back(std::int64_t{at(r, {"seeds", "disagree"}) == true});

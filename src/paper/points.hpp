@@ -95,7 +95,7 @@ Table::Cell averaged_runs(const nlohmann::ordered_json& result);
 /// The name of its point, for the claims that rest on it.
 std::string name_of_point(const nlohmann::ordered_json& result);
 
-/// "steady", "drifting", "too short to tell", or "failed".
+/// "steady", "drifting", "jumping", "switching", "too short to tell", or "failed".
 std::string steadiness(const nlohmann::ordered_json& result);
 
 /// The numbers of these measurements, "slip.cluster" and so on, each with its error; the column is

@@ -137,14 +137,16 @@ Json measured_together(const Places& places, std::span<const double> weights) {
     return json;
 }
 
-/// Drifting if any run is, and steady if all are.
+/// Steady if all runs are, otherwise the worst of them.
 std::string verdict_of(const Json& seeds) {
-    if (seeds["drifting"] > 0) return "drifting";
+    for (const char* verdict : {"drifting", "jumping", "switching"})
+        if (seeds[verdict] > 0) return verdict;
     return seeds["too_short"] > 0 || seeds["steady"] == 0 ? "too short to tell" : "steady";
 }
 
 Json counted(const std::vector<Json>& results) {
-    std::int64_t failures = 0, unaveraged = 0, steady = 0, drifting = 0, too_short = 0;
+    std::int64_t failures = 0, unaveraged = 0, steady = 0, drifting = 0, jumping = 0, switching = 0,
+                 too_short = 0;
     for (const Json& r : results) {
         const std::string verdict = steadiness(r);
         if (failed(r)) {
@@ -155,12 +157,15 @@ Json counted(const std::vector<Json>& results) {
         } else {
             steady += verdict == "steady" ? 1 : 0;
             drifting += verdict == "drifting" ? 1 : 0;
+            jumping += verdict == "jumping" ? 1 : 0;
+            switching += verdict == "switching" ? 1 : 0;
             too_short += verdict == "too short to tell" ? 1 : 0;
         }
     }
     const auto runs = static_cast<std::int64_t>(results.size());
     return {{"runs", runs},           {"averaged", runs - failures - unaveraged},
             {"steady", steady},       {"drifting", drifting},
+            {"jumping", jumping},     {"switching", switching},
             {"too_short", too_short}, {"too_short_to_average", unaveraged},
             {"failed", failures}};
 }

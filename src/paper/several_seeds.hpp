@@ -10,8 +10,9 @@
 // than five swirls after it. Three swirls of a dish without wall friction, say, are off by a tenth
 // of Ω, all seeds alike, and by many of the errors that such runs give.
 //
-// Besides: under "seeds" how many runs there are, how many were averaged, steady, drifting, too
-// short to tell, too short to be averaged, failed; and how ϖ by event scatters over the seeds
+// Besides: under "seeds" how many runs there are, how many were averaged, steady, drifting,
+// jumping, switching, too short to tell, too short to be averaged, failed; and how ϖ by event
+// scatters over the seeds
 // ("scatter" in units of the runs' own errors, "disagree").
 #pragma once
 

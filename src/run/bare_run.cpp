@@ -175,12 +175,20 @@ bool BareRun::found_warm() {
            beginning_is_forgotten(spin_in_warmup_.series().block_means());
 }
 
+SteadyState BareRun::steady_state_of(const BlockSeries& series) const {
+    SteadyState state = find_steady_state(series.block_means());
+    if (state.verdict != SteadyState::Verdict::too_short)
+        state.period = static_cast<double>(result_.warmup) +
+                       static_cast<double>(state.change.at * series.periods_per_block());
+    return state;
+}
+
 RunResult BareRun::result() {
     sample_by_event();
     result_.complete = complete();
     result_.rotation = rotation().estimates();
-    result_.steady = find_steady_state(rotation().by_event().block_means());
-    result_.steady_spin = find_steady_state(spin().series().block_means());
+    result_.steady = steady_state_of(rotation().by_event());
+    result_.steady_spin = steady_state_of(spin().series());
     result_.events = simulation_.events();
     result_.periods = periods();
     const Budget end = budget_of(snapshot());

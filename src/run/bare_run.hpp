@@ -11,6 +11,7 @@
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/sample_times.hpp"
 #include "swirl/measure/statistics.hpp"
+#include "swirl/measure/steady_state.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -122,6 +123,7 @@ class BareRun {
     void begin_period();
     bool warm_now();
     bool found_warm();
+    SteadyState steady_state_of(const BlockSeries& series) const;
     ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
     BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
 

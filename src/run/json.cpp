@@ -94,7 +94,8 @@ Json result_json(const RunResult& r) {
                  {"periods", r.periods},
                  {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
                  {"rotation", Json::object()},
-                 {"steady_state", {{"verdict", verdict(r.steady_state())}}}};
+                 {"steady_state",
+                  {{"verdict", verdict(r.steady_state())}, {"found", steady_state_found(r)}}}};
     r.report([&](std::string_view group, const ReportRow& row) {
         (group.empty() ? json : json[std::string(group)])[row.name] = row_json(row);
     });

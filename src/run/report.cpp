@@ -43,16 +43,33 @@ std::string energy_sentence(const RunResult& r) {
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
-std::string drift_sentence(const std::string& what, const SteadyState& steady) {
-    if (steady.drifts())
-        return fmt::format(
-            "Not steady: the {} was still changing after the warm-up ({:.1f} standard errors "
-            "between its first and last part); a longer --warmup and a longer run would be right.",
-            what, std::fabs(steady.drift));
-    return fmt::format(
-        "Perhaps not steady: going by the {}, the search for the end of the warm-up would leave "
-        "out another {} blocks, half of the run or more; a longer run would tell.",
-        what, steady.warm_up);
+/// "drifts from 0.33 to 1.00"; empty for a steady one.
+std::string found_in(const SteadyState& steady) {
+    const auto level = [](double value) { return with_minus(fmt::format("{:.3g}", value)); };
+    const MeanChange& change = steady.change;
+    switch (steady.verdict) {
+        case SteadyState::Verdict::drifting:
+            return fmt::format("drifts from {} to {}", level(change.before), level(change.after));
+        case SteadyState::Verdict::jumping:
+            return fmt::format("jumps at period {:.0f} from {} to {}", steady.period,
+                               level(change.before), level(change.after));
+        case SteadyState::Verdict::switching:
+            return fmt::format("switches between two states, {} and {}, {} times",
+                               level(steady.states.low), level(steady.states.high),
+                               steady.states.changes);
+        case SteadyState::Verdict::steady:
+        case SteadyState::Verdict::too_short:
+            break;
+    }
+    return {};
+}
+
+std::string not_steady_sentence(const RunResult& r) {
+    const bool only_switches = r.steady_state() == SteadyState::Verdict::switching;
+    return fmt::format("Not steady: {}. {}", steady_state_found(r),
+                       only_switches ? "The average mixes both states. Use a longer run, or more "
+                                       "seeds."
+                                     : "Use a longer --warmup and a longer run.");
 }
 
 std::string no_swirl_sentence(const RunResult& r) {
@@ -90,13 +107,13 @@ std::string steady_text(const RunResult& r) {
         r.steady_state() == SteadyState::Verdict::steady && gains_energy_for_ever(r.config);
     const std::string found =
         is_energy_alone ? "rotation and spins are, the energy is not" : verdict(r.steady_state());
-    if (std::isnan(r.steady.drift) && std::isnan(r.steady_spin.drift)) return found;
+    const MeanChange &rotation = r.steady.change, &spin = r.steady_spin.change;
+    if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return found;
     return fmt::format(
-        "{}; first and last part differ by {:.1f} standard errors, of the spins by {:.1f} (up to "
-        "{:.1f} may "
-        "be chance)",
-        found, std::fabs(r.steady.drift), std::fabs(r.steady_spin.drift),
-        std::min(r.steady.most_drift, r.steady_spin.most_drift));
+        "{}; largest change {:.1f} standard errors (limit {:.1f}), of the spins {:.1f} (limit "
+        "{:.1f}); {:.2g} % of steady runs pass a limit",
+        found, std::fabs(rotation.size), rotation.most_size, std::fabs(spin.size), spin.most_size,
+        100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
 
 }  // namespace
@@ -151,10 +168,23 @@ const char* verdict(SteadyState::Verdict verdict) {
             return "steady";
         case SteadyState::Verdict::drifting:
             return "drifting";
+        case SteadyState::Verdict::jumping:
+            return "jumping";
+        case SteadyState::Verdict::switching:
+            return "switching";
         case SteadyState::Verdict::too_short:
             break;
     }
     return "too short to tell";
+}
+
+std::string steady_state_found(const RunResult& r) {
+    std::string text;
+    if (const std::string found = found_in(r.steady); !found.empty())
+        text = "the rotation " + found;
+    if (const std::string found = found_in(r.steady_spin); !found.empty())
+        text += fmt::format("{}the mean spin {}", text.empty() ? "" : "; ", found);
+    return text;
 }
 
 std::string report(const RunResult& r) {
@@ -203,11 +233,8 @@ std::vector<std::string> warnings(const RunResult& r) {
     if (!r.has_whole_swirl() && r.config.amplitude > 0.0) all.push_back(no_swirl_sentence(r));
     if (nothing_rubs(r.config) && r.config.amplitude > 0.0)
         all.push_back(energy_sentence(r));
-    else if (r.steady.verdict == SteadyState::Verdict::drifting)
-        all.push_back(drift_sentence("rotation", r.steady));
-    else if (r.steady_spin.verdict == SteadyState::Verdict::drifting)
-        all.push_back(drift_sentence(fmt::format("mean spin of the {}s", body_word(r.config)),
-                                     r.steady_spin));
+    else if (!steady_state_found(r).empty())
+        all.push_back(not_steady_sentence(r));
     else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
              r.has_whole_swirl())
         all.push_back(too_short_sentence(r));

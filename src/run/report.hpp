@@ -20,8 +20,12 @@ std::string sense_of_rotation(const Estimate& rotation);
 /// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line.
 std::string headline(const RunResult& result);
 
-/// "steady", "drifting" or "too short to tell".
+/// "steady", "drifting", "jumping", "switching" or "too short to tell".
 const char* verdict(SteadyState::Verdict verdict);
+
+/// What the tests of the steady state found: "the rotation jumps at period 812 from 0.72 to 1.00";
+/// empty if they found nothing.
+std::string steady_state_found(const RunResult& result);
 
 /// The headline and what else there is to say, a few lines.
 std::string report(const RunResult& result);

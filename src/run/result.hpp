@@ -5,7 +5,7 @@
 
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/report.hpp"
-#include "swirl/measure/statistics.hpp"
+#include "swirl/measure/steady_state.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/simulation/simulation.hpp"
 
@@ -36,10 +36,11 @@ struct RunResult {
     const char* simd = "";  // the vector instructions of the event loop
     double seconds = 0.0;
 
-    /// Steady if both are, drifting if either is.
+    /// Steady if both are; otherwise the worse of the two.
     SteadyState::Verdict steady_state() const {
         using Verdict = SteadyState::Verdict;
-        for (const Verdict v : {Verdict::drifting, Verdict::too_short})
+        for (const Verdict v :
+             {Verdict::drifting, Verdict::jumping, Verdict::switching, Verdict::too_short})
             if (steady.verdict == v || steady_spin.verdict == v) return v;
         return Verdict::steady;
     }
@@ -56,11 +57,26 @@ struct RunResult {
                "of the averages over events: 1 up to 128 discs, beyond that their number over 64",
                static_cast<double>(
                    events_per_rotation_sample(static_cast<std::size_t>(config.discs))));
-        number("steady_state", "drift", "1",
-               "of the rotation, from its first part to its last, in standard errors",
-               steady.drift);
-        number("steady_state", "drift_of_the_spin", "1", "the same, of the mean spin of the discs",
-               steady_spin.drift);
+        number("steady_state", "change", "1",
+               "most likely change of the rotation, in standard errors", steady.change.size);
+        number("steady_state", "change_limit", "1", "size that may be chance",
+               steady.change.most_size);
+        number("steady_state", "change_period", "1", "period at which the rotation changes",
+               steady.period);
+        number("steady_state", "change_before", "Ω", "rotation before the change",
+               steady.change.before);
+        number("steady_state", "change_after", "Ω", "rotation after the change",
+               steady.change.after);
+        const TwoStates states = steady.states.found() ? steady.states : TwoStates{};
+        number("steady_state", "low_state", "Ω", "rotation in the lower of two states", states.low);
+        number("steady_state", "high_state", "Ω", "rotation in the higher of two states",
+               states.high);
+        number("steady_state", "switches", "1", "changes between the two states",
+               static_cast<double>(states.changes));
+        number("steady_state", "change_of_the_spin", "1",
+               "most likely change of the mean spin, in standard errors", steady_spin.change.size);
+        number("steady_state", "change_limit_of_the_spin", "1", "size that may be chance",
+               steady_spin.change.most_size);
         number("", "max_overlap", "r", "the largest overlap met at a contact: a rounding error",
                max_overlap);
         number("", "energy", "m v²", "kinetic energy in the lab frame at the end, spins included",

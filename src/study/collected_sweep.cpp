@@ -141,9 +141,9 @@ Table::Cell cell_of(const std::string& text) {
     return text;
 }
 
-/// Of all replicas together: steady if all are, drifting if any is.
+/// Of all replicas together: steady if all are, otherwise the worst of them.
 std::string steadiness_of(const std::vector<const PointResult*>& replicas) {
-    for (const char* verdict : {"drifting", "too short to tell"})
+    for (const char* verdict : {"drifting", "jumping", "switching", "too short to tell"})
         for (const PointResult* r : replicas)
             if (r->steadiness == verdict) return verdict;
     return replicas.front()->steadiness;

@@ -21,7 +21,7 @@ struct CollectedSweep {
     Table table;
     std::vector<CollectedRow> rows = {};
     std::size_t disagreeing = 0;  // whose replicas scatter more than their own errors can explain
-    std::size_t not_steady = 0;   // with a replica that drifts or is too short to tell
+    std::size_t not_steady = 0;   // with a replica that is not steady or too short to tell
     /// Runs without a whole swirl after the warm-up: there is nothing to average of them.
     std::size_t without_swirl = 0;
     std::set<std::string> versions = {};  // of the programs that made the runs

@@ -112,8 +112,9 @@ class Search {
         const std::vector<Made>& runs = runs_at_.at(n).made;
         if (runs.empty()) return;
         for (const Made& run : runs) {
-            search.drifting += run.verdict == SteadyState::Verdict::drifting ? 1 : 0;
-            search.too_short += run.verdict == SteadyState::Verdict::too_short ? 1 : 0;
+            const bool too_short = run.verdict == SteadyState::Verdict::too_short;
+            search.too_short += too_short ? 1 : 0;
+            search.not_steady += !too_short && run.verdict != SteadyState::Verdict::steady ? 1 : 0;
         }
         search.disagreeing += together(runs).disagree ? 1 : 0;
     }
@@ -340,7 +341,7 @@ nlohmann::ordered_json search_json(const CrossingSettings& settings, const Cross
             {"tolerance", settings.tolerance},
             {"points", points},
             {"runs", s.runs},
-            {"runs_that_drift", s.drifting},
+            {"runs_not_steady", s.not_steady},
             {"runs_too_short_to_tell", s.too_short},
             {"numbers_whose_seeds_disagree", s.disagreeing},
             {"runs_failed", failures},

@@ -64,7 +64,7 @@ struct CrossingSearch {
     std::string first_failure;            // why the first of them failed
     /// Of the runs that the crossing rests on (of all, if there is none): how many had not reached
     /// a steady state after their warm-up, and how many were too short to tell.
-    std::int64_t drifting = 0, too_short = 0;
+    std::int64_t not_steady = 0, too_short = 0;
     /// Of the numbers of discs that it rests on: where the seeds scatter more than the errors
     /// within the runs can explain.
     std::int64_t disagreeing = 0;

@@ -824,6 +824,22 @@ class OnMadeUpTables(unittest.TestCase):
         # Too few runs, though none drifts.
         self.assertEqual(judged((8, 0, 0), (8, 0, 0)).points, {"high_N20", "high_N21"})
 
+    def test_a_point_that_jumps_is_no_steady_state(self):
+        def judged(jumping, switching=0):
+            self.table("5b", [{"setting": "low", "discs": 5 + k, "point": f"low_N{5 + k}", "seeds": 8,
+                               "steady_runs": 8 - j - s, "drifting_runs": 0, "jumping_runs": j,
+                               "switching_runs": s}
+                              for k, (j, s) in enumerate([(jumping, switching)] + [(0, 0)] * 130)])
+            return claims.steady(self.folder)
+        self.assertEqual(judged(0)[0], HOLDS)
+        self.assertEqual(judged(1)[0], HOLDS)
+        # 8 of 1048 runs are few, but they are all there are of this point.
+        verdict, found = judged(8)
+        self.assertEqual(verdict, IN_PART)
+        self.assertIn("0 drift, 8 jump, 0 switch", found)
+        self.assertIn("Most runs change at low_N5", found)
+        self.assertEqual(judged(0, 8)[0], IN_PART)
+
     def test_seeds_spent_where_runs_drift_do_not_make_the_whole_drift(self):
         def judged(seeds):
             self.table("5b", [{"setting": "high", "discs": 20 + k, "point": f"high_N{20 + k}",

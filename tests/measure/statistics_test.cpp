@@ -142,106 +142,11 @@ TEST(Statistics, VeryLongRunsAreCoarsenedWithoutChangingTheMean) {
     EXPECT_DOUBLE_EQ(series.mean(), sum / 10240.0);
 }
 
-TEST(SteadyStateSearch, AStepIsCutOffWhereItEnds) {
-    Noise noise(5);
-    std::vector<double> blocks;
-    for (int i = 0; i < 300; ++i) blocks.push_back((i < 60 ? 10.0 : 0.0) + 0.1 * noise());
-    const SteadyState state = find_steady_state(blocks);
-    EXPECT_EQ(state.verdict, SteadyState::Verdict::steady);
-    EXPECT_GE(state.warm_up, 60u);
-    EXPECT_LE(state.warm_up, 80u);
-}
-
-TEST(SteadyStateSearch, SteadyNoiseIsSteadyAndKeepsMostOfItself) {
-    int steady = 0;
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-        Noise noise(seed);
-        std::vector<double> blocks;
-        for (int i = 0; i < 200; ++i) blocks.push_back(noise());
-        steady += find_steady_state(blocks).verdict == SteadyState::Verdict::steady ? 1 : 0;
-    }
-    EXPECT_GE(steady, 90);
-}
-
-TEST(SteadyStateSearch, ATrendThatGoesOnIsADrift) {
-    Noise noise(9);
-    std::vector<double> blocks;
-    for (int i = 0; i < 300; ++i) blocks.push_back(0.01 * i + noise());
-    EXPECT_EQ(find_steady_state(blocks).verdict, SteadyState::Verdict::drifting);
-}
-
-TEST(SteadyStateSearch, QuantilesOfStudentAreThoseOfTheTables) {
+TEST(Statistics, QuantilesOfStudentAreThoseOfTheTables) {
     // Two-sided 5 %: t = 2.228 for 10 degrees of freedom, 2.042 for 30 (normal: 1.960).
     EXPECT_NEAR(student_quantile(1.960, 10.0), 2.228, 0.004);
     EXPECT_NEAR(student_quantile(1.960, 30.0), 2.042, 0.001);
     EXPECT_DOUBLE_EQ(student_quantile(3.0, 1e18), 3.0);
-}
-
-TEST(SteadyStateSearch, CorrelatedNoiseIsNotTakenForADrift) {
-    int drifting = 0;
-    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        Noise noise(seed);
-        std::vector<double> blocks;
-        double value = 0.0;
-        for (int i = 0; i < 250; ++i) blocks.push_back(value = 0.6 * value + noise());
-        drifting += find_steady_state(blocks).drifts() ? 1 : 0;
-    }
-    // Of exact tests one in 16 000; the errors of 50 correlated blocks are rough.
-    EXPECT_LE(drifting, 2);
-}
-
-TEST(BeginningIsForgotten, OnlyAfterATransientHasEnded) {
-    // A mean spin that saturates as exp(−t/60), as it does without disc friction.
-    int early = 0, late = 0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        Noise noise(seed);
-        std::vector<double> blocks;
-        std::size_t forgotten = 0;
-        for (int t = 0; t < 1000 && forgotten == 0; ++t) {
-            blocks.push_back(1.0 - std::exp(-t / 60.0) + 0.05 * noise());
-            if (t % 10 == 0 && beginning_is_forgotten(blocks)) forgotten = blocks.size();
-        }
-        early += forgotten > 0 && forgotten < 120 ? 1 : 0;  // still 13 % to go
-        // MSER-5 sees the transient until it is lost in the noise after some 300, and wants
-        // less than half cut off.
-        late += forgotten == 0 || forgotten > 900 ? 1 : 0;
-    }
-    EXPECT_EQ(early, 0);
-    EXPECT_LE(late, 2);  // a run ends the search after half of itself
-}
-
-TEST(BeginningIsForgotten, AtOnceWhereThereIsNothingToForget) {
-    int waited = 0;
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-        Noise noise(seed);
-        std::vector<double> blocks;
-        for (int t = 0; t < 50; ++t) blocks.push_back(noise());
-        EXPECT_FALSE(beginning_is_forgotten(std::span(blocks).first(49)));
-        waited += beginning_is_forgotten(blocks) ? 0 : 1;
-    }
-    EXPECT_LE(waited, 30);  // a false alarm costs ten swirls more
-}
-
-TEST(WithoutTrend, AStraightLineLeavesNothing) {
-    std::vector<double> line;
-    for (int i = 0; i < 20; ++i) line.push_back(3.0 - 0.5 * i);
-    for (const double rest : without_trend(line)) EXPECT_NEAR(rest, 0.0, 1e-14);
-    EXPECT_EQ(without_trend(std::vector<double>{7.0}), std::vector<double>{0.0});
-}
-
-TEST(SteadyStateSearch, WhatIsNotKnownIsNotJudged) {
-    const std::vector<double> unknown(100, not_known);
-    EXPECT_EQ(find_steady_state(unknown).verdict, SteadyState::Verdict::too_short);
-    EXPECT_FALSE(beginning_is_forgotten(unknown));
-}
-
-TEST(SteadyStateSearch, AShortSeriesSaysNothing) {
-    EXPECT_EQ(find_steady_state({}).verdict, SteadyState::Verdict::too_short);
-    const std::vector<double> few(49, 1.0);
-    EXPECT_EQ(find_steady_state(few).verdict, SteadyState::Verdict::too_short);
-    const std::vector<double> constant(50, 1.0);
-    EXPECT_EQ(find_steady_state(constant).verdict, SteadyState::Verdict::steady);
-    EXPECT_EQ(find_steady_state(constant).warm_up, 0u);
 }
 
 }  // namespace

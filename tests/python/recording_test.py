@@ -54,7 +54,7 @@ def test_analysed_it_is_what_the_command_line_measures(file):
     done = command("measure", file, "--measure", "all", "--skip", 2, "--json", "-")
     theirs = json.loads(done.stdout)
     assert found.frames == theirs["frames"] and set(found.measured) == set(theirs["measured"])
-    assert found.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    assert found.rotation.by_time.mean == theirs["rotation"]["by_time"]["mean"]
     compared = 0
     for name, estimate in estimates_of(found.measured).items():
         measurement, row = name.split(".")
@@ -81,11 +81,11 @@ def test_what_a_simulation_has_sampled_is_measured_too(file):
     found = swirl.analyse(sim.sample(12), ["density", "slip"], skip=2)
     theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], skip=2)
     # The recording begins a further swirl, with the frame at its very end.
-    assert found.by_time.mean == pytest.approx(theirs.by_time.mean, rel=1e-3)
+    assert found.rotation.by_time.mean == pytest.approx(theirs.rotation.by_time.mean, rel=1e-3)
     square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
     own = swirl.Simulation(discs=20, path=square)
     found = swirl.analyse(own.sample(30), "all", skip=5)
-    assert found.frames == 25 * 511 and found.by_time.blocks == 25
+    assert found.frames == 25 * 511 and found.rotation.by_time.blocks == 25
     assert set(found.measured) < set(swirl.measurements()) and "density" in found.measured
     with pytest.raises(ValueError, match="no frames"):
         swirl.analyse(own.sample(0))
@@ -155,7 +155,7 @@ def test_tracks_are_what_the_command_line_reads(table, tmp_path):
     theirs = json.loads(done.stdout)
     found = swirl.analyse(tracks, ["density", "slip", "profile"])
     assert found.frames == theirs["frames"]
-    assert found.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    assert found.rotation.by_time.mean == theirs["rotation"]["by_time"]["mean"]
     for name, estimate in estimates_of(found.measured).items():
         measurement, row = name.split(".")
         assert estimate.mean == theirs["measured"][measurement][row]["mean"], name

@@ -86,7 +86,8 @@ def reference():
     stubs, parts = stub_classes(), [HEAD]
     for name in sorted(swirl.__all__, key=str.lower):
         thing = getattr(swirl, name)
-        if name in stubs:
+        # An internal class may have the name of a public one (Recording).
+        if name in stubs and thing is getattr(swirl._engine, name):
             parts.append(of_stub(name, stubs[name]))
         elif inspect.isclass(thing):
             parts.append(of_class(name, thing))

@@ -258,8 +258,8 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
         ++rows;
     });
     EXPECT_EQ(rows, 12);
-    EXPECT_EQ(json.at("steady_state").at("drift_of_the_spin").dump(),
-              nlohmann::ordered_json(result.steady_spin.drift).dump());
+    EXPECT_EQ(json.at("steady_state").at("change_of_the_spin").dump(),
+              nlohmann::ordered_json(result.steady_spin.change.size).dump());
     EXPECT_EQ(json.at("energy").get<double>(), result.energy);
     EXPECT_EQ(json.at("max_overlap").get<double>(), result.max_overlap);
 }

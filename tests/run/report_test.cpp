@@ -94,22 +94,37 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Incomplete")));
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
-    result.steady.drift = 5.0;
-    EXPECT_THAT(report(result), testing::HasSubstr("  steady      drifting; first and last part "
-                                                   "differ by 5.0 standard errors"));
-    EXPECT_THAT(warnings(result),
-                testing::ElementsAre(testing::HasSubstr("Not steady: the rotation")));
+    result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .most_size = 4.6};
+    result.steady_spin.change = {.size = 1.0, .most_size = 4.7, .effective_samples = 200.0};
+    EXPECT_THAT(report(result),
+                testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
+                                   "(limit 4.6), of the spins 1.0 (limit 4.7); 1.5 % of steady "
+                                   "runs pass a limit"));
+    EXPECT_THAT(
+        warnings(result),
+        testing::ElementsAre(testing::HasSubstr("Not steady: the rotation drifts from 0.3 to 1.")));
     std::swap(result.steady, result.steady_spin);
     EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
-    EXPECT_THAT(warnings(result),
-                testing::ElementsAre(testing::HasSubstr("Not steady: the mean spin")));
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr(
+                                      "Not steady: the mean spin drifts from 0.3 to 1.")));
+    result.steady_spin.verdict = SteadyState::Verdict::steady;
+    result.steady.verdict = SteadyState::Verdict::jumping;
+    result.steady.change = {.before = 0.72, .after = 1.0, .size = 9.0, .most_size = 4.6};
+    result.steady.period = 812.0;
+    EXPECT_EQ(steady_state_found(result), "the rotation jumps at period 812 from 0.72 to 1");
+    EXPECT_STREQ(verdict(result.steady_state()), "jumping");
+    result.steady.verdict = SteadyState::Verdict::switching;
+    result.steady.states = {.low = -0.05, .high = 1.0, .changes = 14};
+    EXPECT_EQ(steady_state_found(result),
+              "the rotation switches between two states, −0.05 and 1, 14 times");
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("mixes both states")));
     result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
     // What is steady then is not the dish, and the line of the report says no such thing.
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
-    result.steady.drift = result.steady_spin.drift = 1.0;
+    result.steady.change = result.steady_spin.change = {.size = 1.0, .most_size = 4.6};
     EXPECT_THAT(report(result),
                 testing::HasSubstr("  steady      rotation and spins are, the energy is not; "));
     result.config.path = PathShape::circle;

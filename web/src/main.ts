@@ -188,8 +188,8 @@ const plot = new uPlot({
     width: 400, height: 190,
     scales: {x: {time: false}},
     axes: [{label: texts.swirls, stroke: ink, grid: {stroke: line}},
-           {label: symbols.rotation, stroke: ink, grid: {stroke: line}}],
-    series: [{label: texts.swirls}, {label: symbols.rotation, stroke: quiet, width: 1},
+           {label: symbols.rigidRotation, stroke: ink, grid: {stroke: line}}],
+    series: [{label: texts.swirls}, {label: symbols.rigidRotation, stroke: quiet, width: 1},
              {label: texts.mean, stroke: accent, width: 2}],
     legend: {show: false},
 }, [[], [], []], byId("plot"));

@@ -1,4 +1,4 @@
-// ϖ/Ω block for block: a block is a swirl at first, and in a long run several, since the engine puts
+// The rigid-body rate in Ω, block for block: a block is a swirl at first, and in a long run several, since the engine puts
 // neighbours together so that their number stays bounded.
 import type {Rotation} from "./engine";
 
@@ -16,5 +16,5 @@ export function meansOf({blocks, warmup_blocks: early}: Rotation): (number | nul
 
 export function tableOf(rotation: Rotation | undefined): string {
     const swirls = rotation ? swirlsOf(rotation) : [];
-    return "swirl,varpi\n" + swirls.map((swirl, k) => `${swirl},${rotation!.blocks[k] ?? ""}\n`).join("");
+    return "swirl,varpi_rigid\n" + swirls.map((swirl, k) => `${swirl},${rotation!.blocks[k] ?? ""}\n`).join("");
 }

@@ -17,7 +17,7 @@ export const pageTexts = {
 
 /** As the paper has them. */
 export const symbols = {
-    rotation: "ϖ/Ω", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ",
+    rotation: "ϖ/Ω", rigidRotation: "ϖ/Ω, rigid body", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ",
     swirl: "S", dish: "C", farthest: "M", // points: the swirl's centre, the dish's, the wall's farthest
 };
 

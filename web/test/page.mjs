@@ -427,7 +427,7 @@ await page.waitForSelector("#save-film", {timeout: 90_000}); // a busy machine i
 // Downloads.
 const saved = {}, canvasSize = await page.$eval("#views canvas", ({width, height}) => [width, height]);
 for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
-                                      ["#save-table", "rotation.csv", "swirl,varpi\n"],
+                                      ["#save-table", "rotation.csv", "swirl,varpi_rigid\n"],
                                       ["#save-film", "swirl.webm", "\x1a\x45\xdf\xa3"],
                                       ["#save-positions", "swirl.xyz", "28\nProperties=species"],
                                       ["#save-result", "result.json", "{\n"]]) {

@@ -147,8 +147,8 @@ try {
     const short = {warmup: 2, warmup_blocks: 2, swirls_per_block: [1, 1], blocks: [5, 7, 1, 3, null]};
     assert.deepEqual(swirlsOf(short), [1, 2, 3, 4, 5]);
     assert.deepEqual(meansOf(short), [null, null, 1, 2, 4 / 3]);
-    assert.equal(tableOf(short), "swirl,varpi\n1,5\n2,7\n3,1\n4,3\n5,\n");
-    assert.equal(tableOf(undefined), "swirl,varpi\n");
+    assert.equal(tableOf(short), "swirl,varpi_rigid\n1,5\n2,7\n3,1\n4,3\n5,\n");
+    assert.equal(tableOf(undefined), "swirl,varpi_rigid\n");
     // So long that neighbours were put together: in twos in the warm-up, in fours after it.
     const long = {warmup: 5, warmup_blocks: 2, swirls_per_block: [2, 4], blocks: [1, 1, 3, 5]};
     assert.deepEqual(swirlsOf(long), [2, 4, 9, 13]);

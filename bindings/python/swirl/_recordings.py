@@ -13,7 +13,7 @@ from typing import Any, Optional, Union, overload
 import numpy as np
 
 from . import _engine
-from ._results import Estimate, Measured, measured_of
+from ._results import Estimate, Measured, Rotation, measured_of
 from ._runs import Measure, OwnBlocks, PathName, split_measure
 
 
@@ -199,10 +199,13 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
 
 @dataclasses.dataclass(frozen=True)
 class Analysis:
-    """What was seen in a recording: rotation in units of Ω, and what was measured."""
+    """What was seen in a recording: the rotation and the measurements, named as in Result.
 
-    by_time: Estimate
-    rigid_by_time: Estimate
+    `rotation.by_time` and `rotation.rigid_by_time` are averages over the frames. A recording has no
+    events, so the averages by event are NaN.
+    """
+
+    rotation: Rotation
     frames: int
     measured: Mapping[str, Measured]
 
@@ -240,7 +243,10 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
         for begin, end in _swirls(recording, skip):
             blocks.period_ended(recording[begin:end])
         found.update(blocks.found())
-    return Analysis(Estimate(*by_time, unit="Ω"), Estimate(*rigid, unit="Ω"), used, found)
+    no_events = Estimate(math.nan, unit="Ω")
+    rotation = Rotation(no_events, Estimate(*by_time, unit="Ω"), no_events,
+                        Estimate(*rigid, unit="Ω"))
+    return Analysis(rotation, used, found)
 
 
 def _swirls(recording: Recording, skip: float) -> Iterator[tuple[int, int]]:

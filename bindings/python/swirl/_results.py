@@ -260,7 +260,10 @@ class Result:
     measured                {"density": …}: what was asked for with `measure`
     events, periods         EventCounts, and swirls simulated, warm-up included
     warmup                  whole swirls left out of the averages
-    steady_state            "steady", "drifting" or "too short to tell"
+    steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
+    steady_state_found      what the tests of the steady state found; "" if nothing
+    change, change_of_the_spin
+                            most likely change of the rotation and of the spins, in standard errors
     state_hash              64 bits of the state at the end, as 16 hexadecimal digits: equal states
                             of equal runs, everywhere
     warnings                what to know before believing the numbers: full sentences
@@ -284,8 +287,9 @@ class Result:
         self.warmup = int(found["warmup"]["periods"])
         self.warmup_events = int(found["warmup"]["events"])
         self.steady_state: str = found["steady_state"]["verdict"]
-        self.drift = _number(found["steady_state"]["drift"])
-        self.drift_of_the_spin = _number(found["steady_state"]["drift_of_the_spin"])
+        self.steady_state_found: str = found["steady_state"]["found"]
+        self.change = _number(found["steady_state"]["change"])
+        self.change_of_the_spin = _number(found["steady_state"]["change_of_the_spin"])
         self.max_overlap = _number(found["max_overlap"])
         self.energy = _number(found["energy"])
         self.energy_at_start = _number(found["energy_at_start"])
