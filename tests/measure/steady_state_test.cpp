@@ -48,7 +48,8 @@ TEST(SteadyStateSearch, SteadySeriesAreSteady) {
 }
 
 // A jump by three standard deviations of the blocks, or 16 errors of the difference where one part
-// has a tenth of the run. The old test cut the blocks before the jump off, though the average rested on them.
+// has a tenth of the run. The old test cut the blocks before the jump off, though the average
+// rested on them.
 TEST(SteadyStateSearch, AJumpDoesNotHideItself) {
     for (const std::size_t at : {100u, 300u, 500u, 900u}) {
         const auto jump = [at](std::size_t b) { return b < at ? 3.0 : 0.0; };

@@ -257,7 +257,7 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
         EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
         ++rows;
     });
-    EXPECT_EQ(rows, 12);
+    EXPECT_EQ(rows, 20);
     EXPECT_EQ(json.at("steady_state").at("change_of_the_spin").dump(),
               nlohmann::ordered_json(result.steady_spin.change.size).dump());
     EXPECT_EQ(json.at("energy").get<double>(), result.energy);

@@ -95,10 +95,10 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
     result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .most_size = 4.6};
-    result.steady_spin.change = {.size = 1.0, .most_size = 4.7, .effective_samples = 200.0};
+    result.steady_spin.change = {.size = 1.0, .most_size = 4.7, .effective_samples = 10.0};
     EXPECT_THAT(report(result),
                 testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
-                                   "(limit 4.6), of the spins 1.0 (limit 4.7); 1.5 % of steady "
+                                   "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
                                    "runs pass a limit"));
     EXPECT_THAT(
         warnings(result),
