@@ -160,7 +160,8 @@ class Folder:
             return ()
         rows = [row for row in rows
                 if any(key in row and named(row, key) for key in ("setting", "curve"))]
-        at = crossing["crossing"] if crossing["verdict"] == "crosses" else crossing["lowest_discs"]
+        at = (crossing_value(crossing).mean if crossing["verdict"] == "crosses"
+              else crossing["lowest_discs"])
         return {row["point"] for row in rows
                 if "point" in row and abs(row["discs"] - at) <= NEAR_CROSSING}
 
@@ -171,10 +172,24 @@ class Folder:
         return sorted(rows, key=lambda row: row["discs"])
 
 
+def crossing_value(row, points=()):
+    """N_c of a row. Of a bracket: its middle, with the standard deviation of an even distribution."""
+    at, error = row["crossing"], row["crossing_error"]
+    if at != at and "lower" in row:
+        at, error = (row["lower"] + row["upper"]) / 2, (row["upper"] - row["lower"]) / math.sqrt(12)
+    return Value(at, error, points)
+
+
+def crossing_words(row):
+    if row["crossing"] != row["crossing"] and "lower" in row:
+        return f"between {row['lower']:g} and {row['upper']:g}"
+    return number(Value(row["crossing"], row["crossing_error"]))
+
+
 class Crossing:
     def __init__(self, row, points):
         self.verdict, self.points = row["verdict"], points
-        self.at = Value(row["crossing"], row["crossing_error"], points)
+        self.at, self.words = crossing_value(row, points), crossing_words(row)
         self.lowest = Value(row["lowest"], row["lowest_error"], points)
         self.lowest_discs = row["lowest_discs"]
 
@@ -187,7 +202,7 @@ class Crossing:
     @property
     def text(self):
         if self.verdict == "crosses":
-            return f"N_c = {number(self.at)}"
+            return f"N_c = {self.words}"
         return (f"no crossing ({self.verdict}; lowest ϖ/Ω = {number(self.lowest)} at N = "
                 f"{self.lowest_discs:.0f})")
 
@@ -1098,19 +1113,24 @@ def spheres_transition(folder):
 
 
 def last_changes(folder):
-    """Of each friction the last change to counterrotation: from there on all counterrotate."""
-    rows = tables.select(folder.table("spheres_sense"), sense="counterrotation")
-    points = folder.table("spheres")
+    """Of each friction the last change to counterrotation: from there on all counterrotate. If signs beyond
+    it are undetermined, the last change may lie anywhere up to the last of them."""
+    table, points = folder.table("spheres_sense"), folder.table("spheres")
     found = {}
-    for row in rows:
+    for row in tables.select(table, sense="counterrotation"):
+        beyond = [other["after"] for other in tables.select(table, sense="undetermined", mu=row["mu"])
+                  if other["before"] >= row["after"]]
+        if beyond:
+            row = {**row, "crossing": math.nan, "lower": row["before"], "upper": max(beyond)}
         near = {p["point"] for p in points
                 if p["mu"] == row["mu"] and row["before"] <= p["discs"] <= row["after"]}
-        found[row["mu"]] = Value(row["crossing"], row["crossing_error"], near)
+        found[row["mu"]] = crossing_value(row, near)
+        found[row["mu"]].words = crossing_words(row)
     return found
 
 
 def listed(changes):
-    return "; ".join(f"μ = {mu:g}: {number(at)}" for mu, at in sorted(changes.items()))
+    return "; ".join(f"μ = {mu:g}: {at.words}" for mu, at in sorted(changes.items()))
 
 
 def frictions_that_change_at(changes, discs):

@@ -1,14 +1,14 @@
-"""Spheres that roll: the numbers of spheres at which the sense of rotation changes, against the
-friction, beside those of the experiment.
+"""Spheres that roll: all numbers of spheres at which the direction of rotation changes, against the
+friction, next to those of the experiment.
 
     /usr/bin/python3 figures/figure_spheres_sense.py out/figure_spheres_sense.csv
 """
 
 import style
 
-EXPERIMENT = ((36, "smooth"), (28, "rough"))  # where the paper's spheres change their sense
-CHANGES = (("counterrotation", "full", "to counterrotation"),
-           ("rotation", "none", "back to rotation"))
+EXPERIMENT = ((36, "smooth"), (28, "rough"))  # where the paper's spheres change their direction
+CHANGES = (("counterrotation", style.BLUE, "to counterrotation"),
+           ("rotation", style.RED, "back to rotation"))
 
 
 def main():
@@ -19,14 +19,21 @@ def main():
         axes.axhline(discs, color=style.GREY, linewidth=0.7, linestyle="--", zorder=0)
         axes.annotate(f" {kind}\n experiment", (1.0, discs), xycoords=("axes fraction", "data"),
                       fontsize=style.SMALLEST, color="0.3", ha="left", va="center")
-    for sense, filled, label in CHANGES:
+    for sense, color, label in CHANGES:
         here = style.select(rows, sense=sense)
-        if here:
-            axes.errorbar(style.column(here, "mu"), style.column(here, "crossing"),
-                          yerr=style.column(here, "crossing_error"), fmt="o", color=style.BLUE,
-                          fillstyle=filled, elinewidth=0.7, label=label)
+        if not here:
+            continue
+        # A bar spans the interval, or the bracket of a change whose N is not known.
+        axes.vlines(style.column(here, "mu"), style.column(here, "lower"), style.column(here, "upper"),
+                    color=color, linewidth=2.5, label=label)
+        known = [row for row in here if row["crossing"] == row["crossing"]]
+        axes.plot(style.column(known, "mu"), style.column(known, "crossing"), "o", color=color)
+    unknown = style.select(rows, sense="undetermined")
+    if unknown:
+        axes.plot(style.column(unknown, "mu"), style.column(unknown, "before"), "x", color=style.GREY,
+                  label="sign undetermined")
     axes.set_xlabel(r"friction $\mu$")
-    axes.set_ylabel(r"$N$ where the sense changes")
+    axes.set_ylabel(r"$N$ where the direction changes")
     axes.set_xlim(0, max(row["mu"] for row in rows) * 1.12)
     style.legend(axes)
     style.save(drawing, table)

@@ -55,8 +55,9 @@ CONTRADICTIONS = [
      "Computed from the velocities in the M-frame (measurement “centre”)."),
     ("Which rotation", "ϖ is the mean over the discs of (r × v)/r² about the centre of mass: those near "
      "it, whose r² is small, weigh most, and the variance diverges.", "The paper's mean is the one that is "
-     "judged. The rotation of the rigid body that fits the velocities best stands beside it in every "
-     "table (rigid_by_event, rigid_by_time); beyond N = 48 the two part."),
+     "judged. Every table also has the rotation of the rigid body that fits the velocities best "
+     "(rigid_by_event, rigid_by_time). The two change sign at different N: with μ = 1 the rigid body does so "
+     "about 1.3 discs earlier. Figure 5b has N_c by all four rates."),
     ("Which average", "Figure 5b averages over events, the experiment over time.",
      "Both are given everywhere; figure “averages” compares them."),
 ]
@@ -175,8 +176,10 @@ CAPTIONS = {
                       "along the line of their centres.",
     "spheres_coins": "Rotation against the number of solid discs that lie flat on the floor, without friction of the "
                      "floor and for three values of it.",
-    "spheres_sense": "Every number of spheres at which the sense of rotation changes, against the friction "
-                     "of spheres and wall. Dashed: where the paper's experiment has the change.",
+    "spheres_sense": "Every number of spheres at which the direction of rotation changes, against the friction "
+                     "of spheres and wall. Bars without a point: the change lies between two numbers that were "
+                     "run. Crosses: the sign is undetermined there. Dashed: where the paper's experiment has the "
+                     "change.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their "
                            "contacts.",
     "spheres_few": "A few spheres after a long warm-up: ϖ, and the share of them that is on a stay at the wall. A row that "
@@ -353,7 +356,7 @@ def lowest_of(folder, setting):
 def change_of(crossing):
     """Where a curve changes its sense, for a sentence."""
     if crossing.verdict == "crosses":
-        return f"at N_c = {claims.number(crossing.at)}"
+        return f"at N_c = {crossing.words}"
     low = f"ϖ/Ω is lowest at N = {crossing.lowest_discs:.0f}, {claims.number(crossing.lowest)}"
     if crossing.verdict == "always rotates":
         return f"not at all ({low})"
@@ -456,7 +459,7 @@ def found_spheres(folder):
         changes = claims.last_changes(folder)
     except FileNotFoundError:
         changes = {}
-    changes = ", ".join(f"{claims.number(at)} (μ = {mu:g})" for mu, at in sorted(changes.items()))
+    changes = ", ".join(f"{at.words} (μ = {mu:g})" for mu, at in sorted(changes.items()))
     where = f" Their sense changes for the last time at N = {changes}." if changes else ""
     return statement(
         turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.{where}"
@@ -490,12 +493,12 @@ SAME_SETTING = {
 
 
 def crossing_of(folder, figure, curve, mu):
-    """N_c of a figure's curve; None if it has none."""
+    """N_c of a figure's curve, and its words; None if it has none."""
     if curve is None:
         row = claims.tables.select(folder.table(figure), mu=mu)[0]
-        return claims.Value(row["crossing"], row["crossing_error"]) if row["crosses"] else None
+        return (claims.crossing_value(row), claims.crossing_words(row)) if row["crosses"] else None
     found = folder.crossing(figure, curve)
-    return found.at if found.verdict == "crosses" else None
+    return (found.at, found.words) if found.verdict == "crosses" else None
 
 
 def crossings_of_one_setting(path):
@@ -509,12 +512,12 @@ def crossings_of_one_setting(path):
             except (FileNotFoundError, IndexError, KeyError):
                 continue
             if at:
-                found.append((figure, at, how))
+                found.append((figure, *at, how))
         if len(found) < 2:
             continue
         first = found[0][1]
-        apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9) for _, at, _ in found[1:])
-        listed = "; ".join(f"{claims.number(at)} (figure {figure}, {how})" for figure, at, how in found)
+        apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9) for _, at, _, _ in found[1:])
+        listed = "; ".join(f"{words} (figure {figure}, {how})" for figure, _, words, how in found)
         sentences.append(f"N_c for both frictions {mu:g} is estimated more than once: {listed}. The first is "
                          f"the one to quote; the others differ from it by at most {apart:.1f} standard errors.")
     return " ".join(sentences)

@@ -95,7 +95,7 @@ py::tuple collect(const std::string& folder) {
 }
 
 CrossingSettings crossing_settings(const py::dict& given, std::int64_t fewest, std::int64_t most,
-                                   double tolerance) {
+                                   double tolerance, const std::string& rate) {
     if (fewest < 1 || most < fewest || static_cast<double>(most) > most_discs)
         throw WrongCall(fmt::format(
             "The range of discs is {} to {}, but it must go up, from 1 at least.", fewest, most));
@@ -103,7 +103,9 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t fewest, s
         throw WrongCall(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", events_of_a_search);
+    texts["discs"] = std::to_string(most);  // only what is searched has to fit
     CrossingSettings settings;
+    settings.rate = rate_named(rate);
     settings.config = resolve(texts);
     settings.from = fewest;
     settings.to = most;
@@ -112,14 +114,15 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t fewest, s
 }
 
 py::tuple crossing(const py::dict& given, std::int64_t fewest, std::int64_t most, double tolerance,
-                   unsigned threads, const std::string& command, const Told& told) {
-    const CrossingSettings settings = crossing_settings(given, fewest, most, tolerance);
+                   const std::string& rate, unsigned threads, const std::string& command,
+                   const Told& told) {
+    const CrossingSettings settings = crossing_settings(given, fewest, most, tolerance, rate);
     std::atomic<bool> stop = false;
     Latest<std::string, double> latest;
     CrossingControl control;
     control.stop = &stop;
     control.threads = threads;
-    control.progress = [&](const std::string& stage, double rate) { latest.say(stage, rate); };
+    control.progress = [&](const std::string& stage, double speed) { latest.say(stage, speed); };
     const CrossingSearch search = listening(
         stop, [&] { return search_crossing(settings, control); }, [&] { latest.hand_on(told); });
     return py::make_tuple(crossing_json(settings, search, command),

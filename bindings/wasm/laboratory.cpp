@@ -390,7 +390,7 @@ EXPORTED(column) std::uint32_t column() {
 EXPORTED(values) const double* values() { return numbers.data(); }
 
 /// N_c of a curve ϖ(N): so many points of three numbers, N, mean and error, from values() on. JSON;
-/// null without a crossing.
+/// null without a crossing; N_c and its error are null where only the bracket is known.
 EXPORTED(points) double* points(std::uint32_t count) {
     numbers.resize(3 * std::size_t{count});
     return numbers.data();

@@ -21,16 +21,19 @@ const ParameterTexts defaults{{"events", events_of_a_search}};
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
-    std::string config_file, json, table;
+    std::string config_file, json, table, rate;
+    std::int64_t threads = 0;
     bool quiet = false;
 };
 
 std::string table_text(const CrossingSearch& search) {
     std::string text;
-    for (std::size_t k = 0; k < search.points.size(); ++k)
-        text += fmt::format("  N = {:<4.0f} ϖ/Ω = {:<20} {} run{}\n", search.points[k].discs,
-                            with_error(search.points[k].mean, search.points[k].error),
-                            search.runs_made[k], search.runs_made[k] == 1 ? "" : "s");
+    for (std::size_t k = 0; k < search.points().size(); ++k) {
+        const RotationPoint& p = search.points()[k];
+        text += fmt::format("  N = {:<4.0f} ϖ/Ω = {:<20} {} run{}\n", p.discs,
+                            with_error(p.mean, p.error), search.runs_made[k],
+                            search.runs_made[k] == 1 ? "" : "s");
+    }
     return text;
 }
 
@@ -40,6 +43,7 @@ CrossingSearch search_one(const CrossingCall& call, const CrossingSettings& sett
     ProgressLine line(which, call.quiet);
     CrossingControl control;
     control.stop = &stop_signal();
+    control.threads = static_cast<unsigned>(call.threads);
     int done = 0;
     control.progress = [&](const std::string& stage, double rate) {
         // How many runs it takes is not known beforehand: half of what is left, ever again.
@@ -93,7 +97,15 @@ std::string json_of(const std::vector<std::string>& found, bool single) {
 /// A search for every combination of the lists that were given. After each of them the files hold
 /// all that is known, so nothing is lost when the next one takes too long.
 void find(CrossingCall& call) {
-    const SweepPlan plan = make_plan(overridden(defaults, *call.parameters), 1);
+    check_range(call.settings);
+    if (call.threads < 0 || call.threads > 4096)
+        throw WrongCall(fmt::format(
+            "--threads is {}, but it must be a whole number from 1 to 4096, or 0 for all cores.",
+            call.threads));
+    // Only what is searched has to fit.
+    ParameterTexts given = overridden(defaults, *call.parameters);
+    given["discs"] = std::to_string(call.settings.to);
+    const SweepPlan plan = make_plan(given, 1);
     const bool single = plan.points() == 1;
     std::vector<CrossingSettings> searches;
     for (std::size_t point = 0; point < plan.points(); ++point) {
@@ -106,7 +118,8 @@ void find(CrossingCall& call) {
     refuse_same_files({call.config_file, call.json, call.table});
 
     std::vector<std::string> columns;
-    for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.name != "discs") columns.push_back(axis.name);
     for (const std::string& name : crossing_columns()) columns.push_back(name);
     columns.insert(columns.end(), {"within_tolerance", "runs", "runs_failed", "events_in_all"});
     Table table(columns);
@@ -117,11 +130,12 @@ void find(CrossingCall& call) {
         const CrossingSettings& settings = searches[point];
         const std::string name = name_of(plan, point);
         const CrossingSearch search = search_one(call, settings, single ? "crossing" : name);
-        if (search.points.empty()) ++empty;
+        if (search.points().empty()) ++empty;
         std::vector<Table::Cell> row;
         const ParameterTexts texts = plan.parameters(point);
-        for (const SweepAxis& axis : plan.axes) row.emplace_back(texts.at(axis.name));
-        add_crossing(row, search.crossing);
+        for (const SweepAxis& axis : plan.axes)
+            if (axis.name != "discs") row.emplace_back(texts.at(axis.name));
+        add_crossings(row, search.crossings, search.rate);
         row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
         row.emplace_back(std::int64_t(search.runs));
         row.emplace_back(search.failed());
@@ -162,6 +176,13 @@ void add_crossing_command(Subcommand& subcommand) {
                     "between the numbers of the first look; small, where the sense may change "
                     "several times [about eight numbers]")
         ->type_name("N");
+    subcommand
+        .add_option("--rate", call->rate,
+                    "rotation rate whose sign and tolerance decide: by_event, by_time, "
+                    "rigid_by_event or rigid_by_time [by_time]")
+        ->type_name("NAME");
+    subcommand.add_option("--threads", call->threads, "runs at the same time [one for each core]")
+        ->type_name("N");
     subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
@@ -173,8 +194,10 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: then there is a search for each\n"
-        "combination. However few the --events, a run covers a hundred swirls after its warm-up;\n"
-        "near the crossing there are more and longer ones, until --tolerance is reached.\n");
+        "combination. However few the --events, a run covers a hundred swirls after its warm-up.\n"
+        "Near the crossing there are more runs, each twice as long as the ones before, until\n"
+        "--tolerance is reached, or for the eighth time; then the report says so. N_c is given by\n"
+        "each of the four rotation rates; --rate says which of them decides.\n");
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
@@ -182,6 +205,7 @@ void add_crossing_command(Subcommand& subcommand) {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::taken,
                              "crossing");
+        if (!call->rate.empty()) call->settings.rate = rate_named(call->rate);
         find(*call);
     });
 }

@@ -29,6 +29,7 @@
 // depend on the width of the processor's vectors.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -63,9 +64,26 @@ constexpr std::uint64_t events_per_rotation_sample(std::size_t discs) {
     return discs <= always_sampled ? 1 : (discs + looked_at_per_event - 1) / looked_at_per_event;
 }
 
+/// The rotation rates of a run, in the order of its report.
+struct RotationRate {
+    const char *name, *words;
+};
+inline constexpr std::array<RotationRate, 4> rotation_rates{
+    {{"by_event", "mean over the discs, by event"},
+     {"by_time", "mean over the discs, by time"},
+     {"rigid_by_event", "rigid body, by event"},
+     {"rigid_by_time", "rigid body, by time"}}};
+/// What a search for N_c goes by: the mean over the discs, by time.
+inline constexpr std::size_t default_rate = 1;
+
 /// In units of Ω.
 struct RotationEstimates {
     Estimate by_event, by_time, rigid_by_event, rigid_by_time;
+
+    /// In the order of rotation_rates.
+    std::array<Estimate, rotation_rates.size()> all() const {
+        return {by_event, by_time, rigid_by_event, rigid_by_time};
+    }
 
     template <class Visitor>
     void report(Visitor&& visit) const {

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include "swirl/measure/several_runs.hpp"
 
 namespace swirl {
 namespace {
@@ -13,96 +10,13 @@ constexpr double z = 1.959963984540054;  // 95 %, two-sided
 
 std::vector<RotationPoint> usable(std::span<const RotationPoint> points) {
     std::vector<RotationPoint> kept;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const RotationPoint& p : points) {
-        if (!std::isfinite(p.discs) || !std::isfinite(p.mean) || !std::isfinite(p.error)) continue;
-        if (p.error < 0.0) continue;
-        kept.push_back(p);
-        if (p.error > 0.0) smallest = std::min(smallest, p.error);
-    }
-    for (RotationPoint& p : kept)
-        if (p.error == 0.0) p.error = std::isfinite(smallest) ? smallest : 1.0;
+    for (const RotationPoint& p : points)
+        if (std::isfinite(p.discs) && std::isfinite(p.mean) && std::isfinite(p.error) &&
+            p.error >= 0.0)
+            kept.push_back(p);
     std::stable_sort(kept.begin(), kept.end(),
                      [](const auto& a, const auto& b) { return a.discs < b.discs; });
     return kept;
-}
-
-/// How many points lie left of the change of sign.
-std::size_t best_cut(const std::vector<RotationPoint>& points) {
-    double score = 0.0;
-    for (const RotationPoint& p : points) score -= p.mean / (p.error * p.error);
-    double best = -std::numeric_limits<double>::infinity();
-    std::size_t cut = 0;
-    for (std::size_t k = 1; k < points.size(); ++k) {
-        score += 2.0 * points[k - 1].mean / (points[k - 1].error * points[k - 1].error);
-        if (score > best) {
-            best = score;
-            cut = k;
-        }
-    }
-    return cut;
-}
-
-struct Line {
-    double centre, height, slope;  // height + slope (N − centre)
-    double height_variance, slope_variance;
-};
-
-Line fit(std::span<const RotationPoint> points) {
-    double w = 0.0, wx = 0.0, wy = 0.0;
-    for (const RotationPoint& p : points) {
-        const double weight = 1.0 / (p.error * p.error);
-        w += weight;
-        wx += weight * p.discs;
-        wy += weight * p.mean;
-    }
-    Line line{wx / w, wy / w, 0.0, 1.0 / w, 0.0};
-    double xx = 0.0, xy = 0.0;
-    for (const RotationPoint& p : points) {
-        const double weight = 1.0 / (p.error * p.error), x = p.discs - line.centre;
-        xx += weight * x * x;
-        xy += weight * x * p.mean;
-    }
-    line.slope = xy / xx;
-    line.slope_variance = 1.0 / xx;
-    double chi_square = 0.0;
-    for (const RotationPoint& p : points) {
-        const double off = (p.mean - line.height - line.slope * (p.discs - line.centre)) / p.error;
-        chi_square += off * off;
-    }
-    if (points.size() > 2) {
-        const double freedom = static_cast<double>(points.size() - 2);
-        const double student = student_95(freedom) / z;
-        const double scattered = chi_square / freedom * student * student;
-        const double scale = chi_square > freedom ? scattered : 1.0;
-        line.height_variance *= scale;
-        line.slope_variance *= scale;
-    }
-    return line;
-}
-
-struct Place {
-    double discs, error, lower, upper;
-};
-
-/// The zero of the line, which lies between `before` and `after`: their signs are certain.
-Place zero_between(const Line& line, double before, double after) {
-    const double anywhere = (after - before) / std::sqrt(12.0);
-    const double x = -line.height / line.slope, discs = line.centre + x;
-    if (!(discs >= before && discs <= after))
-        return {0.5 * (before + after), anywhere, before, after};
-    const double error =
-        std::sqrt(line.height_variance + line.slope_variance * x * x) / std::abs(line.slope);
-    Place place{discs, std::min(error, anywhere), before, after};
-    // Fieller: A x² + 2 B x + C ≤ 0.
-    const double A = line.slope * line.slope - z * z * line.slope_variance;
-    const double B = line.height * line.slope;
-    const double C = line.height * line.height - z * z * line.height_variance;
-    if (!(A > 0.0)) return place;
-    const double root = std::sqrt(std::max(B * B - A * C, 0.0));
-    place.lower = std::max(before, line.centre + (-B - root) / A);
-    place.upper = std::min(after, line.centre + (-B + root) / A);
-    return place;
 }
 
 /// +1, −1, or 0 for one that is not certain.
@@ -110,29 +24,73 @@ int sign_of(const RotationPoint& p) {
     return p.mean > certain_sign * p.error ? 1 : p.mean < -certain_sign * p.error ? -1 : 0;
 }
 
-SignChange sign_change(std::span<const RotationPoint> between) {
-    SignChange change{between.front().discs, between.back().discs, between.front().mean > 0.0};
-    const Place place = zero_between(fit(between), change.before, change.after);
-    change.discs = place.discs;
-    change.error = place.error;
+/// Where the straight line from a to b is compatible with zero, as fractions of the way: the part
+/// of 0 … 1 in which A f² + 2 B f + C ≤ 0. Empty (first > last) if nowhere.
+struct Compatible {
+    double first = 1.0, last = 0.0;
+};
+
+Compatible compatible_with_zero(const RotationPoint& a, const RotationPoint& b) {
+    const double va = z * z * a.error * a.error, vb = z * z * b.error * b.error;
+    const double A = (b.mean - a.mean) * (b.mean - a.mean) - va - vb;
+    const double B = a.mean * (b.mean - a.mean) + va, C = a.mean * a.mean - va;
+    const bool at_a = C <= 0.0, at_b = b.mean * b.mean <= vb;
+    Compatible found;
+    if (at_a) found.first = 0.0;
+    if (at_b) found.last = 1.0;
+    const double discriminant = B * B - A * C;
+    if (at_a == at_b && (at_a || discriminant < 0.0)) return found;
+    // The roots without cancellation: their product is C/A.
+    const double q = -(B + std::copysign(std::sqrt(std::max(discriminant, 0.0)), B));
+    double high = q != 0.0 ? C / q : 0.0, low = A != 0.0 ? q / A : high;
+    if (low > high) std::swap(low, high);
+    const auto inside = [](double f) { return std::clamp(f, 0.0, 1.0); };
+    if (at_a)
+        found.last = inside(A > 0.0 ? high : low);
+    else if (at_b)
+        found.first = inside(A > 0.0 ? low : high);
+    else if (A > 0.0 && low <= 1.0 && high >= 0.0)
+        found = {inside(low), inside(high)};
+    return found;
+}
+
+/// The middle one of the zeros of the polyline through these points.
+double middle_zero(std::span<const RotationPoint> points) {
+    std::vector<double> zeros;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const RotationPoint &a = points[k], &b = points[k + 1];
+        if (a.mean == 0.0) zeros.push_back(a.discs);
+        if (a.mean * b.mean < 0.0)
+            zeros.push_back(a.discs + (b.discs - a.discs) * a.mean / (a.mean - b.mean));
+    }
+    return zeros[zeros.size() / 2];
+}
+
+/// Of a bracket: its first and last sign are certain and opposite, the others undetermined.
+SignChange sign_change(std::span<const RotationPoint> points) {
+    SignChange change{points.front().discs, points.back().discs, points.front().mean > 0.0};
+    change.lower = change.before;
+    change.upper = change.after;
+    for (const RotationPoint& p : points.subspan(1, points.size() - 2))
+        change.between.push_back(p.discs);
+    double lower = not_known, upper = not_known;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const double from = points[k].discs, width = points[k + 1].discs - from;
+        if (width > 1.0) return change;
+        const Compatible here = compatible_with_zero(points[k], points[k + 1]);
+        if (here.first > here.last) continue;
+        if (std::isnan(lower)) lower = from + width * here.first;
+        upper = from + width * here.last;
+    }
+    change.discs = middle_zero(points);
+    // Rounding could part an interval of exact points, which has no width, from its zero.
+    change.lower = std::fmin(lower, change.discs);
+    change.upper = std::fmax(upper, change.discs);
+    change.error = 0.5 * (change.upper - change.lower) / z;
     return change;
 }
 
-/// Of points without a change of sign.
-Crossing::Verdict one_sign(const std::vector<RotationPoint>& points) {
-    const auto all = [&](int sign) {
-        return std::all_of(points.begin(), points.end(),
-                           [&](const RotationPoint& p) { return sign_of(p) == sign; });
-    };
-    return all(1)    ? Crossing::Verdict::always_rotates
-           : all(-1) ? Crossing::Verdict::always_counterrotates
-                     : Crossing::Verdict::undecided;
-}
-
-}  // namespace
-
-std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> given) {
-    const std::vector<RotationPoint> points = usable(given);
+std::vector<SignChange> sign_changes(const std::vector<RotationPoint>& points) {
     std::vector<SignChange> changes;
     std::size_t last = points.size();  // whose sign is certain
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -145,43 +103,51 @@ std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> given) 
     return changes;
 }
 
-Crossing find_crossing(std::span<const RotationPoint> given, int window) {
+/// Of points without a change to counterrotation.
+Crossing::Verdict one_sign(const std::vector<RotationPoint>& points) {
+    const auto all = [&](int sign) {
+        return points.size() > 1 &&
+               std::all_of(points.begin(), points.end(),
+                           [&](const RotationPoint& p) { return sign_of(p) == sign; });
+    };
+    return all(1)    ? Crossing::Verdict::always_rotates
+           : all(-1) ? Crossing::Verdict::always_counterrotates
+                     : Crossing::Verdict::undecided;
+}
+
+}  // namespace
+
+const SignChange* Crossing::last() const {
+    const auto found = std::find_if(changes.rbegin(), changes.rend(),
+                                    [](const SignChange& c) { return c.to_counterrotation; });
+    return found == changes.rend() ? nullptr : &*found;
+}
+
+std::vector<double> Crossing::undetermined_after() const {
+    std::vector<double> beyond;
+    const SignChange* const change = last();
+    for (const double discs : undetermined)
+        if (change && discs > change->after) beyond.push_back(discs);
+    return beyond;
+}
+
+Crossing find_crossing(std::span<const RotationPoint> given) {
     Crossing crossing;
     const std::vector<RotationPoint> points = usable(given);
-    if (points.empty()) return crossing;
-
-    double highest = -std::numeric_limits<double>::infinity(), lowest = -highest;
-    for (const RotationPoint& p : points) {
-        highest = std::max(highest, p.mean / p.error);
-        lowest = std::min(lowest, p.mean / p.error);
-    }
-    crossing.most_positive = highest;
-    crossing.most_negative = lowest;
-    if (points.size() < 2) return crossing;
-
-    const std::size_t cut = best_cut(points);
-    double before = not_known, after = not_known;  // the nearest whose signs are certain
-    for (std::size_t k = 0; k < cut; ++k)
-        if (sign_of(points[k]) > 0) before = points[k].discs;
-    for (std::size_t k = points.size(); k-- > cut;)
-        if (sign_of(points[k]) < 0) after = points[k].discs;
-    if (!(before < after)) {
+    crossing.points = points.size();
+    crossing.changes = sign_changes(points);
+    for (const RotationPoint& p : points)
+        if (sign_of(p) == 0) crossing.undetermined.push_back(p.discs);
+    const SignChange* const change = crossing.last();
+    if (!change) {
         crossing.verdict = one_sign(points);
         return crossing;
     }
-    const std::size_t reach = static_cast<std::size_t>(std::max(window, 1));
-    const std::size_t first = cut > reach ? cut - reach : 0;
-    const std::size_t last = std::min(points.size(), cut + reach);
-    const Line line = fit(std::span(points).subspan(first, last - first));
-    crossing.points_used = static_cast<int>(last - first);
-    if (!(line.slope < 0.0)) return crossing;
-    const Place place = zero_between(line, before, after);
     crossing.verdict = Crossing::Verdict::crosses;
-    crossing.slope = line.slope;
-    crossing.discs = place.discs;
-    crossing.error = place.error;
-    crossing.lower = place.lower;
-    crossing.upper = place.upper;
+    crossing.discs = change->discs;
+    crossing.error = change->error;
+    crossing.lower = change->lower;
+    crossing.upper = change->upper;
     return crossing;
 }
 

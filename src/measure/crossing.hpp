@@ -1,33 +1,42 @@
-// Where a curve ϖ(N) changes sign from rotation to counterrotation: N_c, with a confidence
-// interval.
+// Where a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from rotation
+// to counterrotation.
 //
-// Method. The points are in order of N, each with its mean and error. The change of sign is looked
-// for where it fits the signs best: the cut k that leaves the largest Σ_{left} m/e² − Σ_{right}
-// m/e². Through the points nearest to it (`window` on either side) goes the straight line a + b (N
-// − N̄) of weighted least squares; if they scatter about it more than their errors say (χ² per
-// degree of freedom > 1), the errors are scaled up by its root, and by Student's t for the points
-// less two, since that root is uncertain itself. N_c is the line's zero, and its
-// interval is that of Fieller (1954, doi:10.1111/j.2517-6161.1954.tb00159.x): every N at which the
-// line is compatible with zero,
+// Signs. The sign of a point is certain if its mean is more than three errors from zero. Otherwise
+// it is undetermined; such points are listed (`undetermined`), because the curve may change sign
+// next to them. Between two points of certain and opposite signs, with no other certain point
+// between them, the curve does change sign. These two are the bracket of the change.
 //
-//     (a + b x)² ≤ z² (σ_a² + σ_b² x²),   x = N − N̄,  z = 1.96 for 95 %.
+// N_c. N is a whole number, so the zero is that of the straight line between two neighbours, N and
+// N + 1. It depends on these two points alone, not on the range of the table. A bracket may hold
+// undetermined points; then the curve in it is the polyline through all its points. If this has
+// several zeros, N_c is the middle one.
 //
-// The verdict does not come from the line: a crossing is claimed only if some point left of the cut
-// is positive and some point right of it is negative, each by more than three errors, and a curve
-// has one sign throughout only if every one of its points has, by as much. Between the nearest two
-// such points of opposite signs the curve does cross zero, so nothing outside them belongs to the
-// interval; and where the line says less than they do, N_c is anywhere between them: their middle,
-// with the standard deviation of an even distribution, a √12th of their distance.
+// Interval. At x = N + f the polyline has the value and the variance
 //
-// Units: those of N. Limits: points without a finite mean and a finite, non-negative error are left
-// out; fewer than two points decide nothing.
-// An exact point (error 0) counts as having the smallest positive error there is, or 1 if there is
-// none.
+//     g(x) = (1 − f) m_N + f m_{N+1},   σ²(x) = (1 − f)² e_N² + f² e_{N+1}².
+//
+// The interval of 95 % reaches from the first to the last x at which g is compatible with zero,
+// |g(x)| ≤ z σ(x), z = 1.96. For one pair of points this is Fieller's interval (1954,
+// doi:10.1111/j.2517-6161.1954.tb00159.x), which is exact. It contains the zeros of its own
+// polyline. It lies within the bracket, since the signs at both ends are certain. The error is the
+// half width of the interval divided by z.
+//
+// Coarse tables. If two points of a bracket are more than one apart, nothing is known of the curve
+// between them. Then the bracket is all that is reported: N_c and its error are not known, and the
+// interval is the bracket.
+//
+// One sign throughout is claimed only if every point certainly has it. Units: those of N. Limits:
+// points without a finite mean and a finite, non-negative error are left out; an exact point (error
+// 0) has a certain sign unless its mean is 0. Errors count as those of normal deviates;
+// several_runs.hpp widens those of few runs.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/statistics.hpp"
 
 namespace swirl {
@@ -40,6 +49,18 @@ struct RotationPoint {
 /// Errors that make a sign certain: of many points one or two are off by two.
 inline constexpr double certain_sign = 3.0;
 
+/// One change of sign, of a curve that need not be monotonic.
+struct SignChange {
+    double before, after;     // the bracket
+    bool to_counterrotation;  // else back to rotation
+    double discs = not_known, error = not_known;
+    double lower = not_known, upper = not_known;  // 95 %, or the bracket of a coarse table
+    std::vector<double> between = {};             // undetermined points in the bracket
+
+    /// Whether every N of the bracket has a point, so that N_c is known.
+    bool resolved() const { return discs == discs; }
+};
+
 struct Crossing {
     enum class Verdict : std::uint8_t {
         crosses,
@@ -48,30 +69,30 @@ struct Crossing {
         undecided,              // the errors are too large, or there are too few points
     };
     Verdict verdict = Verdict::undecided;
-    double discs = not_known;                     // N_c
-    double error = not_known;                     // one standard error of N_c
-    double lower = not_known, upper = not_known;  // 95 %
-    // The evidence: the points that are most clearly on either side, in units of their errors.
-    double most_positive = not_known, most_negative = not_known;
-    double slope = not_known;  // of the line, per disc
-    int points_used = 0;
+    std::size_t points = 0;  // with a mean and an error
+    /// Of the last change to counterrotation. N_c is not known if that is a bracket of a table.
+    double discs = not_known, error = not_known;
+    double lower = not_known, upper = not_known;
+    std::vector<SignChange> changes = {};   // all that are certain, in the order of N
+    std::vector<double> undetermined = {};  // N whose sign is not certain, in order
+
+    /// The last change to counterrotation; nullptr if there is none.
+    const SignChange* last() const;
+    /// Undetermined points beyond the last change to counterrotation: another change may follow.
+    std::vector<double> undetermined_after() const;
 };
 
 /// Points in any order.
-Crossing find_crossing(std::span<const RotationPoint> points, int window = 3);
+Crossing find_crossing(std::span<const RotationPoint> points);
 
-/// One of several changes of sign, of a curve that need not be monotonic.
-struct SignChange {
-    double before, after;                         // the neighbours N whose signs are certain
-    bool to_counterrotation;                      // else back to rotation
-    double discs = not_known, error = not_known;  // where the line between them is zero
-};
+/// ϖ(N) by each of rotation_rates.
+using RotationCurves = std::array<std::vector<RotationPoint>, rotation_rates.size()>;
+using Crossings = std::array<Crossing, rotation_rates.size()>;
 
-/// Every change of sign that is certain, in order of N: between two neighbours of certain and
-/// opposite signs, those of uncertain sign left out of the count, the curve changes sign at least
-/// once. Where: the zero of the straight line through these points and those between them, by
-/// weighted least squares, its error being that of the line, and at least that of how the points
-/// scatter about it; never outside the two, as above.
-std::vector<SignChange> find_sign_changes(std::span<const RotationPoint> points);
+inline Crossings find_crossings(const RotationCurves& curves) {
+    Crossings found;
+    for (std::size_t r = 0; r < curves.size(); ++r) found[r] = find_crossing(curves[r]);
+    return found;
+}
 
 }  // namespace swirl

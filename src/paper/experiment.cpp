@@ -257,18 +257,21 @@ std::vector<NamedCurve> Experiment::curves() const {
     });
     std::vector<NamedCurve> all;
     for (const auto& [name, by_number] : points) {
-        all.push_back({name, {}});
-        for (const auto& [discs, results] : by_number) {
-            std::vector<Estimate> estimates;
-            for (const Json* r : results) {
-                const RotationPoint p = rotation_point(double(discs), *r, "by_time");
-                estimates.push_back({.mean = p.mean, .error = p.error});
+        all.push_back({name});
+        for (const auto& [discs, results] : by_number)
+            for (std::size_t k = 0; k < rotation_rates.size(); ++k) {
+                std::vector<Estimate> estimates;
+                for (const Json* r : results) {
+                    const RotationPoint p =
+                        rotation_point(double(discs), *r, rotation_rates[k].name);
+                    estimates.push_back({.mean = p.mean, .error = p.error});
+                }
+                const Estimate e =
+                    estimates.size() == 1
+                        ? estimates.front()
+                        : several_runs(estimates, std::span<const double>()).estimate;
+                all.back().curves[k].push_back({double(discs), e.mean, e.error});
             }
-            const Estimate e = estimates.size() == 1
-                                   ? estimates.front()
-                                   : several_runs(estimates, std::span<const double>()).estimate;
-            all.back().points.push_back({double(discs), e.mean, e.error});
-        }
     }
     return all;
 }
@@ -442,19 +445,18 @@ void Experiment::add_film_findings(const FilmedDish& film, const Json& simulatio
 std::vector<std::string> Experiment::findings() const {
     std::vector<std::string> findings;
     for (const NamedCurve& curve : curves()) {
-        if (curve.points.size() < 2) {
+        if (curve.points().size() < 2) {
             findings.push_back(fmt::format(
                 "{}: there is one number of discs; where rotation turns into counterrotation takes "
                 "films of several.",
                 curve.name));
             continue;
         }
-        const bool crosses = find_crossing(curve.points).verdict == Crossing::Verdict::crosses;
+        const bool crosses = find_crossing(curve.points()).verdict == Crossing::Verdict::crosses;
         findings.push_back(
-            fmt::format("{}: {}.", curve.name,
-                        crosses ? "ϖ by time " + crossing_sentence(curve.points)
-                                : "these numbers of discs and errors show no crossing: ϖ by time " +
-                                      crossing_sentence(curve.points)));
+            fmt::format("{}: {}ϖ by time {}", curve.name,
+                        crosses ? "" : "these numbers of discs and errors show no crossing: ",
+                        crossing_sentence(curve)));
     }
     for (std::size_t k = 0; k < films_.size(); ++k)
         add_film_findings(films_[k], simulated(k), findings);

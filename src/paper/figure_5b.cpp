@@ -23,8 +23,8 @@ struct PointOfFigure5b {
     std::int64_t discs;
 };
 
-/// Beyond the paper's numbers the two estimators part: discs near the centre of mass, whose r² is
-/// small, weigh most in the paper's ϖ (cluster_rotation.hpp) and least in that of the rigid body.
+/// The two estimators differ at every N: discs near the centre of mass, whose r² is small, weigh
+/// most in the paper's ϖ (cluster_rotation.hpp) and least in that of the rigid body.
 std::string where_estimators_part(const std::vector<RotationPoint>& individual,
                                   const std::vector<RotationPoint>& rigid) {
     std::size_t lowest = individual.size(), last = lowest;
@@ -61,19 +61,17 @@ FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>
 
     std::vector<NamedCurve> curves;
     for (const Friction& friction : frictions_of_5b) {
-        std::vector<RotationPoint> curve, rigid;
+        NamedCurve curve{friction.name, 0};  // by event, as the paper's figure
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (points[k].friction.name != friction.name) continue;
-            const auto discs = static_cast<double>(points[k].discs);
-            curve.push_back(rotation_point(discs, results[k], "by_event"));
-            rigid.push_back(rotation_point(discs, results[k], "rigid_by_event"));
+            curve.add(static_cast<double>(points[k].discs), results[k]);
         }
-        outcome.findings.push_back(fmt::format("{} (μ_d = {}, μ_w = {}): {}.", friction.words,
+        outcome.findings.push_back(fmt::format("{} (μ_d = {}, μ_w = {}): {}", friction.words,
                                                friction.mu_disc, friction.mu_wall,
                                                crossing_sentence(curve)));
-        if (!curve.empty() && friction.name == high_friction.name)
-            outcome.findings.push_back(where_estimators_part(curve, rigid));
-        curves.push_back({friction.name, curve});
+        if (!curve.points().empty() && friction.name == high_friction.name)
+            outcome.findings.push_back(where_estimators_part(curve.curves[0], curve.curves[2]));
+        curves.push_back(std::move(curve));
     }
     outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
     write_crossings(curves, outcome.files.back());

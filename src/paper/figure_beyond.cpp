@@ -66,18 +66,17 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
         FigureOutcome outcome;
         std::vector<NamedCurve> named;
         for (std::size_t c = 0; c < curves.size(); ++c) {
-            std::vector<RotationPoint> curve;
+            NamedCurve curve{curves[c].name};
             for (std::size_t k = 0; k < points.size(); ++k) {
                 if (points[k].curve != c) continue;
                 std::vector<Table::Cell> row{curves[c].name, curves[c].value, points[k].discs};
                 add_rotation(row, results[k]);
                 table.add(std::move(row));
-                curve.push_back(
-                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+                curve.add(static_cast<double>(points[k].discs), results[k]);
             }
             outcome.findings.push_back(
-                fmt::format("{} {}: {}.", parameter, curves[c].name, crossing_sentence(curve)));
-            named.push_back({curves[c].name, curve});
+                fmt::format("{} {}: {}", parameter, curves[c].name, crossing_sentence(curve)));
+            named.push_back(std::move(curve));
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
@@ -238,37 +237,52 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
         search.from = 20;
         search.to = numbers_beyond(settings).back();  // μ = 0.2 crosses beyond the paper's numbers
         search.tolerance = settings.quick ? 0.5 : 0.2;
-        search.rounds = settings.quick ? 1 : 4;
+        if (settings.quick) search.rounds = 1;
         plan.points.push_back(PaperTask{
-            fmt::format("crossing_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
+            fmt::format("N_c_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
             40.0 * static_cast<double>(search.config.events), [search](const RunControl& control) {
                 CrossingControl inner;
                 inner.stop = control.stop;
                 inner.threads = 1;
                 const CrossingSearch found = search_crossing(search, inner);
-                const bool crosses = found.crossing.verdict == Crossing::Verdict::crosses;
-                return Json{{"crosses", crosses},
+                Json numbers = Json::array();
+                for (const Crossing& c : found.crossings)
+                    for (const double value : {c.discs, c.error, c.lower, c.upper})
+                        numbers.push_back(value);
+                const Crossing& c = found.crossing();
+                return Json{{"crosses", c.verdict == Crossing::Verdict::crosses},
                             {"not_steady", found.not_steady},
-                            {"discs", found.crossing.discs},
-                            {"error", found.crossing.error},
-                            {"lower", found.crossing.lower},
-                            {"upper", found.crossing.upper},
+                            {"discs", c.discs},
+                            {"error", c.error},
+                            {"lower", c.lower},
+                            {"upper", c.upper},
+                            {"by_rate", numbers},
                             {"events", found.events},
                             {"runs", found.runs},
                             {"report", crossing_report(search, found)}};
             }});
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
-                     "events", "runs_not_steady", "steady_state"});
+        Table table(joined({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
+                            "events", "runs_not_steady", "steady_state"},
+                           rates_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < frictions.size(); ++k) {
             const Json& r = results[k];
             if (failed(r)) continue;
-            table.add({frictions[k], std::int64_t{r["crosses"].get<bool>()}, number(r["discs"]),
-                       number(r["error"]), number(r["lower"]), number(r["upper"]), whole(r["runs"]),
-                       whole(r["events"]), whole(r["not_steady"]),
-                       std::string(r["not_steady"] == 0 ? "steady" : "not steady")});
+            std::vector<Table::Cell> row{
+                frictions[k],
+                std::int64_t{r["crosses"].get<bool>()},
+                number(r["discs"]),
+                number(r["error"]),
+                number(r["lower"]),
+                number(r["upper"]),
+                whole(r["runs"]),
+                whole(r["events"]),
+                whole(r["not_steady"]),
+                std::string(r["not_steady"] == 0 ? "steady" : "not steady")};
+            for (const Json& value : r["by_rate"]) row.emplace_back(number(value));
+            table.add(std::move(row));
             outcome.findings.push_back(
                 fmt::format("μ = {}: {}", frictions[k], r["report"].get<std::string>()));
         }

@@ -66,9 +66,8 @@ FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name
         std::vector<NamedCurve> curves;
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (k == 0 || points[k].friction.name != points[k - 1].friction.name)
-                curves.push_back({points[k].friction.name, {}});
-            curves.back().points.push_back(
-                rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+                curves.push_back({points[k].friction.name});
+            curves.back().add(static_cast<double>(points[k].discs), results[k]);
         }
         outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
         write_crossings(curves, outcome.files.back());
@@ -106,12 +105,11 @@ static FigurePlan plan_figure_1b(const PaperSettings& settings) {
          "centre.elongation", "centre.centrifugal", "centre.coriolis", "centre.most_centrifugal",
          "centre.most_coriolis"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
-            std::vector<RotationPoint> curve;
+            NamedCurve curve;
             for (std::size_t k = 0; k < points.size(); ++k)
-                curve.push_back(
-                    rotation_point(static_cast<double>(points[k].discs), results[k], "by_time"));
+                curve.add(static_cast<double>(points[k].discs), results[k]);
             return std::vector<std::string>{
-                fmt::format("ϖ by time: {}.", crossing_sentence(curve)),
+                fmt::format("ϖ by time: {}", crossing_sentence(curve)),
                 first_and_last("pancake line", high_friction, "slip", "pancake", points, results),
                 first_and_last("direction of the centre of mass in degrees (M is at 270)",
                                high_friction, "centre", "theta", points, results)};
@@ -189,13 +187,12 @@ static FigurePlan plan_figure_4c(const PaperSettings& settings) {
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<std::string> sentences;
             for (const Friction& friction : {smooth, rough}) {
-                std::vector<RotationPoint> curve;
+                NamedCurve curve;
                 for (std::size_t k = 0; k < points.size(); ++k)
                     if (points[k].friction.name == friction.name)
-                        curve.push_back(rotation_point(static_cast<double>(points[k].discs),
-                                                       results[k], "by_time"));
+                        curve.add(static_cast<double>(points[k].discs), results[k]);
                 sentences.push_back(
-                    fmt::format("{}: {}.", friction.words, crossing_sentence(curve)));
+                    fmt::format("{}: {}", friction.words, crossing_sentence(curve)));
             }
             return sentences;
         });

@@ -12,6 +12,7 @@
 #include "swirl/paper/points.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -83,19 +84,43 @@ struct VariantPoint {
     std::int64_t spheres;
 };
 
-std::string sign_changes_sentence(std::span<const RotationPoint> curve) {
-    const std::vector<SignChange> changes = find_sign_changes(curve);
-    if (changes.empty()) return crossing_sentence(curve);
-    std::string text = changes.size() == 1
+std::string sign_changes_sentence(const NamedCurve& curve) {
+    const Crossings crossings = find_crossings(curve.curves);
+    const Crossing& found = crossings[curve.rate];
+    if (found.changes.empty()) return crossing_sentence(curve);
+    std::string text = found.changes.size() == 1
                            ? "its sign changes once"
-                           : fmt::format("its sign changes {} times", changes.size());
-    for (const SignChange& change : changes)
-        text += fmt::format("{} to {} at N = {}", &change == changes.data() ? ":" : ",",
+                           : fmt::format("its sign changes {} times", found.changes.size());
+    for (const SignChange& change : found.changes)
+        text += fmt::format("{} to {} {}", &change == found.changes.data() ? ":" : ",",
                             change.to_counterrotation ? "counterrotation" : "rotation",
-                            with_error(change.discs, change.error));
-    const RotationPoint* const lowest = lowest_of(curve);
-    return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f}", text,
-                       with_error(lowest->mean, lowest->error), lowest->discs);
+                            change_place(change));
+    if (!found.undetermined.empty())
+        text += fmt::format("; it is undetermined at N = {}", listed(found.undetermined));
+    const RotationPoint* const lowest = lowest_of(curve.points());
+    return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f} ({}).{}", text,
+                       with_error(lowest->mean, lowest->error), lowest->discs,
+                       rotation_rates[curve.rate].words, other_rates_report(crossings, curve.rate));
+}
+
+/// Every change of sign of a curve, and every number at which its sign is undetermined, in the
+/// order of N.
+void add_sign_changes(Table& table, const Variant& variant, const Crossing& found) {
+    std::vector<double> undetermined = found.undetermined;
+    const auto add_undetermined = [&](double up_to) {
+        while (!undetermined.empty() && undetermined.front() <= up_to) {
+            const double n = undetermined.front();
+            undetermined.erase(undetermined.begin());
+            table.add({variant.name, variant.mu, not_known, not_known, n, n, n, n,
+                       std::string("undetermined")});
+        }
+    };
+    for (const SignChange& c : found.changes) {
+        add_undetermined(c.before);
+        table.add({variant.name, variant.mu, c.discs, c.error, c.lower, c.upper, c.before, c.after,
+                   std::string(c.to_counterrotation ? "counterrotation" : "rotation")});
+    }
+    add_undetermined(std::numeric_limits<double>::infinity());
 }
 
 /// `seeds` of a point: settings.seeds() where a claim rests on it.
@@ -116,25 +141,23 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(joined({"curve", "mu", "discs"}, rotation_columns()));
-        Table changes({"curve", "mu", "crossing", "crossing_error", "before", "after", "sense"});
+        Table changes({"curve", "mu", "crossing", "crossing_error", "lower", "upper", "before",
+                       "after", "sense"});
         FigureOutcome outcome;
         std::vector<NamedCurve> named;
         for (std::size_t v = 0; v < variants.size(); ++v) {
-            std::vector<RotationPoint> curve;
+            NamedCurve curve{variants[v].name};
             for (std::size_t k = 0; k < points.size(); ++k) {
                 if (points[k].variant != v) continue;
                 std::vector<Table::Cell> row{variants[v].name, variants[v].mu, points[k].spheres};
                 add_rotation(row, results[k]);
                 table.add(std::move(row));
-                curve.push_back(
-                    rotation_point(static_cast<double>(points[k].spheres), results[k], "by_time"));
+                curve.add(static_cast<double>(points[k].spheres), results[k]);
             }
-            for (const SignChange& c : find_sign_changes(curve))
-                changes.add({variants[v].name, variants[v].mu, c.discs, c.error, c.before, c.after,
-                             std::string(c.to_counterrotation ? "counterrotation" : "rotation")});
+            add_sign_changes(changes, variants[v], find_crossing(curve.points()));
             outcome.findings.push_back(
-                fmt::format("{}: {}.", variants[v].words, sign_changes_sentence(curve)));
-            named.push_back({variants[v].name, curve});
+                fmt::format("{}: {}", variants[v].words, sign_changes_sentence(curve)));
+            named.push_back(std::move(curve));
         }
         outcome.files.push_back(out / ("figure_" + name + ".csv"));
         table.write(outcome.files.back());
@@ -163,7 +186,7 @@ FigureOutcome frictions_of_the_experiment(const PaperSettings& settings,
         for (std::size_t v = 0; v < frictions.size(); ++v)
             curve.push_back(
                 rotation_point(frictions[v], results[v * numbers.size() + k], "by_time"));
-        for (const SignChange& c : find_sign_changes(curve)) {
+        for (const SignChange& c : find_crossing(curve).changes) {
             const char* const sense = c.to_counterrotation ? "counterrotation" : "rotation";
             table.add({n, c.before, c.after, std::string(sense)});
             outcome.findings.push_back(fmt::format("{} spheres change to {} between μ = {} and {}.",

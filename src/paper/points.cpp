@@ -6,6 +6,7 @@
 
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 
@@ -287,34 +288,80 @@ static const RotationPoint* highest_of(std::span<const RotationPoint> curve) {
     return highest;
 }
 
-std::string crossing_sentence(std::span<const RotationPoint> curve) {
-    const Crossing crossing = find_crossing(curve);
-    if (crossing.verdict == Crossing::Verdict::crosses)
-        return fmt::format("crosses zero at N = {} (95 %: {:.1f} to {:.1f})",
-                           with_error(crossing.discs, crossing.error), crossing.lower,
-                           crossing.upper);
-    // The point that is nearest to the other sense.
+void NamedCurve::add(double discs, const Json& result) {
+    for (std::size_t r = 0; r < curves.size(); ++r)
+        curves[r].push_back(rotation_point(discs, result, rotation_rates[r].name));
+}
+
+static std::string driving_sentence(const NamedCurve& curve, const Crossing& crossing) {
+    const char* const words = rotation_rates[curve.rate].words;
+    if (const SignChange* const change = crossing.last()) {
+        const std::string interval = change->resolved() ? fmt::format("95 %: {:.1f} to {:.1f}; ",
+                                                                      change->lower, change->upper)
+                                                        : "";
+        const std::vector<double> beyond = crossing.undetermined_after();
+        return fmt::format(
+            "crosses zero {} ({}{}){}", change_place(*change), interval, words,
+            beyond.empty() ? ""
+                           : fmt::format("; its sign is undetermined at N = {}", listed(beyond)));
+    }
+    // The point that is nearest to the other direction.
     const bool counterrotates = crossing.verdict == Crossing::Verdict::always_counterrotates;
-    const RotationPoint* const next = counterrotates ? highest_of(curve) : lowest_of(curve);
+    const RotationPoint* const next =
+        counterrotates ? highest_of(curve.points()) : lowest_of(curve.points());
     if (!next) return "has no points";
-    return fmt::format("{}; {} is ϖ/Ω = {} at N = {:.0f}",
+    const std::string undetermined =
+        crossing.undetermined.empty()
+            ? "no sign is certain"
+            : fmt::format("its sign is undetermined at N = {}", listed(crossing.undetermined));
+    return fmt::format("{}; {} is ϖ/Ω = {} at N = {:.0f} ({})",
                        crossing.verdict == Crossing::Verdict::undecided
-                           ? "the errors are too large to tell whether it crosses zero"
+                           ? "whether it crosses zero is undecided, " + undetermined
                            : verdict_word(crossing.verdict),
                        counterrotates ? "highest" : "lowest", with_error(next->mean, next->error),
-                       next->discs);
+                       next->discs, words);
+}
+
+std::string crossing_sentence(const NamedCurve& curve) {
+    const Crossings crossings = find_crossings(curve.curves);
+    return driving_sentence(curve, crossings[curve.rate]) + "." +
+           other_rates_report(crossings, curve.rate);
+}
+
+std::vector<std::string> rates_columns() {
+    std::vector<std::string> columns;
+    for (const RotationRate& rate : rotation_rates)
+        for (const char* what : {"", "_error", "_lower", "_upper"})
+            columns.push_back(fmt::format("crossing_{}{}", rate.name, what));
+    return columns;
 }
 
 void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file) {
-    Table table({"curve", "verdict", "crossing", "crossing_error", "lower", "upper", "lowest",
-                 "lowest_error", "lowest_discs"});
+    Table table(joined({"curve", "rate", "verdict", "crossing", "crossing_error", "lower", "upper",
+                        "sign_changes", "undetermined", "lowest", "lowest_error", "lowest_discs"},
+                       rates_columns()));
     for (const NamedCurve& curve : curves) {
-        const Crossing c = find_crossing(curve.points);
-        const RotationPoint* const known = lowest_of(curve.points);
+        const Crossings all = find_crossings(curve.curves);
+        const Crossing& c = all[curve.rate];
+        const RotationPoint* const known = lowest_of(curve.points());
         const RotationPoint lowest =
             known ? *known : RotationPoint{not_known, not_known, not_known};
-        table.add({curve.name, std::string(verdict_word(c.verdict)), c.discs, c.error, c.lower,
-                   c.upper, lowest.mean, lowest.error, lowest.discs});
+        std::vector<Table::Cell> row{curve.name,
+                                     std::string(rotation_rates[curve.rate].name),
+                                     std::string(verdict_word(c.verdict)),
+                                     c.discs,
+                                     c.error,
+                                     c.lower,
+                                     c.upper,
+                                     std::int64_t(c.changes.size()),
+                                     spaced(c.undetermined),
+                                     lowest.mean,
+                                     lowest.error,
+                                     lowest.discs};
+        for (const Crossing& by_rate : all)
+            for (const double value : {by_rate.discs, by_rate.error, by_rate.lower, by_rate.upper})
+                row.emplace_back(value);
+        table.add(std::move(row));
     }
     table.write(file);
 }

@@ -111,15 +111,23 @@ RotationPoint rotation_point(double x, const nlohmann::ordered_json& result, con
 /// Null, if no point has a mean.
 const RotationPoint* lowest_of(std::span<const RotationPoint> curve);
 
-/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0)", or "always rotates" with the lowest
-/// point.
-std::string crossing_sentence(std::span<const RotationPoint> curve);
-
-/// A curve by name, for the table of the crossings.
+/// ϖ(N) by each of rotation_rates, and which of them a figure shows.
 struct NamedCurve {
     std::string name;
-    std::vector<RotationPoint> points;
+    std::size_t rate = default_rate;
+    RotationCurves curves = {};
+
+    void add(double discs, const nlohmann::ordered_json& result);
+    const std::vector<RotationPoint>& points() const { return curves[rate]; }
 };
+
+/// "crosses zero at N = 36.4 ± 0.3 (95 %: 35.9 to 37.0; mean over the discs, by time)", "crosses
+/// zero between N = 36 and 40 (…)", or "always rotates" with the lowest point; and the other rates.
+/// A sentence, with its full stop.
+std::string crossing_sentence(const NamedCurve& curve);
+
+/// N_c by each of rotation_rates: "crossing_by_event", its error and its interval, and so on.
+std::vector<std::string> rates_columns();
 
 /// Where each of the curves crosses zero, or its lowest point if it does not.
 void write_crossings(const std::vector<NamedCurve>& curves, const std::filesystem::path& file);

@@ -44,8 +44,10 @@ std::optional<std::string> out_of_proportion(const RunConfig& c) {
     return out_of_interval("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
 }
 
-constexpr const char* advice_on_room =
-    "fewer --discs or a larger --container-radius would be right.";
+/// Names no option for the number: a search has no --discs.
+std::string advice_on_room(const RunConfig& c) {
+    return fmt::format("fewer {}s or a larger --container-radius would be right.", body_word(c));
+}
 
 /// Of a mixture it is only known that it cannot cover more than all there is.
 std::optional<std::string> does_not_cover(const RunConfig& c) {
@@ -57,7 +59,7 @@ std::optional<std::string> does_not_cover(const RunConfig& c) {
     return fmt::format(
         "{} {}s do not fit into a container of radius {}: together they would cover {:.0f} % of "
         "it; {}",
-        c.discs, body_word(c), R, 100.0 * area / (R * R), advice_on_room);
+        c.discs, body_word(c), R, 100.0 * area / (R * R), advice_on_room(c));
 }
 
 /// In radii of the smallest disc. The centres of Verlet skins are held in single precision, and the
@@ -85,7 +87,7 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
     return fmt::format(
         "{} {}s do not fit into a container of radius {}, where no arrangement holds more than "
         "{:.0f}; {}",
-        c.discs, body_word(c), R, most, advice_on_room);
+        c.discs, body_word(c), R, most, advice_on_room(c));
 }
 
 /// What only a floor does.
@@ -237,7 +239,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
                       : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
                                     "may be found; ",
                                     most_discs_in_dish(c.radius, c.container_radius)),
-            advice_on_room));
+            advice_on_room(c)));
 
     InitialState scene = without_discs(c, make_path(c));
     // Small against the container's speed (a tenth of it in the paper's dish), and there also when

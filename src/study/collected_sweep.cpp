@@ -24,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* estimators[] = {"by_event", "by_time", "rigid_by_event", "rigid_by_time"};
-
 struct PointResult {
     bool there = false, has_whole_swirl = true;
     /// The four estimators of the rotation, then the numbers that were measured.
@@ -74,7 +72,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
             fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
     PointResult result;
     result.there = true;
-    result.quantities.reserve(std::size(estimators));
+    result.quantities.reserve(rotation_rates.size());
     const auto number = [](const Json& value) {
         return value.is_null() ? not_known : value.get<double>();  // throws for a text
     };
@@ -86,7 +84,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
                 result_format));
         refuse_result_of_another_point(file, json, plan, point);
-        for (const char* name : estimators) {
+        for (const auto& [name, words] : rotation_rates) {
             const Json& found = json.at("rotation").at(name);
             result.quantities.push_back(
                 {name, Estimate{.mean = number(found.at("mean")),
@@ -173,7 +171,7 @@ std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
     const auto some =
         std::find_if(results.begin(), results.end(), [](const PointResult& r) { return r.there; });
     if (some == results.end()) {
-        for (const char* name : estimators) quantities.push_back({name});
+        for (const auto& [name, words] : rotation_rates) quantities.push_back({name});
         return quantities;
     }
     for (const MeasuredNumber& number : some->quantities)
@@ -228,6 +226,7 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
     row.emplace_back(steadiness);
     const std::size_t place_of_scatter = row.size();
     row.emplace_back(not_known);
+    collected.rows.push_back({texts});
     for (std::size_t k = 0; k < quantities.size(); ++k) {
         const auto& [name, is_direction] = quantities[k];
         std::vector<Estimate> found;
@@ -235,8 +234,8 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
         const SeveralRuns together = is_direction ? several_directions(found) : several_runs(found);
         row.emplace_back(together.estimate.mean);
         row.emplace_back(together.estimate.error);
-        if (name != "by_time") continue;
-        collected.rows.push_back({texts, together.estimate});
+        if (k < rotation_rates.size()) collected.rows.back().rotation[k] = together.estimate;
+        if (name != rotation_rates[default_rate].name) continue;
         row[place_of_scatter] = together.scatter;
         collected.disagreeing += together.disagree ? 1 : 0;
     }
@@ -278,14 +277,15 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
             "The rotation is to change its sign with the number of discs, but --discs is no "
             "parameter of this sweep.");
     std::vector<ParameterTexts> groups;  // in the order of the rows
-    std::map<ParameterTexts, std::vector<RotationPoint>> curves;
+    std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {
         ParameterTexts group = row.parameters;
         group.erase("discs");
-        auto& curve = curves[group];
-        if (curve.empty()) groups.push_back(group);
-        curve.push_back({read_number(row.parameters.at("discs")).value_or(not_known),
-                         row.by_time.mean, row.by_time.error});
+        RotationCurves& all = curves[group];
+        if (all.front().empty()) groups.push_back(group);
+        const double discs = read_number(row.parameters.at("discs")).value_or(not_known);
+        for (std::size_t r = 0; r < all.size(); ++r)
+            all[r].push_back({discs, row.rotation[r].mean, row.rotation[r].error});
     }
     std::vector<std::string> columns = others;
     for (const std::string& name : crossing_columns()) columns.push_back(name);
@@ -294,9 +294,9 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     for (const ParameterTexts& group : groups) {
         std::vector<Table::Cell> row;
         for (const std::string& name : others) row.push_back(cell_of(group.at(name)));
-        const auto& curve = curves.at(group);
-        add_crossing(row, find_crossing(curve));
-        row.emplace_back(std::int64_t(curve.size()));
+        const RotationCurves& all = curves.at(group);
+        add_crossings(row, find_crossings(all), default_rate);
+        row.emplace_back(std::int64_t(all.front().size()));
         table.add(std::move(row));
     }
     return table;

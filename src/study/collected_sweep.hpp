@@ -1,20 +1,21 @@
 // The table of a sweep: what its runs found, over the replicas.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "swirl/files/table.hpp"
-#include "swirl/measure/statistics.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
 
 struct CollectedRow {
     ParameterTexts parameters;
-    Estimate by_time;  // of the rotation, over the replicas
+    std::array<Estimate, rotation_rates.size()> rotation = {};  // over the replicas
 };
 
 struct CollectedSweep {
@@ -34,8 +35,9 @@ struct CollectedSweep {
 /// result that is damaged or of another version.
 CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// Where the rotation of a collected sweep changes its sign: a row for each combination of the
-/// parameters but the number of discs. Throws WrongCall if that is none of them.
+/// Where the rotation of a collected sweep changes its sign (measure/crossing.hpp), by time and by
+/// the other rates: a row for each combination of the parameters but the number of discs. Throws
+/// WrongCall if that is none of them.
 Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected);
 
 }  // namespace swirl

@@ -290,6 +290,30 @@ class OnMadeUpTables(unittest.TestCase):
         self.crossings("5b", high=(36, 3), medium=(38, 3), low=(40, 3))
         self.assertEqual(claims.friction_order(self.folder)[0], UNDECIDED)
 
+    def test_a_bracket_is_reported_as_one_and_compared_as_an_even_distribution(self):
+        self.table("5b_crossings", [
+            {"curve": curve, "verdict": "crosses", "crossing": "", "crossing_error": "", "lower": lower,
+             "upper": lower + 2, "lowest": 0.1, "lowest_error": 0.01, "lowest_discs": 48}
+            for curve, lower in (("high", 36), ("medium", 40), ("low", 46))])
+        verdict, found = claims.friction_order(self.folder)
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("N_c = between 36 and 38", found)
+        self.assertNotIn("not known", found)
+
+    def test_undetermined_signs_beyond_the_last_change_of_spheres_leave_it_open(self):
+        self.table("spheres", [{"curve": "0.25", "mu": 0.25, "discs": n, "by_time": 0, "by_time_error": 1,
+                                "point": f"N{n}"} for n in (19, 20, 28)])
+        rows = [{"curve": 0.25, "mu": 0.25, "crossing": 19.3, "crossing_error": 0.1, "lower": 19.1, "upper": 19.5,
+                 "before": 19, "after": 20, "sense": "counterrotation"}]
+        self.table("spheres_sense", rows)
+        self.assertEqual(claims.last_changes(self.folder)[0.25].words, "19.30 ± 0.10")
+        self.table("spheres_sense", rows + [
+            {"curve": 0.25, "mu": 0.25, "crossing": "", "crossing_error": "", "lower": n, "upper": n, "before": n,
+             "after": n, "sense": "undetermined"} for n in (12, 28, 30)])
+        last = claims.last_changes(self.folder)[0.25]
+        self.assertEqual(last.words, "between 19 and 30")
+        self.assertAlmostEqual(last.error, 11 / 12 ** 0.5)
+
     def spheres(self, name, **curves):
         self.table(name, [{"curve": curve.replace("_", "-").replace("mu", "0."),
                            "mu": 0.2, "discs": n, "by_time": v, "by_time_error": 0.001,

@@ -68,8 +68,28 @@ class Crossing(InFolder):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(self.left_behind(), [])
 
+    def test_only_what_is_searched_has_to_fit(self):
+        # 48 discs, the default of a run, do not fit into this container.
+        found = json.loads(self.good("--container-radius", 6.3, "--from", 8, "--to", 10, "--json", "-"))
+        self.assertEqual(found["verdict"], "always rotates")
+        done = swirl("crossing", "--container-radius", 6.3, "--from", 8, "--to", 46, *SHORT)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("46 discs do not fit", done.stderr)
+        self.assertNotIn("--discs", done.stderr)
+
+    def test_every_rate_has_a_crossing(self):
+        alone = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 1, "--json", "-"))
+        both = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 2, "--json", "-"))
+        self.assertEqual(alone["by_rate"], both["by_rate"])
+        self.assertEqual(alone["rate"], "by_time")
+        self.assertEqual(set(alone["by_rate"]), {"by_event", "by_time", "rigid_by_event", "rigid_by_time"})
+        self.assertEqual(alone["N_c"], alone["by_rate"]["by_time"]["N_c"])
+        rigid = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--rate", "rigid_by_time", "--json", "-"))
+        self.assertEqual(rigid["N_c"], rigid["by_rate"]["rigid_by_time"]["N_c"])
+
     def test_what_cannot_be(self):
-        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"),
+        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"), (["--rate", "rigid"], "rigid_by_time"),
+                            (["--threads", -1], "whole number"), (["--to", 10**9], "--to"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
             done = swirl("crossing", *wrong, *SHORT)
             self.assertEqual(done.returncode, 2, done.stderr)

@@ -111,8 +111,10 @@ TABLES = {
                                    pinned_wall_spin=0.3, rolling_share=0.7, contact_correlation=0.9)
                        for row in curves("mu", (0.15, 0.5))],
     "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
-    "spheres_sense": [{"mu": mu, "crossing": 20 + 20 * mu, "crossing_error": 9.0, "sense": sense}
-                      for mu in SPHERES for sense in ("counterrotation", "rotation")],
+    "spheres_sense": [{"mu": mu, "crossing": crossing, "lower": 19 + 20 * mu, "upper": 21 + 20 * mu,
+                       "before": 19 + 20 * mu, "after": 21 + 20 * mu, "sense": sense}
+                      for mu in SPHERES for crossing, sense in ((20 + 20 * mu, "counterrotation"),
+                                                                ("", "rotation"), ("", "undetermined"))],
     "states": [with_errors(row, coriolis=5.0, granular=0.5)
                for row in curves("setting", ("high", "no-wall", "no-disc"), (28, 48))],
     "tangential": curves("tangential_restitution", (0, 0.5, 1)),

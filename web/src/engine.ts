@@ -70,12 +70,12 @@ interface Exports {
     crossing(): number;
 }
 
-/** N_c, its standard error, its interval of 95 %. */
+/** N_c, its standard error, its interval of 95 %. If not every N between was run, only the bracket is known. */
 export interface Crossing {
-    discs: number;
-    error: number;
-    lower: number | null;
-    upper: number | null;
+    discs: number | null;
+    error: number | null;
+    lower: number;
+    upper: number;
 }
 
 /** What a frame begins with, and what follows for every disc; then, of spheres that can roll, how each is

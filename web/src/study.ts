@@ -171,8 +171,8 @@ export class Study {
 
     private showCrossing(friction: Friction, crossing: Crossing | null): void {
         this.findings.append(element("li", {textContent: crossing === null ? texts.noCrossing(nameOf(friction)) :
-            texts.crossing(nameOf(friction), withError(crossing.discs, crossing.error, ""),
-                           crossing.lower, crossing.upper)}));
+            texts.crossing(nameOf(friction), crossing.discs === null ? null
+                : withError(crossing.discs, crossing.error, ""), crossing.lower, crossing.upper)}));
         if (this.findings.childElementCount === this.curves.length) this.stop();
     }
 

@@ -88,9 +88,12 @@ export const texts = {
     swirlsWrong: (text: string): string =>
         `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
     studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
-    crossing: (friction: string, discs: string, lower: number | null, upper: number | null): string =>
-        `${friction}: the sense of rotation changes at N_c = ${discs}` + (lower !== null && upper !== null
-            ? ` (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}).` : "."),
+    crossing: (friction: string, discs: string | null, lower: number, upper: number): string =>
+        discs === null
+            ? `${friction}: the direction of rotation changes between N = ${lower} and ${upper} ` +
+                "(mean over the discs, by time)."
+            : `${friction}: the direction of rotation changes at N_c = ${discs} ` +
+                `(95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}; mean over the discs, by time).`,
     collapsed: (runs: string): string => "Collapsed, and left out, since the model has no state after " +
         `it: ${runs}.`,
     runOf: (discs: number, friction: string): string => `N = ${discs} at ${friction}`,

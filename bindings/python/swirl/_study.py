@@ -107,8 +107,11 @@ def collect(out: PathName) -> Any:
 class Crossing:
     """Where rotation turns into counterrotation: N_c ± error, 95 % between lower and upper.
 
-    `verdict` says whether it does at all; `sentence` tells it, with the evidence. `points` are rows of
-    discs, rotation by time, its error, and how many runs it rests on.
+    `verdict` says whether it does at all; `sentence` reports it with the evidence. `discs` and `error` are
+    NaN if only the bracket from lower to upper is known. All these are by the rotation rate `rate`.
+    `by_rate` has the same for each of the four rates: N_c, N_c_error, N_c_lower, N_c_upper, every change
+    of sign, and the numbers whose sign is undetermined. `points` are rows of discs, the rotation by `rate`
+    (mean, error), that by each of the four, and how many runs it rests on.
     """
 
     verdict: str
@@ -117,6 +120,8 @@ class Crossing:
     lower: float
     upper: float
     within_tolerance: bool
+    rate: str
+    by_rate: dict[str, dict[str, Any]]
     points: Sequence[dict[str, Any]]
     sentence: str
     found: dict[str, Any] = dataclasses.field(repr=False)
@@ -128,7 +133,8 @@ class Crossing:
         return self.sentence
 
 
-def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3, threads: int = 0,
+def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3,
+             rate: str = "by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
              **parameters: Any) -> Crossing:
     for name in ("discs", "periods"):
@@ -137,8 +143,10 @@ def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3, threads
                             "discs, with runs of so many events.")
     told = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
     said = {"fewest": fewest, "most": most, "tolerance": tolerance, **parameters}
+    if rate != "by_time":
+        said["rate"] = rate
     text, sentence = _engine.crossing(parameters, _count("fewest", fewest, 1), _count("most", most, 1),
-                                      float(tolerance), _count("threads", threads, 0),
+                                      float(tolerance), rate, _count("threads", threads, 0),
                                       call_text("crossing", said), told)
     found = json.loads(text)
 
@@ -146,8 +154,8 @@ def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3, threads
         return math.nan if found[name] is None else float(found[name])
 
     return Crossing(found["verdict"], number("N_c"), number("N_c_error"), number("N_c_lower"),
-                    number("N_c_upper"), bool(found["within_tolerance"]), found["points"], sentence,
-                    found)
+                    number("N_c_upper"), bool(found["within_tolerance"]), found["rate"],
+                    found["by_rate"], found["points"], sentence, found)
 
 
 def map_runs(*, seeds: int = 1, measure: Optional[Measure] = None, threads: int = 0,
@@ -210,7 +218,10 @@ with_parameters(crossing, """The number of discs at which rotation turns into co
     c = swirl.crossing(mu=0.5)
     c.discs, c.error, c.sentence
 
-fewest, most: the range of discs. tolerance: wanted standard error of N_c. threads: [all cores].
+    c.by_rate["rigid_by_time"]["N_c"]
+
+fewest, most: the range of discs. tolerance: wanted standard error of N_c. rate: the rotation rate whose
+sign and tolerance decide, by_event, by_time, rigid_by_event or rigid_by_time. threads: [all cores].
 progress: True to print, or a function of (what is done now, events per second). events [2e5] is the
 length of the first runs.
 """)
