@@ -14,6 +14,7 @@
 #include "frames.hpp"
 #include "swirl/files/checksum.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/possible.hpp"
 #include "swirl/files/state_archive.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/m_frame.hpp"
@@ -21,6 +22,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/simd.hpp"
+#include "swirl/simulation/continuation.hpp"
 #include "swirl/simulation/simulation.hpp"
 
 namespace swirl::python {
@@ -102,6 +104,7 @@ Frames frames_in(const py::bytes& bytes) {
         !is(2 * all, {&f.position, &f.velocity}) ||
         !is(floor, {&f.acceleration, &f.rolling_spin}) || !is(all, {&f.angle, &f.spin}))
         throw FileError("These are no frames of swirl.");
+    for (std::size_t k = 0; k < n; ++k) require_possible(f.frame(k), Spins::maybe_unknown);
     return f;
 }
 
@@ -281,13 +284,18 @@ void expect_between(const char* name, const std::vector<double>& values, double 
                                         value, from, to));
 }
 
-/// What an overlap may be for rounding: what a snapshot shows is a contact now and then.
-constexpr double rounding = 1e-9;
+/// The ranges of discs that are given one by one.
+void expect_sizes_in_range(const std::vector<double>& radius, const std::vector<double>& mass,
+                           const std::vector<double>& inertia) {
+    expect_between("radius", radius, smallest_value, largest_value);
+    expect_between("mass", mass, smallest_value, largest_value);
+    expect_between("inertia", inertia, 1e-30, 1e30);
+}
 
-/// Throws for discs that lie in each other or in the wall.
-void expect_apart(const InitialState& scene) {
+/// Throws for discs that lie in each other or in the wall, with the container at `centre`, by more
+/// than this share of their radii.
+void expect_apart(const InitialState& scene, const Vec2& centre, double rounding) {
     const std::vector<Disc>& discs = scene.discs;
-    const Vec2 centre = scene.path.legs.front().start;
     std::vector<std::size_t> order(discs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -302,7 +310,7 @@ void expect_apart(const InitialState& scene) {
         if (out > rounding * d.radius)
             throw WrongCall(fmt::format(
                 "Disc {} at ({}, {}) sticks out of the container by {:.3g}: its centre is at ({}, "
-                "{}) in the beginning, and its radius {}.",
+                "{}), and its radius {}.",
                 i, d.position.x, d.position.y, out, centre.x, centre.y, scene.container_radius));
     }
     for (std::size_t a = 0; a < order.size(); ++a)
@@ -333,14 +341,12 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config, con
     const auto spin = column_of("spin", given.spin, n, 0.0);
     const auto radius = column_of("radius", given.radius, n, config.radius);
     const auto mass = column_of("mass", given.mass, n, config.mass);
-    expect_between("radius", radius, smallest_value, largest_value);
-    expect_between("mass", mass, smallest_value, largest_value);
     // The same multiple of m r² for all, unless it is given.
     std::vector<double> inertia(n);
     const double multiple = config.inertia / (config.mass * config.radius * config.radius);
     for (std::size_t i = 0; i < n; ++i) inertia[i] = multiple * mass[i] * radius[i] * radius[i];
     if (given.inertia) inertia = column_of("inertia", given.inertia, n, 0.0);
-    expect_between("inertia", inertia, 1e-30, 1e30);
+    expect_sizes_in_range(radius, mass, inertia);
     std::vector<Disc> discs;
     discs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -400,7 +406,63 @@ ContainerPath polyline(const Numbers& vertices, const std::optional<Numbers>& ti
     return path;
 }
 
-constexpr std::string_view archive_head = "swirl simulation 1\n";
+constexpr std::string_view archive_head = "swirl simulation 2\n";
+
+[[noreturn]] void refuse_archive(std::string_view what) {
+    throw FileError(fmt::format("This is no simulation of swirl that could go on: {}.", what));
+}
+
+bool same_legs(const std::vector<Leg>& a, const std::vector<Leg>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Leg& x, const Leg& y) {
+        return x.begin == y.begin && x.end == y.end && x.start.x == y.start.x &&
+               x.start.y == y.start.y && x.velocity.x == y.velocity.x &&
+               x.velocity.y == y.velocity.y && x.turning == y.turning;
+    });
+}
+
+/// The path of an archive is that of its parameters, or what polyline() makes of its vertices.
+void expect_path(const std::vector<Leg>& legs, const RunConfig& config, bool own) {
+    if (same_legs(legs, make_path(config).legs)) return;
+    if (!own) refuse_archive("its path is not that of its parameters");
+    Numbers vertices(std::vector<py::ssize_t>{signed_size(legs.size()), 2}),
+        times(signed_size(legs.size()));
+    for (std::size_t k = 0; k < legs.size(); ++k) {
+        vertices.mutable_data()[2 * k] = legs[k].start.x;
+        vertices.mutable_data()[2 * k + 1] = legs[k].start.y;
+        times.mutable_data()[k] = legs[k].begin;
+    }
+    if (!same_legs(legs, polyline(vertices, times, config.period).legs))
+        refuse_archive("its path has a leg that does not lead to the next");
+}
+
+/// The discs of an archive: in the ranges of those that are given, or those of the parameters.
+void expect_discs(const InitialState& scene, const RunConfig& config, bool own, double clock) {
+    std::vector<double> radius, mass, inertia;
+    InitialState now = scene;
+    for (Disc& d : now.discs) {
+        radius.push_back(d.radius);
+        mass.push_back(d.mass);
+        inertia.push_back(d.inertia);
+        d = d.at(clock);
+    }
+    if (own) {
+        expect_sizes_in_range(radius, mass, inertia);
+        // Of contacts that went on for long, more than rounding is left.
+        return expect_apart(now, scene.path.leg_at(clock).position_at(clock), 1e-3);
+    }
+    const auto second = static_cast<std::size_t>(config.mixture ? config.mixture->count : 0);
+    const auto n = static_cast<std::size_t>(config.discs);
+    const double multiple = config.inertia / (config.mass * config.radius * config.radius);
+    bool same = radius.size() == n;
+    for (std::size_t i = 0; same && i < n; ++i) {
+        const bool first = i < n - second;
+        const double r = first ? config.radius : config.mixture->radius;
+        const double m = first ? config.mass : config.mixture->mass;
+        same = radius[i] == r && mass[i] == m &&
+               inertia[i] == (first ? config.inertia : multiple * m * r * r);
+    }
+    if (!same) refuse_archive("its discs are not those of its parameters");
+}
 
 /// A dish that goes on while nobody looks. May be called from any thread; two at once take turns.
 class Dish {
@@ -531,8 +593,7 @@ class Dish {
         StateWriter write;
         in_turn([&](Simulation& s) {
             std::string config = config_text(config_);
-            write(config, own_, scene_.path.period, scene_.path.legs, scene_.container_radius,
-                  scene_.disc_surface, scene_.wall_surface, scene_.shape, scene_.floor);
+            write(config, own_, scene_.path.legs);
             Progress progress = s.progress();
             write(progress.swirls, progress.clock, progress.leg, progress.events);
             std::vector<Disc> discs;
@@ -545,30 +606,35 @@ class Dish {
         return bytes + write.bytes();
     }
     static std::unique_ptr<Dish> of_archive(std::string_view bytes) {
-        const auto damaged = [](const char* what) {
-            return FileError(
-                fmt::format("This is no simulation of swirl that could go on: {}.", what));
-        };
         std::uint64_t sum = 0;
         if (!bytes.starts_with(archive_head) || bytes.size() < archive_head.size() + sizeof sum)
-            throw damaged("it begins otherwise, or is of another version");
+            refuse_archive("it begins otherwise, or is of another version");
         std::memcpy(&sum, bytes.data() + archive_head.size(), sizeof sum);
         bytes.remove_prefix(archive_head.size() + sizeof sum);
-        if (checksum(bytes) != sum) throw damaged("it is damaged");
+        if (checksum(bytes) != sum) refuse_archive("it is damaged");
         StateReader read(bytes);
-        std::string config;
+        std::string text;
         bool own = false;
-        InitialState scene{};
+        std::vector<Leg> legs;
         Progress progress;
-        read(config, own, scene.path.period, scene.path.legs, scene.container_radius,
-             scene.disc_surface, scene.wall_surface, scene.shape, scene.floor);
+        std::vector<Disc> discs;
+        read(text, own, legs);
         read(progress.swirls, progress.clock, progress.leg, progress.events);
-        read(scene.discs);
+        read(discs);
         read.expect_end();
-        if (scene.discs.empty() || progress.leg >= scene.path.legs.size())
-            throw damaged("it has no discs, or is on no leg of its path");
-        return std::make_unique<Dish>(resolve(parameters_in(config)), own, std::move(scene),
-                                      progress);
+        try {
+            const RunConfig config = resolve(parameters_in(text));
+            if (own && config.shape() != Shape::disc) refuse_archive("only discs can be one's own");
+            expect_path(legs, config, own);
+            InitialState scene = without_discs(config, {config.period, std::move(legs)});
+            scene.discs = std::move(discs);
+            if (const char* const what = impossible_to_continue(scene, progress))
+                refuse_archive(what);
+            expect_discs(scene, config, own, progress.clock);
+            return std::make_unique<Dish>(config, own, std::move(scene), progress);
+        } catch (const WrongCall& wrong) {
+            refuse_archive(wrong.what());
+        }
     }
 
     std::string config() const { return config_text(config_); }
@@ -644,7 +710,8 @@ std::unique_ptr<Dish> make_dish(const py::dict& parameters, const std::optional<
         }
     }
     if (given) scene.discs = discs_of(*given, config, scene.path.legs.front());
-    if (own) expect_apart(scene);
+    // What an overlap may be for rounding: what a snapshot shows is a contact now and then.
+    if (own) expect_apart(scene, scene.path.legs.front().start, 1e-9);
     return listening(stop, [&] {
         return std::make_unique<Dish>(config, own, std::move(scene), Progress{}, &stop);
     });

@@ -7,6 +7,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/trial_reading.hpp"
 #include "swirl/files/export.hpp"
 #include "swirl/files/trajectory.hpp"
 #include "swirl/run/failure.hpp"
@@ -69,6 +70,7 @@ void export_file(const ExportCall& call) {
         options.pixels_per_radius = *scale;
     }
     choose_frames(call, options);
+    try_reading(call.file);
     const auto reader = std::make_shared<TrajectoryReader>(call.file);
     const std::filesystem::path out =
         call.out.empty() ? std::filesystem::path(call.file).replace_extension(format->ending)

@@ -12,6 +12,7 @@
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
 #include "swirl/app/track_options.hpp"
+#include "swirl/app/trial_reading.hpp"
 #include "swirl/files/trajectory.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -37,6 +38,7 @@ OpenedSeries open_series(const MeasureCall& call) {
             "'{}' is a folder, but FILE must be a recording: a trajectory or tracks of swirl, a "
             "table of trackpy (CSV), or a LAMMPS text dump.",
             call.file));
+    try_reading(call.file);
     if (is_trajectory(call.file))
         return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
     return open_tracks(call.file, call.camera,

@@ -1,5 +1,6 @@
 // swirl verify: runs again what a result says it is, and compares.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +12,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/progress_line.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/trial_reading.hpp"
 #include "swirl/files/event_log.hpp"
 #include "swirl/files/trajectory.hpp"
 #include "swirl/files/whole_file.hpp"
@@ -111,10 +113,13 @@ void verify_result(const std::string& file, bool quiet) {
             throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,
                                       json.value(part, Json()).dump(), now.dump(),
                                       of_version(made_by(json))));
-    if (!quiet)
-        print_all(fmt::format("The same, bit for bit: {} events, state {}.\n",
-                              result["events"]["total"].dump(),
-                              result["state_hash"].get<std::string>()));
+    if (quiet) return;
+    const auto& measured = observation.names();
+    print_all(fmt::format("The same, bit for bit: {} events, state {}, {}.\n",
+                          result["events"]["total"].dump(), result["state_hash"].get<std::string>(),
+                          measured.empty()
+                              ? "no measurements in the file"
+                              : fmt::format("measured {}", fmt::join(measured, ", "))));
 }
 
 bool same_bits(double a, double b) {
@@ -256,6 +261,13 @@ bool same_discs(const Disc& a, const Disc& b) {
            same_bits(a.inertia, b.inertia) && same_bits(a.rolling_spin, b.rolling_spin);
 }
 
+bool same_floors(const MovingFloor& a, const MovingFloor& b) {
+    return same_bits(a.floor.deceleration, b.floor.deceleration) &&
+           a.floor.bodies_lie_flat == b.floor.bodies_lie_flat &&
+           std::equal(a.velocity.begin(), a.velocity.end(), b.velocity.begin(), b.velocity.end(),
+                      [](const Vec2& u, const Vec2& v) { return same_bits(u, v); });
+}
+
 /// What the log says of the run before its first event.
 void verify_beginning(const EventLogReader& log, const InitialState& scene,
                       const Simulation& simulation, const Comparison& comparison) {
@@ -267,6 +279,10 @@ void verify_beginning(const EventLogReader& log, const InitialState& scene,
         !same_bits(log.swirl_end(), scene.path.legs.back().end) ||
         !same_bits(log.container_radius(), scene.container_radius))
         comparison.refuse("the container is another");
+    const bool has_floor = scene.shape != Shape::disc;
+    if (log.floor().has_value() != has_floor ||
+        (has_floor && !same_floors(*log.floor(), moving_floor(scene.floor, scene.path))))
+        comparison.refuse("the floor, or its velocity on a leg of the path, is another");
 }
 
 /// Every event against the engine's, and the state that they lead to against its state.
@@ -315,6 +331,7 @@ void add_verify_command(Subcommand& subcommand) {
     subcommand.callback([call] {
         if (!first_bytes(call->file).starts_with('\x89'))
             return verify_result(call->file, call->quiet);
+        try_reading(call->file);
         if (is_event_log(call->file)) return verify_event_log(call->file, call->quiet);
         verify_trajectory(call->file, call->quiet);
     });

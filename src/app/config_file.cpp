@@ -23,7 +23,7 @@ Config parsed(const std::string& file, Lists lists) {
         throw WrongCall(fmt::format(
             "There is no configuration file '{}'; options begin with --, as in --discs {}.", file,
             lists == Lists::taken ? "5:48" : "48"));
-    std::string text = read_whole_file(file);
+    std::string text = read_whole_file(file, largest_config);
     try {
         return parse_config(std::move(text), file);
     } catch (const FileError& wrong) {

@@ -1,6 +1,8 @@
 #include "swirl/app/output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "swirl/app/stop_signal.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -64,6 +67,54 @@ void refuse_same_files(const std::vector<std::filesystem::path>& files) {
     }
 }
 
+namespace {
+
+constexpr int milliseconds_to_wait = 200;
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
+    throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
+}
+
+/// For as long as nobody wants an end of it: a pipe may never have a reader, or one that rests.
+void refuse_to_wait_after_stop(const std::filesystem::path& file) {
+    if (stop_signal().load())
+        throw Interrupted(
+            fmt::format("Stopped while waiting for a reader of '{}'.", file.string()));
+}
+
+/// A pipe, a device or the like. Opening a pipe would block until it has a reader, and no signal
+/// would end that.
+int opened_for_writing(const std::filesystem::path& file) {
+    for (;;) {
+        const int stream = open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (stream >= 0) return stream;
+        if (errno == EINTR) continue;
+        const int why = errno;
+        std::error_code ignored;
+        const bool lacks_reader = why == ENXIO && std::filesystem::is_fifo(file, ignored);
+        errno = why;
+        if (!lacks_reader) fail_to_write(file);
+        refuse_to_wait_after_stop(file);
+        poll(nullptr, 0, milliseconds_to_wait);
+    }
+}
+
+void write_all(int stream, const std::filesystem::path& file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = write(stream, text.data(), text.size());
+        if (written >= 0) {
+            text.remove_prefix(static_cast<std::size_t>(written));
+            continue;
+        }
+        if (errno == EINTR) continue;
+        if (errno != EAGAIN) fail_to_write(file);
+        pollfd wait{stream, POLLOUT, 0};
+        if (poll(&wait, 1, milliseconds_to_wait) == 0) refuse_to_wait_after_stop(file);
+    }
+}
+
+}  // namespace
+
 void write_output(const std::filesystem::path& file, const std::string& text) {
     std::error_code ignored;
     // Through a link to what it stands for: /dev/stdout must stay what it is.
@@ -76,11 +127,9 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
         write_named_file(target.empty() ? file : target, text);
         return;
     }
-    std::FILE* const stream = std::fopen(file.c_str(), "w");
-    const bool written = stream && std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-    const bool closed = stream && std::fclose(stream) == 0;
-    if (!written || !closed)
-        throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
+    const int stream = opened_for_writing(file);
+    write_all(stream, file, text);
+    if (close(stream) != 0) fail_to_write(file);
 }
 
 void make_folder(const std::filesystem::path& folder) {

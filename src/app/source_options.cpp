@@ -9,6 +9,7 @@
 #include "swirl/app/output.hpp"
 #include "swirl/app/run_options.hpp"
 #include "swirl/app/stop_signal.hpp"
+#include "swirl/app/trial_reading.hpp"
 #include "swirl/draw/film.hpp"
 #include "swirl/draw/label.hpp"
 #include "swirl/run/failure.hpp"
@@ -128,6 +129,7 @@ void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::str
 }
 
 std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
+    if (!texts.file.empty()) try_reading(texts.file);
     const bool of_a_camera = !texts.file.empty() && !is_trajectory(texts.file);
     if (!of_a_camera) refuse_camera(texts);
     if (of_a_camera && (texts.beside || texts.slip))

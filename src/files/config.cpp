@@ -13,8 +13,6 @@
 namespace swirl {
 namespace {
 
-constexpr std::size_t largest_config = 1 << 20;
-
 /// The parser must not see what is no text: where the first such byte is.
 std::optional<std::size_t> first_bad_byte(std::string_view text) {
     const auto is_control = [](char c) {
@@ -93,8 +91,8 @@ class Reader {
 Config parse_config(std::string text, std::string_view name) {
     const Reader reader(name);
     if (text.size() > largest_config)
-        throw FileError(fmt::format("'{}' has {} bytes; a configuration has at most {}.", name,
-                                    text.size(), largest_config));
+        throw FileError(fmt::format("'{}' is longer than {} bytes, which no configuration is.",
+                                    name, largest_config));
     if (const auto bad = first_bad_byte(text))
         reader.wrong(line_of(text, *bad),
                      fmt::format("byte 0x{:02x} is not UTF-8 text; a configuration is a text file",
@@ -117,7 +115,7 @@ Config parse_config(std::string text, std::string_view name) {
 }
 
 Config read_config(const std::filesystem::path& path) {
-    return parse_config(read_whole_file(path), path.string());
+    return parse_config(read_whole_file(path, largest_config), path.string());
 }
 
 }  // namespace swirl

@@ -19,6 +19,8 @@
 
 namespace swirl {
 
+inline constexpr std::size_t largest_config = 1 << 20;  // bytes
+
 struct ConfigEntry {
     std::vector<std::string> values;  // one, unless it is a list
     bool is_list = false;

@@ -6,6 +6,7 @@
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/h5md.hpp"
+#include "swirl/files/possible.hpp"
 #include "swirl/files/recording.hpp"
 
 namespace swirl {
@@ -200,6 +201,12 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                             "column, and it has a table in one.",
                             path.string()));
     const bool spheres = file_->has("/floor");
+    for (const char* of_spheres : {"/events/vertical_impulse", "/initial/rolling_spin"})
+        if (file_->has(of_spheres) != spheres)
+            throw FileError(
+                fmt::format("'{}' contradicts itself: {} and /floor are of spheres, and it has "
+                            "only one of them.",
+                            path.string(), of_spheres));
     if (spheres) {
         vertical_impulse_ = column("vertical_impulse");
         floor_.emplace();
@@ -208,7 +215,12 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                          file_->has_attribute("/floor", "rolling_resistance")
                              ? file_->number_attribute("/floor", "rolling_resistance")
                              : 0.0};
-        const auto velocity = file_->column("/floor/velocity").read<double>();
+        const Column moves = file_->column("/floor/velocity");
+        if (moves.row_shape() != Dimensions{2})
+            throw FileError(
+                fmt::format("'{}' contradicts itself: /floor/velocity has not x and y in each row.",
+                            path.string()));
+        const auto velocity = moves.read<double>();
         for (std::size_t k = 0; k + 1 < velocity.size(); k += 2)
             floor_->velocity.push_back({velocity[k], velocity[k + 1]});
         if (floor_->velocity.empty() || !vertical_impulse_.row_shape().empty())
@@ -256,6 +268,12 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     period_ = file_->number_attribute(parameters, "period");
     swirl_end_ = file_->number_attribute(parameters, "swirl_end");
     container_radius_ = file_->number_attribute(parameters, "container_radius");
+    Snapshot first;
+    first.period = period_;
+    first.container_radius = container_radius_;
+    spheres ? first.resize_for_spheres(n) : first.resize(n);
+    for (std::size_t i = 0; i < n; ++i) first.set(i, initial_[i]);
+    require_possible(first, Spins::known, path.string());
 }
 
 std::string EventLogReader::provenance(const std::string& name) const {

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/staged_driver.hpp"
+#include "swirl/math/real.hpp"
 
 namespace swirl {
 namespace {
@@ -33,102 +35,9 @@ class Locked {
     const std::lock_guard<std::recursive_mutex> guard_;
 };
 
-// --- HDF5's virtual file driver on top of StagedFile ---------------------------------------------
-
-struct StagedDriver {
-    H5FD_t common;  // must come first: the library sees this
-    StagedFile* file;
-    haddr_t end_of_allocation;
-    std::string* failure;  // the sentence of the first failure
-};
-
-StagedDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<StagedDriver*>(file); }
-const StagedDriver& driver_of(const H5FD_t* file) {
-    return *reinterpret_cast<const StagedDriver*>(file);
-}
-
-template <class Action>
-herr_t guarded(StagedDriver& driver, Action&& action) {
-    try {
-        action();
-        return 0;
-    } catch (const std::exception& error) {
-        if (driver.failure->empty()) *driver.failure = error.what();
-        return -1;
-    }
-}
-
-// What the library is to open travels to the driver's open() through here, under the lock.
-struct Opening {
-    StagedFile* file;
-    std::string* failure;
-};
-Opening opening;
-
-const H5FD_class_t& driver_class() {
-    static const H5FD_class_t driver = [] {
-        H5FD_class_t c;
-        std::memset(&c, 0, sizeof c);
-        c.name = "swirl_staged";
-        c.maxaddr = haddr_t(1) << 62;
-        c.fc_degree = H5F_CLOSE_STRONG;
-        c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
-            if (opening.file == nullptr) return nullptr;
-            auto* d = static_cast<StagedDriver*>(std::calloc(1, sizeof(StagedDriver)));
-            if (d == nullptr) return nullptr;
-            d->file = opening.file;
-            d->failure = opening.failure;
-            return &d->common;
-        };
-        c.close = [](H5FD_t* file) -> herr_t {
-            std::free(&driver_of(file));
-            return 0;
-        };
-        c.cmp = [](const H5FD_t* a, const H5FD_t* b) {
-            const auto *x = driver_of(a).file, *y = driver_of(b).file;
-            return x < y ? -1 : x > y ? 1 : 0;
-        };
-        c.query = [](const H5FD_t*, unsigned long* flags) -> herr_t {
-            *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
-                     H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
-            return 0;
-        };
-        c.get_eoa = [](const H5FD_t* file, H5FD_mem_t) {
-            return driver_of(file).end_of_allocation;
-        };
-        c.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
-            driver_of(file).end_of_allocation = end;
-            return 0;
-        };
-        c.get_eof = [](const H5FD_t* file, H5FD_mem_t) -> haddr_t {
-            return driver_of(file).file->size();
-        };
-        c.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* to) -> herr_t {
-            return guarded(driver_of(file), [&] { driver_of(file).file->read(at, to, size); });
-        };
-        c.write = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size,
-                     const void* from) -> herr_t {
-            return guarded(driver_of(file), [&] { driver_of(file).file->write(at, from, size); });
-        };
-        c.truncate = [](H5FD_t* file, hid_t, hbool_t) -> herr_t {
-            driver_of(file).file->resize(driver_of(file).end_of_allocation);
-            return 0;
-        };
-        const H5FD_mem_t map[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
-        std::copy(std::begin(map), std::end(map), std::begin(c.fl_map));
-        return c;
-    }();
-    return driver;
-}
-
 // Every file is closed where it is used. One that a full disk kept from closing must be left alone:
 // trying again at exit, the library may crash over the state it was left in.
 [[maybe_unused]] const herr_t no_second_try_at_exit = H5dont_atexit();
-
-hid_t driver_id() {
-    static const hid_t id = H5FDregister(&driver_class());
-    return id;
-}
 
 // --- handles -------------------------------------------------------------------------------------
 
@@ -201,8 +110,10 @@ struct Hdf5File::State {
     std::string failure;
     hid_t id = -1;
 
+    const bool is_ours;  // nobody else has written into it
+
     State(const std::filesystem::path& p, StagedFile::Mode mode)
-        : path(p.string()), staged(p, mode) {}
+        : path(p.string()), staged(p, mode), is_ours(mode == StagedFile::Mode::create) {}
 
     static void leak(const std::shared_ptr<State>& state) { new std::shared_ptr<State>(state); }
     std::string sentence(std::string_view what) const {
@@ -239,6 +150,31 @@ struct Hdf5File::State {
             throw FileError(fmt::format(
                 "'{}' is damaged: its {} is said to hold more than such a small file can.", path,
                 name));
+    }
+    /// A dataset that lies in one piece lies in the file, and is as large as its shape says: the
+    /// library copies as much as the shape says from as much as there is. One in chunks may lack
+    /// some, but each is made in memory first.
+    void refuse_false_storage(hid_t set, const std::string& name) const {
+        if (is_ours) return;
+        const Handle properties(H5Dget_create_plist(set), H5Pclose);
+        const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+        const auto value = double(H5Tget_size(type));
+        const double bytes = value * double(H5Sget_simple_extent_npoints(space));
+        const H5D_layout_t layout = H5Pget_layout(properties);
+        if (layout == H5D_CHUNKED) {
+            hsize_t chunk[H5S_MAX_RANK];
+            const int rank = H5Pget_chunk(properties, H5S_MAX_RANK, chunk);
+            double values = rank == H5Sget_simple_extent_ndims(space) ? value : never;
+            for (int d = 0; d < rank; ++d) values *= double(chunk[d]);
+            return refuse_more_than_it_holds(name, values);
+        }
+        const haddr_t at = layout == H5D_CONTIGUOUS ? H5Dget_offset(set) : 0;
+        const bool is_there = layout == H5D_COMPACT || bytes == 0.0 ||
+                              (layout == H5D_CONTIGUOUS && at != HADDR_UNDEF &&
+                               double(at) + bytes <= double(staged.size()));
+        if (!is_there || double(H5Dget_storage_size(set)) != bytes)
+            throw FileError(fmt::format(
+                "'{}' is damaged: its {} does not lie in the file as its shape says.", path, name));
     }
     void commit() {
         try {
@@ -372,16 +308,12 @@ std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
     const Locked lock(library_lock());
-    const hid_t driver = driver_id();
+    const hid_t driver = staged_driver();
     state_ = std::make_shared<State>(path, mode);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_driver(access, driver, nullptr);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    opening = {&state_->staged, &state_->failure};
-    // A link or a virtual dataset in it that leads to another file leads nowhere.
-    struct OpensOnlyThis {
-        ~OpensOnlyThis() { opening = {}; }
-    } const opens_only_this;
+    const OpensOnly opens_only(state_->staged, state_->failure);
     if (mode == StagedFile::Mode::create) {
         // Without access times two runs with the same data write the same bytes.
         state_->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -521,7 +453,9 @@ Column Hdf5File::column(const std::string& name) const {
     if (!has(name)) throw FileError(fmt::format("'{}' has no {}.", state_->path, name));
     const hid_t id = H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT);
     if (id < 0) throw FileError(fmt::format("{} in '{}' is not a dataset.", name, state_->path));
-    return {std::make_shared<Column::Handle>(state_, id), name};
+    const auto handle = std::make_shared<Column::Handle>(state_, id);
+    state_->refuse_false_storage(id, name);
+    return {handle, name};
 }
 
 std::string Hdf5File::read_text(const std::string& name) const {
@@ -535,7 +469,7 @@ std::string Hdf5File::read_text(const std::string& name) const {
         H5Sget_simple_extent_npoints(space) != 1)
         throw FileError(
             fmt::format("{} in '{}' is not one text of fixed length.", name, state_->path));
-    state_->refuse_more_than_it_holds(name, double(H5Tget_size(type)));
+    state_->refuse_false_storage(set, name);
     std::string text(H5Tget_size(type), '\0');
     state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
                   "reading " + name);

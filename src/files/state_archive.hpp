@@ -5,6 +5,16 @@
 //
 // and the same line serves for writing and for reading. Numbers keep every bit. The bytes are those
 // of a little-endian machine; a checkpoint is not meant to travel further.
+//
+// A file can hold anything, so nothing that is read is believed. The reader rejects
+//   - an integer that is no count and no index: below 0, or above `largest_count`;
+//   - a bool that is neither 0 nor 1;
+//   - a column of another length, where fields() visits it as a std::span: the object that is read
+//     into has fixed its length already, as a map has fixed its number of cells;
+//   - an object whose fields contradict each other: after reading them it asks for
+//     `bool is_consistent() const` of each type that has one.
+// So a nested object is visited by visit(object), never by object.fields(visit), which would leave
+// out the last check.
 #pragma once
 
 #include <array>
@@ -13,6 +23,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -28,6 +39,15 @@ concept HasFields = requires(T& value, Visitor& visitor) {
     value.fields(visitor);
 };
 
+/// A type that says what must hold of its fields.
+template <class T>
+concept HasInvariant = requires(const T& value) {
+    { value.is_consistent() } -> std::same_as<bool>;
+};
+
+/// Of integers in a saved state, so that counting on never overflows.
+inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 62;
+
 /// Many of them are kept as they lie in memory, which is what they are one by one: numbers, and
 /// plain structures of them.
 template <class T, class Visitor>
@@ -36,8 +56,16 @@ concept KeptAsBytes =
     (std::is_arithmetic_v<T> ||
      (std::is_aggregate_v<T> && !requires { std::tuple_size<T>::value; }));
 
+/// Where the numbers of a field lie: `count` of them, each `width` bytes long.
+struct SavedField {
+    std::size_t begin, width, count;
+};
+
 class StateWriter {
   public:
+    /// `layout`, if there is one, is told of each field that is written.
+    explicit StateWriter(std::vector<SavedField>* layout = nullptr) : layout_(layout) {}
+
     template <class T>
     void operator()(T& value) {
         using Value = std::remove_const_t<T>;
@@ -47,7 +75,7 @@ class StateWriter {
         } else {
             static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>,
                           "give this type a fields() member");
-            bytes_.append(reinterpret_cast<const char*>(&value), sizeof(Value));
+            numbers(&value, 1);
         }
     }
     void operator()(const std::string& text) {
@@ -59,12 +87,19 @@ class StateWriter {
     void operator()(std::vector<T>& values) {
         size(values.size());
         if constexpr (KeptAsBytes<T, StateWriter>) {
-            bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+            numbers(values.data(), values.size());
         } else if constexpr (std::same_as<T, bool>) {
             for (const bool value : values) bytes_ += value ? '\1' : '\0';
         } else {
             for (T& value : values) (*this)(value);
         }
+    }
+    /// As a vector.
+    template <class T>
+    requires KeptAsBytes<T, StateWriter>
+    void operator()(std::span<T> values) {
+        size(values.size());
+        numbers(values.data(), values.size());
     }
     template <class T>
     void operator()(std::optional<T>& value) {
@@ -105,11 +140,20 @@ class StateWriter {
     std::string bytes() && { return std::move(bytes_); }
 
   private:
-    void size(std::uint64_t n) { bytes_.append(reinterpret_cast<const char*>(&n), sizeof n); }
+    /// Plain structures hold words of eight bytes.
+    template <class T>
+    void numbers(const T* values, std::size_t count) {
+        constexpr std::size_t width = sizeof(T) % 8 == 0 ? 8 : sizeof(T);
+        if (layout_) layout_->push_back({bytes_.size(), width, count * (sizeof(T) / width)});
+        bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+    }
+    void size(std::uint64_t n) { numbers(&n, 1); }
+    std::vector<SavedField>* layout_;
     std::string bytes_;
 };
 
-/// Throws FileError when the bytes end too soon: they were written by something else.
+/// Throws FileError when the bytes end too soon, which something else has written then, and for
+/// what is listed above.
 class StateReader {
   public:
     explicit StateReader(std::string_view bytes) : rest_(bytes) {}
@@ -118,10 +162,20 @@ class StateReader {
     void operator()(T& value) {
         if constexpr (HasFields<T, StateReader>) {
             value.fields(*this);
+            static_assert(
+                HasInvariant<T> || !requires { &T::is_consistent; },
+                "it must be bool is_consistent() const");
+            if constexpr (HasInvariant<T>)
+                if (!value.is_consistent()) contradiction();
+        } else if constexpr (std::same_as<T, bool>) {
+            value = flag();
         } else {
             static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
                           "give this type a fields() member");
             std::memcpy(static_cast<void*>(&value), take(sizeof(T)).data(), sizeof(T));
+            // A negative one is above it as well.
+            if constexpr (std::integral<T>)
+                if (static_cast<std::make_unsigned_t<T>>(value) > largest_count) contradiction();
         }
     }
     void operator()(std::string& text) { text = take(size()); }
@@ -134,8 +188,9 @@ class StateReader {
             const std::string_view bytes = take(n * sizeof(T));
             if (n > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
         } else if constexpr (std::same_as<T, bool>) {
-            const std::string_view bytes = take(n);
-            values.assign(bytes.begin(), bytes.end());
+            if (n > rest_.size()) too_short();
+            values.resize(n);
+            for (std::uint64_t k = 0; k < n; ++k) values[k] = flag();
         } else {
             if (n > rest_.size()) too_short();  // every element takes a byte at least
             values.clear();
@@ -144,9 +199,16 @@ class StateReader {
         }
     }
     template <class T>
+    requires KeptAsBytes<T, StateReader>
+    void operator()(std::span<T> values) {
+        if (size() != values.size()) contradiction();
+        const std::string_view bytes = take(values.size_bytes());
+        if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    }
+    template <class T>
     void operator()(std::optional<T>& value) {
         value.reset();
-        if (take(1)[0] != '\0') (*this)(value.emplace());
+        if (flag()) (*this)(value.emplace());
     }
     template <class A, class B>
     void operator()(std::pair<A, B>& value) {
@@ -177,6 +239,16 @@ class StateReader {
   private:
     [[noreturn]] static void too_short() {
         throw FileError("The saved state ends too soon: it is that of another kind of run.");
+    }
+    [[noreturn]] static void contradiction() {
+        throw FileError(
+            "The saved state contradicts itself: the program that wrote it was another one, or the "
+            "file was changed.");
+    }
+    bool flag() {
+        const char byte = take(1)[0];
+        if (byte != '\0' && byte != '\1') contradiction();
+        return byte == '\1';
     }
     std::string_view take(std::uint64_t n) {
         if (n > rest_.size()) too_short();

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "swirl/files/file_error.hpp"
+#include "swirl/files/possible.hpp"
 #include "swirl/files/track_mending.hpp"
 #include "swirl/files/whole_file.hpp"
 #include "swirl/math/unit_circle.hpp"
@@ -149,6 +150,7 @@ class TrackSeries {
                    f.spin.empty() ? unknown : sense() * f.spin[i] / scale_.camera_time(), s.clock,
                    f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass, unknown});
         }
+        require_possible(s, Spins::maybe_unknown);
         return s;
     }
 

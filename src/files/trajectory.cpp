@@ -8,8 +8,10 @@
 
 #include "swirl/files/file_error.hpp"
 #include "swirl/files/h5md.hpp"
+#include "swirl/files/possible.hpp"
 #include "swirl/files/recording.hpp"
 #include "swirl/files/series.hpp"
+#include "swirl/physics/limits.hpp"
 
 namespace swirl {
 namespace {
@@ -27,7 +29,7 @@ bool lie_in_plane(const std::vector<double>& vectors) {
 }  // namespace
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
-    : file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
+    : path_(path.string()), file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
     if (!file_->has_attribute("/h5md", "version") || !file_->has(particles + "/position/value"))
         throw FileError(
             fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}/position.",
@@ -105,6 +107,11 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     fixed_.inertia = inertia;
     fixed_.period = file_->number_attribute(parameters, "period");
     fixed_.container_radius = file_->number_attribute(parameters, "container_radius");
+    require_possible(fixed_, Spins::known, path_);
+    if (!(reach() <= largest_coordinate))
+        throw FileError(
+            fmt::format("'{}': the container goes as far as {}, but must stay within {}.", path_,
+                        reach(), largest_coordinate));
     block_ = angle_.chunk_shape().empty() ? 1 : std::max<std::uint64_t>(1, angle_.chunk_shape()[0]);
 }
 
@@ -150,6 +157,7 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
         const double* const q = loaded_.orientation.data() + 4 * at;
         s.turned[i] = {q[0], q[1], q[2], q[3]};
     }
+    require_possible(s, Spins::known, path_);
     return s;
 }
 
@@ -169,6 +177,25 @@ std::uint64_t TrajectoryReader::events_before(std::uint64_t k) const {
     return std::uint64_t(events_.at(k));
 }
 
+std::vector<std::string> TrajectoryReader::series_names() const {
+    std::vector<std::string> names;
+    for (const char* name : {"position", "velocity", "angle", "angular_velocity"})
+        names.push_back(particles + "/" + name);
+    if (are_spheres_)
+        for (const char* name : {"rolling_spin", "orientation"})
+            names.push_back(particles + "/" + name);
+    for (const char* name : {"swirls", "events", "clock", "container_x", "container_y",
+                             "container_vx", "container_vy"})
+        names.push_back(observables + "/" + name);
+    return names;
+}
+
+void TrajectoryReader::read_all() {
+    for (const std::string& name : provenance_names()) provenance(name);
+    contradicted();
+    for (std::uint64_t k = 0; k < frames_; k += block_) frame(k);
+}
+
 std::string TrajectoryReader::contradicted() {
     const auto whole = [&](const std::string& name) {
         return file_->column(particles + "/" + name).read<std::int64_t>();
@@ -184,11 +211,18 @@ std::string TrajectoryReader::contradicted() {
     if (are_spheres_ && !counts("xy", 2)) return "xy";
     if (are_spheres_ && !counts("wxyz", 4)) return "wxyz";
     if (whole("species") != h5md::species_of(fixed_.radius, fixed_.mass)) return "species";
-    const auto step = step_.read<std::int64_t>(0, frames_);
-    const auto time = time_.read<double>(0, frames_);
-    for (std::uint64_t k = 0; k < frames_; ++k) {
-        if (step[k] != std::int64_t(k)) return "step";
-        if (time[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return "time";
+    for (const std::string& series : series_names()) {
+        const Column step = file_->column(series + "/step"), time = file_->column(series + "/time");
+        for (const Column* each : {&step, &time})
+            if (!each->row_shape().empty() || each->rows() < frames_ ||
+                (complete_ && each->rows() != frames_))
+                return series + (each == &step ? "/step" : "/time");
+        const auto steps = step.read<std::int64_t>(0, frames_);
+        const auto times = time.read<double>(0, frames_);
+        for (std::uint64_t k = 0; k < frames_; ++k) {
+            if (steps[k] != std::int64_t(k)) return series + "/step";
+            if (times[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return series + "/time";
+        }
     }
     for (std::uint64_t k = 0; k < frames_; k += block_) {
         load_block_of(k);

@@ -89,7 +89,8 @@ class TrajectoryWriter {
 /// Frames that can be asked for by number: recorded by us, or by a camera.
 class TrajectoryReader {
   public:
-    /// Reads finished and unfinished files. Throws FileError.
+    /// Reads finished and unfinished files. Throws FileError, also in frame() for what no dish can
+    /// be (possible.hpp).
     explicit TrajectoryReader(const std::filesystem::path& path);
 
     std::uint64_t frames() const { return frames_; }
@@ -98,9 +99,11 @@ class TrajectoryReader {
     Snapshot frame(std::uint64_t k);
     std::uint64_t events_before(std::uint64_t k) const;
     /// The name of a column that is there for other programs alone (id, particle, species, the
-    /// components' numbers, step, time, z of positions and velocities) and is not what follows from
-    /// the others; "" if there is none.
+    /// components' numbers, step and time of each series, z of positions and velocities) and is not
+    /// what follows from the others; "" if there is none.
     std::string contradicted();
+    /// Everything that is ever read of it, for whoever asks whether that is possible at all.
+    void read_all();
     /// Half the width of a square about the swirl centre that holds the container at all times.
     double reach() const;
     /// "" where there is none.
@@ -109,7 +112,10 @@ class TrajectoryReader {
 
   private:
     void load_block_of(std::uint64_t k);
+    /// Whatever has a step and a time of its own.
+    std::vector<std::string> series_names() const;
 
+    std::string path_;
     std::unique_ptr<Hdf5File> file_;
     Column position_, velocity_, angle_, angular_velocity_, rolling_spin_, orientation_;
     Column step_, time_;

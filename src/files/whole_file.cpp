@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -223,14 +224,14 @@ void write_named_file(const std::filesystem::path& path, std::string_view bytes)
 
 namespace {
 
-std::string read_to_the_end(int file, const std::filesystem::path& path) {
+std::string read_to_the_end(int file, const std::filesystem::path& path, std::size_t most) {
     std::string bytes;
     struct stat about;
     if (::fstat(file, &about) == 0 && about.st_size > 0)
-        bytes.reserve(static_cast<std::size_t>(about.st_size));
+        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), most));
     char block[65536];
     ssize_t got;
-    while ((got = ::read(file, block, sizeof block)) != 0) {
+    while (bytes.size() <= most && (got = ::read(file, block, sizeof block)) != 0) {
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
             throw FileError(
@@ -240,7 +241,8 @@ std::string read_to_the_end(int file, const std::filesystem::path& path) {
     return bytes;
 }
 
-std::string read_file(const std::filesystem::path& path, bool regular_only) {
+std::string read_file(const std::filesystem::path& path, bool regular_only,
+                      std::size_t most = std::string::npos - 1) {
     // A pipe that nobody writes to would keep us waiting in open().
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (regular_only ? O_NONBLOCK : 0));
     if (file < 0)
@@ -252,12 +254,14 @@ std::string read_file(const std::filesystem::path& path, bool regular_only) {
     const bool known = ::fstat(file, &about) == 0;
     if (known && (S_ISDIR(about.st_mode) || (regular_only && !S_ISREG(about.st_mode))))
         refuse_irregular(path);
-    return read_to_the_end(file, path);
+    return read_to_the_end(file, path, most);
 }
 
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& path) { return read_file(path, false); }
+std::string read_whole_file(const std::filesystem::path& path, std::size_t most) {
+    return read_file(path, false, most);
+}
 std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
 
 std::string first_bytes(const std::filesystem::path& path) {

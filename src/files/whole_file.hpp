@@ -55,8 +55,10 @@ bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
 /// NAME, or NAME-2, -3, …: the first that is not there.
 std::filesystem::path free_name(const std::string& name);
 
-/// Throws FileError when it cannot be read.
-std::string read_whole_file(const std::filesystem::path& path);
+/// Throws FileError when it cannot be read. Of a file that is longer it reads one byte more than
+/// `most`, however long it is: a device may never end.
+std::string read_whole_file(const std::filesystem::path& path,
+                            std::size_t most = std::string::npos - 1);
 /// The same, but throws for pipes, devices and the like, which may never end.
 std::string read_regular_file(const std::filesystem::path& path);
 /// What a file begins with, by which it is told what it is: eight bytes or as many as there are.

@@ -41,7 +41,7 @@ class AllAndPinned {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        for (BlockMean* mean : {&all_, &pinned_, &on_stays_}) mean->fields(visit);
+        for (BlockMean* mean : {&all_, &pinned_, &on_stays_}) visit(*mean);
         visit(held_);
         visit(held_at_);
     }

@@ -78,7 +78,7 @@ class AngularProfile {
     void merge(const AngularProfile& other) { cells_.merge(other.cells_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        cells_.fields(visit);
+        visit(cells_);
     }
 
   private:

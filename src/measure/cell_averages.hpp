@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "swirl/measure/statistics.hpp"
@@ -103,8 +104,8 @@ class CellMeans {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(open_);
-        visit(sums_);
+        visit(std::span(open_));
+        visit(std::span(sums_));
         visit(blocks_);
     }
 
@@ -168,7 +169,7 @@ class CellRates {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        for (auto* column : {&open_, &s_, &ss_, &sw_}) visit(*column);
+        for (auto* column : {&open_, &s_, &ss_, &sw_}) visit(std::span(*column));
         visit(weight_);
         visit(w_);
         visit(ww_);

@@ -127,8 +127,8 @@ class ClusterCentre {
         visit(samples_);
         visit(most_centrifugal_);
         visit(most_coriolis_);
-        for (BlockMean* mean : means()) mean->fields(visit);
-        direction_.fields(visit);
+        for (BlockMean* mean : means()) visit(*mean);
+        visit(direction_);
     }
 
   private:

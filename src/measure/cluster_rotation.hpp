@@ -133,12 +133,12 @@ class ClusterRotation {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(centre_);
-        event_.fields(visit);
-        time_.fields(visit);
-        individual_by_event_.fields(visit);
-        individual_by_time_.fields(visit);
-        rigid_by_event_.fields(visit);
-        rigid_by_time_.fields(visit);
+        visit(event_);
+        visit(time_);
+        visit(individual_by_event_);
+        visit(individual_by_time_);
+        visit(rigid_by_event_);
+        visit(rigid_by_time_);
     }
 
   private:

@@ -59,9 +59,9 @@ class CollisionRates {
     void fields(Visitor&& visit) {
         visit(disc_);
         visit(wall_);
-        disc_rate_.fields(visit);
-        wall_rate_.fields(visit);
-        rate_.fields(visit);
+        visit(disc_rate_);
+        visit(wall_rate_);
+        visit(rate_);
     }
 
   private:

@@ -45,7 +45,7 @@ class DensityMap {
     void merge(const DensityMap& other) { counts_.merge(other.counts_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        counts_.fields(visit);
+        visit(counts_);
     }
 
   private:
@@ -90,8 +90,8 @@ class DensityMaps {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        by_time_.fields(visit);
-        by_event_.fields(visit);
+        visit(by_time_);
+        visit(by_event_);
     }
 
   private:

@@ -106,9 +106,11 @@ class Diffusion {
         visit(step_);
         visit(period_);
         visit(breaks_);
-        moves_.fields(visit);
-        turns_.fields(visit);
+        visit(moves_);
+        visit(turns_);
     }
+    /// Where the discs are to begin again, what is kept of those before does not matter.
+    bool is_consistent() const { return discs_ == 0 || past_.size() / discs_ == window_; }
 
     struct State {
         Vec2 position{};
@@ -181,8 +183,8 @@ class DiffusionLags {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        within_.fields(visit);
-        across_.fields(visit);
+        visit(within_);
+        visit(across_);
     }
 
   private:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "swirl/math/unit_circle.hpp"
@@ -34,7 +35,7 @@ class DirectionHistogram {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(counts_);
+        visit(std::span(counts_));
     }
 
   private:

@@ -113,7 +113,7 @@ class EnergyBudget {
         }
         for (BlockSeries* s : {&work_, &disc_friction_, &wall_friction_, &inelastic_, &floor_work_,
                                &floor_friction_})
-            s->fields(visit);
+            visit(*s);
         for (double* sum : {&floor_.work, &floor_.friction_loss, &last_.energy}) visit(*sum);
         visit(last_.momentum);
         visit(last_.floor_velocity);

@@ -63,7 +63,7 @@ class FlowMap {
     void merge(const FlowMap& other) { cells_.merge(other.cells_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        cells_.fields(visit);
+        visit(cells_);
     }
 
   private:

@@ -90,9 +90,9 @@ class GranularTemperature {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        cells_.fields(visit);
-        spins_.fields(visit);
-        energies_.fields(visit);
+        visit(cells_);
+        visit(spins_);
+        visit(energies_);
     }
 
   private:

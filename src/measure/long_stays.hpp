@@ -69,6 +69,11 @@ class LongStays {
         for (double* value : {&first_, &last_, &least_}) visit(*value);
         for (auto* column : {&begin_, &long_begin_, &long_end_}) visit(*column);
     }
+    /// Where the discs are to begin again, what is kept of those before does not matter.
+    bool is_consistent() const {
+        return begin_.empty() ||
+               (long_begin_.size() == begin_.size() && long_end_.size() == begin_.size());
+    }
 
   private:
     bool sees(double time) const { return first_ <= time && time <= last_; }

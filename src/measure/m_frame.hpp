@@ -109,6 +109,11 @@ class MFrameView {
         visit(container_radius);
         for (auto* column : {&x, &y, &ux, &uy, &spin, &radius, &mass, &inertia}) visit(*column);
     }
+    bool is_consistent() const {
+        for (const auto* column : {&y, &ux, &uy, &spin, &radius, &mass, &inertia})
+            if (column->size() != x.size()) return false;
+        return true;
+    }
 };
 
 }  // namespace swirl

@@ -103,7 +103,7 @@ class PinnedFrames {
     void merge(const PinnedFrames& other) { pinned_loose_.merge(other.pinned_loose_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        pinned_loose_.fields(visit);
+        visit(pinned_loose_);
         visit(recent_);
         visit(frames_);
     }
@@ -146,9 +146,9 @@ class Observation {
         visit(events_);
         visit(discs_);
         visit(block_begins_);
-        pinned_.fields(visit);
-        stays_.fields(visit);
-        each([&](auto& m) { m.fields(visit); });
+        visit(pinned_);
+        visit(stays_);
+        each([&](auto& m) { visit(m); });
     }
 
   private:

@@ -31,7 +31,9 @@
 // nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "swirl/measure/cell_averages.hpp"
@@ -91,10 +93,22 @@ class PinnedLoose {
             visit(*column);
         visit(is_pinned_);
         visit(pinned_);
-        becoming_pinned_.fields(visit);
-        becoming_free_.fields(visit);
-        share_.fields(visit);
-        for (DirectionHistogram* places : {&pinned_places_, &free_places_}) places->fields(visit);
+        visit(becoming_pinned_);
+        visit(becoming_free_);
+        visit(share_);
+        for (DirectionHistogram* places : {&pinned_places_, &free_places_}) visit(*places);
+    }
+    /// Without tracks the columns may be those of the tracks before.
+    bool is_consistent() const {
+        const std::size_t n = pinned_.size();
+        const auto all = [](std::size_t length,
+                            std::initializer_list<const std::vector<double>*> c) {
+            return std::all_of(c.begin(), c.end(),
+                               [=](const auto* column) { return column->size() == length; });
+        };
+        return n == 0 || (all(n * width, {&past_x_, &past_y_}) &&
+                          all(n, {&sum_x_, &sum_y_, &slope_x_, &slope_y_, &loose_for_, &left_x_,
+                                  &left_y_, &parallel_for_, &is_pinned_, &freed_, &turned_}));
     }
 
   private:
@@ -154,9 +168,10 @@ class PinnedByCollisions {
     void fields(Visitor&& visit) {
         visit(last_);
         visit(longest_);
-        becoming_pinned_.fields(visit);
-        becoming_free_.fields(visit);
+        visit(becoming_pinned_);
+        visit(becoming_free_);
     }
+    bool is_consistent() const { return last_.size() == longest_.size(); }
 
     struct Collision {
         double time = never;  // none yet

@@ -56,7 +56,7 @@ class RadialDensity {
     void merge(const RadialDensity& other) { counts_.merge(other.counts_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        counts_.fields(visit);
+        visit(counts_);
     }
 
   private:

@@ -96,10 +96,9 @@ class Rolling {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_})
-            mean->fields(visit);
-        between_.fields(visit);
-        at_wall_.fields(visit);
+        for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_}) visit(*mean);
+        visit(between_);
+        visit(at_wall_);
     }
 
   private:
@@ -114,9 +113,9 @@ class Rolling {
         template <class Visitor>
         void fields(Visitor&& visit) {
             for (double* sum : {&vertical_square, &square, &vertical, &normal, &loss}) visit(*sum);
-            share.fields(visit);
-            friction.fields(visit);
-            power.fields(visit);
+            visit(share);
+            visit(friction);
+            visit(power);
         }
     };
 

@@ -33,6 +33,12 @@ class SampleTimes {
     void fields(Visitor&& visit) {
         visit(index_, swirls_);
     }
+    /// By an interval every moment of the swirls before has been taken. (One less for rounding.)
+    bool is_consistent() const {
+        if (interval_ == 0.0) return index_ <= per_period_;
+        const double due = static_cast<double>(swirls_) * period_ / interval_;
+        return static_cast<double>(index_) + 1.0 >= due * (1.0 - 1e-9);
+    }
 
   private:
     bool take_next(Snapshot& s, const ContainerPath& path, double clock) {

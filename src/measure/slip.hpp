@@ -86,8 +86,7 @@ class Slip {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : {&cluster_, &pinned_, &stays_, &perimeter_, &pancake_})
-            mean->fields(visit);
+        for (BlockMean* mean : {&cluster_, &pinned_, &stays_, &perimeter_, &pancake_}) visit(*mean);
         visit(held_);
         for (double* value : {&held_at_, &held_factor_, &held_omega_}) visit(*value);
     }

@@ -119,7 +119,7 @@ class SpinFrustration {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : means()) mean->fields(visit);
+        for (BlockMean* mean : means()) visit(*mean);
         visit(held_spins_);
         visit(held_pairs_);
         visit(held_at_);

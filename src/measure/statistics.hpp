@@ -19,6 +19,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -129,6 +130,7 @@ class BlockSeries {
         visit(current_);
         visit(runs_);
     }
+    bool is_consistent() const { return current_ < std::max<std::size_t>(runs_.size(), 1); }
 
     struct Run {
         std::vector<Block> blocks;
@@ -155,6 +157,10 @@ class BlockSeries {
             visit(periods_per_block);
             visit(filling);
             visit(filled);
+        }
+        bool is_consistent() const {
+            return blocks.size() < most_blocks_per_run && std::has_single_bit(periods_per_block) &&
+                   filled < periods_per_block;
         }
     };
 
@@ -205,7 +211,7 @@ class BlockMean {
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(open_);
-        series_.fields(visit);
+        visit(series_);
     }
 
   private:

@@ -106,12 +106,15 @@ class WallStays {
         visit(stays_);
         for (auto& layer : kinds_)
             for (Kind& kind : layer) {
-                kind.begin.fields(visit);
-                kind.end.fields(visit);
-                kind.share.fields(visit);
+                visit(kind.begin);
+                visit(kind.end);
+                visit(kind.share);
             }
-        length_.fields(visit);
-        for (DirectionHistogram* places : {&begins_, &ends_}) places->fields(visit);
+        visit(length_);
+        for (DirectionHistogram* places : {&begins_, &ends_}) visit(*places);
+    }
+    bool is_consistent() const {
+        return stays_.size() % layers.size() == 0 && stays_.size() / layers.size() == discs_;
     }
 
     /// Of one disc in one layer.

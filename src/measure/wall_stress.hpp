@@ -89,12 +89,12 @@ class WallStress {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        normal_.fields(visit);
-        along_.fields(visit);
+        visit(normal_);
+        visit(along_);
         visit(open_normal_);
         visit(open_along_);
-        all_normal_.fields(visit);
-        all_along_.fields(visit);
+        visit(all_normal_);
+        visit(all_along_);
     }
 
   private:

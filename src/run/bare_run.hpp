@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "swirl/measure/cluster_rotation.hpp"
@@ -108,7 +109,7 @@ class BareRun {
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
         visit(spin_in_warmup_, spin_after_, next_question_);
-        if (!snapshot_.turned.empty()) visit(snapshot_.turned);
+        if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
         if (observation_) visit(observation_times_);
     }
 

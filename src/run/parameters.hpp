@@ -21,6 +21,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/floor.hpp"
+#include "swirl/physics/limits.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
@@ -145,11 +146,6 @@ struct Parameter {
     /// Whether it stands in the configuration; if not, it only sets others.
     bool is_written() const { return write != nullptr || member.index() != 0; }
 };
-
-// Beyond these the arithmetic is still right but a result means nothing any more; most often a
-// number outside is a slip of the keyboard.
-inline constexpr double smallest_value = 1e-6, largest_value = 1e6;
-inline constexpr double most_discs = 1e7, most_events = 1e15, most_periods = 1e12, most_sides = 1e6;
 
 namespace parameter_group {
 inline constexpr const char *discs = "The discs", *container = "The container", *run = "The run";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -47,8 +48,16 @@ Json identity(const RunConfig& config, const RunFiles& files, const Observation*
 /// What a checkpoint says about its run.
 Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
     Json about = Json::parse(kept.about, nullptr, false);
-    if (!about.is_object() || !about.value("identity", Json()).is_object() ||
-        !about["identity"].value("parameters", Json()).is_object())
+    const auto says_which = [&] {
+        if (!about.is_object()) return false;
+        const Json identity = about.value("identity", Json()),
+                   call = about.value("call", Json::object());
+        return identity.is_object() && identity.value("parameters", Json()).is_object() &&
+               identity.contains("frames") && about.value("run", Json("")).is_string() &&
+               about.value("overwrites", Json(false)).is_boolean() && call.is_object() &&
+               std::all_of(call.begin(), call.end(), [](const Json& v) { return v.is_string(); });
+    };
+    if (!says_which())
         throw FileError(fmt::format(
             "The checkpoint '{}' does not say which run it is of; remove it.", file.string()));
     return about;
@@ -72,7 +81,7 @@ std::string difference(const Json& there, const Json& here) {
     if (there.at("frames") != here.at("frames"))
         return fmt::format("the frames of its trajectory are {} there and {} here",
                            there["frames"].dump(), here["frames"].dump());
-    if (there.value("event_log", false) != here.at("event_log"))
+    if (there.value("event_log", Json(false)) != here.at("event_log"))
         return "one of the two writes an event log and the other does not";
     return fmt::format("it measures {} there and {} here",
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
@@ -192,6 +201,10 @@ class Recorder {
         resumed_.emplace();
         state(frames, logged, events_, frame_times_, *resumed_);
         state.expect_end();
+        if (!files_.event_log.empty() && logged != events_)
+            throw FileError(fmt::format(
+                "The checkpoint '{}' contradicts itself: it counts {} events and {} in its log.",
+                files_.checkpoint.string(), events_, logged));
         run_name_ = about.value("run", std::string());
         overwrites_ = about.value("overwrites", false);
         if (!files_.trajectory.empty())

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/simd.hpp"
+#include "swirl/simulation/continuation.hpp"
 
 namespace swirl {
 namespace {
@@ -34,6 +36,12 @@ struct Moment {
     }
 };
 
+bool are_the_same_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Disc& x, const Disc& y) {
+        return x.radius == y.radius && x.mass == y.mass && x.inertia == y.inertia;
+    });
+}
+
 /// The run at its beginning, or where the text of a state says.
 BareRun begin(const RunConfig& config, const RunControl& control) {
     InitialState scene = make_initial_state(config, control.stop);
@@ -41,10 +49,12 @@ BareRun begin(const RunConfig& config, const RunControl& control) {
     if (control.resume) {
         StateReader read(*control.resume);
         read(moment);
-        if (moment.discs.size() != scene.discs.size() ||
-            moment.progress.leg >= scene.path.legs.size())
+        if (!are_the_same_bodies(moment.discs, scene.discs))
             throw FileError("The saved state is that of another run.");
         scene.discs = moment.discs;
+        if (const char* const what = impossible_to_continue(scene, moment.progress))
+            throw FileError(
+                fmt::format("The saved state contradicts itself: it says that {}.", what));
     }
     BareRun run(config, scene, control.observation, moment.progress, asked_tuning(control.stop));
     if (control.stop && control.stop->load())
@@ -75,7 +85,7 @@ Run::Run(const RunConfig& config, RunControl control)
 template <class Visitor>
 void Run::fields(Visitor&& visit) {
     visit(seconds_before_);
-    run_.fields(visit);
+    visit(run_);
     if (control_.observation) visit(*control_.observation);
 }
 
