@@ -31,8 +31,8 @@ class PossibleDish {
         // A disc as large as its container is rounded up to it.
         between("radius", s_.radius[i], smallest_value, R * (1.0 + 1e-9));
         between("mass", s_.mass[i], smallest_value, largest_value);
-        within("position", s_.position(i), largest_coordinate);
         within("velocity", s_.velocity(i), largest_magnitude);
+        within("position", s_.position(i), largest_coordinate);
         if (is_known(s_.inertia[i]))
             between("moment of inertia", s_.inertia[i], smallest_inertia, largest_inertia);
         if (is_known(s_.angle[i])) within("angle", s_.angle[i], largest_magnitude);

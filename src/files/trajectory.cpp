@@ -192,11 +192,11 @@ std::vector<std::string> TrajectoryReader::series_names() const {
 
 void TrajectoryReader::read_all() {
     for (const std::string& name : provenance_names()) provenance(name);
-    contradicted();
+    contradicted_by_names_or_times();
     for (std::uint64_t k = 0; k < frames_; k += block_) frame(k);
 }
 
-std::string TrajectoryReader::contradicted() {
+std::string TrajectoryReader::contradicted_by_names_or_times() const {
     const auto whole = [&](const std::string& name) {
         return file_->column(particles + "/" + name).read<std::int64_t>();
     };
@@ -224,6 +224,11 @@ std::string TrajectoryReader::contradicted() {
             if (times[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return series + "/time";
         }
     }
+    return "";
+}
+
+std::string TrajectoryReader::contradicted() {
+    if (std::string name = contradicted_by_names_or_times(); !name.empty()) return name;
     for (std::uint64_t k = 0; k < frames_; k += block_) {
         load_block_of(k);
         if (!lie_in_plane(loaded_.position)) return "position";

@@ -112,6 +112,7 @@ class TrajectoryReader {
 
   private:
     void load_block_of(std::uint64_t k);
+    std::string contradicted_by_names_or_times() const;
     /// Whatever has a step and a time of its own.
     std::vector<std::string> series_names() const;
 

@@ -1,11 +1,49 @@
-// A checkpoint from outside: first line, lengths, checksum.
+// A checkpoint from outside: first line, lengths, checksum, what run it is of, and the state. What
+// the fuzzer makes up gets the right checksum, so that what lies behind it is reached; whatever is
+// not refused is resumed and runs for some hundred events.
+#include <cstring>
+
 #include "fuzzed_file.hpp"
 #include "swirl/files/checkpoint.hpp"
+#include "swirl/files/checksum.hpp"
 #include "swirl/files/file_error.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/recorded_run.hpp"
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+    size = LLVMFuzzerMutate(data, size, most);
+    if (size < 8 || seed % 16 == 0) return size;  // now and then a wrong one
+    const std::uint64_t sum =
+        swirl::checksum({reinterpret_cast<const char*>(data), size - sizeof sum});
+    std::memcpy(data + size - sizeof sum, &sum, sizeof sum);
+    return size;
+}
+
+namespace {
+
+using namespace swirl;
+
+/// As `swirl run --checkpoint FILE --resume --events …` does, if the run is a small one.
+void resume(const std::filesystem::path& path) {
+    const KeptCall kept = call_in_checkpoint(path);
+    RunConfig config = resolve(parameters_in(kept.configuration));
+    if (config.discs > 30 || config.periods || config.events > 5'000 || config.sides > 1'000)
+        return;
+    RunFiles files;
+    files.checkpoint = path;
+    files.resume = true;
+    run_recorded(config, files, {}, {});
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace swirl;
     const FuzzedFile file(data, size);
-    read_or_refuse<FileError>([&] { read_checkpoint(file.path()); });
+    read_or_refuse<FileError, WrongCall, Failure>([&] { resume(file.path()); });
     return 0;
 }

@@ -3,10 +3,12 @@ paths; copies; and no way to bring it down."""
 
 import copy
 import gc
+import math
 import multiprocessing
 import pickle
 import random
 import resource
+import struct
 import subprocess
 import sys
 import threading
@@ -296,6 +298,61 @@ def test_a_damaged_file_is_refused(tmp_path):
             swirl.load(file)
     with pytest.raises(FileNotFoundError):
         swirl.load(tmp_path / "nothing")
+
+
+def _crc64(data):
+    """files/checksum.hpp: ECMA-182, reflected."""
+    crc = 2**64 - 1
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xC96C5795D7870F42 if crc & 1 else 0)
+    return ~crc & 2**64 - 1
+
+
+HEAD = b"swirl simulation 2\n"
+
+
+def _forged(archive, at, word):
+    """The archive with eight other bytes behind its checksum, and with the checksum of those."""
+    body = archive[len(HEAD) + 8:]
+    body = body[:at] + word[:max(0, len(body) - at)] + body[at + 8:]
+    return HEAD + struct.pack("<Q", _crc64(body)) + body
+
+
+SPECIAL = [struct.pack("<d", x) for x in (math.nan, math.inf, -math.inf, 1e308, 1e18, -1.0, 0.0, 0.5,
+                                          1e-300)] + \
+    [struct.pack("<Q", n) for n in (0, 1, 2, 255, 2**31, 2**61, 2**63, 2**64 - 1)]
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_a_forged_archive_is_refused_or_goes_on(own, tmp_path):
+    sim = swirl.Simulation(discs=3, seed=2, sides=3) if not own else \
+        swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], path=[[0, 0], [2, 1], [-1, 2]])
+    sim.advance(events=1000)
+    sim.save(tmp_path / "good")
+    archive = (tmp_path / "good").read_bytes()
+    body = archive[len(HEAD) + 8:]
+    text = struct.unpack_from("<Q", body)[0]
+    numbers = 8 + text + 1  # behind the parameters and whether it is one's own
+    assert _forged(archive, 0, body[:8]) == archive
+    count_refused = 0
+    # Every number behind the parameters, each with every special value: the number of legs, the legs,
+    # swirls and clock, leg (four bytes) and counts, the discs.
+    places = [*range(0, 8, 8), *range(numbers, len(body) - 7, 8)]
+    places += [numbers + 8 + 3 * 56 + 16 + 4 + 8 * k for k in range((len(body) - numbers - 196) // 8)]
+    chosen = random.Random(4)
+    tried = [(at, word) for at in places for word in chosen.sample(SPECIAL, 3)]
+    for at, word in tried:
+        (tmp_path / "forged").write_bytes(_forged(archive, at, word))
+        try:
+            forged = swirl.load(tmp_path / "forged")
+        except swirl.FileError:
+            count_refused += 1
+            continue
+        forged.advance(events=300)
+        assert np.all(np.isfinite(forged.snapshot().position))
+    assert len(tried) / 4 < count_refused < len(tried)
 
 
 def test_copies_go_on_by_themselves():

@@ -1,0 +1,224 @@
+"""Files that someone forged: recordings of dishes that cannot be, datasets that are not as large as they
+say, crashes inside the HDF5 library, pipes without a reader and devices without an end. Each call ends
+with an error, and soon."""
+
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from program import SWIRL, InFolder, swirl
+
+DISCS = ["run", "--discs", "4", "--periods", "3", "--frames", "5", "--warmup", "1", "--quiet"]
+SPHERES = [*DISCS, "--body", "sphere", "--floor", "sliding"]
+
+
+class HostileFiles(InFolder):
+    in_memory = True
+
+    def recorded(self, *run):
+        """A trajectory, an event log and a result."""
+        done = swirl(*run, "--trajectory", self.path("t.h5"), "--log-events", self.path("e.h5"),
+                     "--json", self.path("r.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def edited(self, name, code):
+        """A copy of a recording, `f`, after some Python."""
+        copy = self.path("edited.h5")
+        shutil.copyfile(self.path(name), copy)
+        done = subprocess.run(["/usr/bin/python3", "-c", f"""
+import h5py, math, sys
+import numpy as np
+nan, inf = math.nan, math.inf
+f = h5py.File(sys.argv[1], 'r+')
+particles = f['particles/trajectory'] if 'particles' in f else None
+{code}
+f.close()
+""", copy], capture_output=True, text=True)
+        if "No module named 'h5py'" in done.stderr:
+            self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return copy
+
+    def expect_error(self, saying, *call):
+        done = swirl(*call, timeout=60)
+        self.assertEqual(done.returncode, 1, (call, done.stdout, done.stderr))
+        self.assertIn(saying, done.stderr, call)
+        return done
+
+    # --- dishes that cannot be ------------------------------------------------------------------
+
+    def test_a_dish_that_cannot_be_is_neither_measured_nor_exported_nor_drawn(self):
+        self.recorded(*DISCS)
+        commands = (["measure"], ["export", "--to", "csv", "--out", self.path("o.csv")],
+                    ["picture", "--size", "64x64", "--out", self.path("o.svg")])
+        edits = [(f"particles['radius'][3] = {value}", "radius of disc 3")
+                 for value in ("inf", "nan", "0", "-1", "1e308", "9")]
+        edits += [(f"particles['mass'][1] = {value}", "mass of disc 1") for value in ("0", "nan", "inf")]
+        edits += [("particles['moment_of_inertia'][0] = nan", "moment of inertia of disc 0")]
+        edits += [(f"f['parameters'].attrs['container_radius'] = {value}", "container radius")
+                  for value in ("nan", "0.0", "-8.6", "1e308")]
+        edits += [(f"f['parameters'].attrs['period'] = {value}", "period") for value in ("nan", "0.0")]
+        edits += [(f"particles['position/value'][7, 2, 0] = {value}", "position of disc 2")
+                  for value in ("nan", "inf", "-1e300")]
+        edits += [("particles['velocity/value'][7, 2, 1] = inf", "velocity of disc 2"),
+                  ("particles['angular_velocity/value'][7, 0] = nan", "spin of disc 0"),
+                  ("f['observables/clock/value'][7] = 1e9", "clock"),
+                  ("f['observables/container_x/value'][7] = inf", "the container goes as far as inf")]
+        for number, (edit, saying) in enumerate(edits):
+            file = self.edited("t.h5", edit)
+            # Each edit is seen by the one check behind all commands; every command by some edit.
+            verb, *more = commands[number % 3]
+            self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--at", "1.4"]))
+        self.assertEqual(swirl("measure", self.path("t.h5"), "--quiet").returncode, 0)
+
+    def test_nor_is_the_dish_of_a_dump(self):
+        for column, value in (("radius", "0"), ("mass", "-1"), ("x", "1e300")):
+            row = {"id": "1", "x": "0", "y": "0", "radius": "1", "mass": "1", column: value}
+            with open(self.path("d.dump"), "w") as dump:
+                for step in range(2):
+                    dump.write(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\n"
+                               f"ITEM: ATOMS {' '.join(row)}\n{' '.join(row.values())}\n")
+            done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=60)
+            self.assertEqual(done.returncode, 1, (column, done.stdout, done.stderr))
+
+    def test_the_beginning_of_an_event_log_must_be_possible(self):
+        self.recorded(*DISCS)
+        file = self.edited("e.h5", "f['initial/radius'][2] = nan")
+        self.expect_error("radius of disc 2", "verify", file)
+
+    # --- the HDF5 library -----------------------------------------------------------------------
+
+    def forged(self, name, before, after):
+        """The first of the bytes `before` are `after`."""
+        with open(self.path(name), "rb") as opened:
+            content = opened.read()
+        self.assertIn(before, content)
+        with open(self.path("forged.h5"), "wb") as opened:
+            opened.write(content.replace(before, after, 1))
+        return self.path("forged.h5")
+
+    def test_a_dataset_larger_than_the_file_is_refused_before_memory_is_asked_for(self):
+        self.recorded(*DISCS)
+        # The shape 4 × 2 of /initial/position, and as many rows as make 4 GB.
+        file = self.forged("e.h5", struct.pack("<QQ", 4, 2), struct.pack("<QQ", 1 << 28, 2))
+        self.expect_error("does not lie in the file as its shape says", "verify", file)
+
+    def test_a_compact_dataset_smaller_than_its_shape_is_refused(self):
+        self.recorded(*DISCS)
+        copy = self.edited("t.h5", """
+del particles['mass']
+create = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+create.set_layout(h5py.h5d.COMPACT)
+space = h5py.h5s.create_simple((57,))
+made = h5py.h5d.create(particles.id, b'mass', h5py.h5t.IEEE_F64LE, space, create)
+made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
+        os.rename(copy, self.path("compact.h5"))
+        file = self.forged("compact.h5", struct.pack("<QQ", 57, 57), struct.pack("<QQ", 5000, 5000))
+        for verb in (["verify"], ["measure"]):
+            self.expect_error("does not lie in the file as its shape says", *verb, file)
+
+    @unittest.skipUnless(shutil.which("cc"), "no C compiler")
+    def test_a_crash_inside_the_library_becomes_a_sentence(self):
+        self.recorded(*DISCS)
+        with open(self.path("crash.c"), "w") as source:
+            source.write("#include <signal.h>\nint H5Dread(void) { raise(SIGSEGV); return -1; }\n")
+        shim = self.path("crash.so")
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", shim, self.path("crash.c")], check=True)
+        for call in (["export", self.path("t.h5"), "--to", "csv", "--out", self.path("o.csv")],
+                     ["measure", self.path("t.h5")], ["verify", self.path("t.h5")],
+                     ["verify", self.path("e.h5")],
+                     ["picture", self.path("t.h5"), "--out", self.path("o.svg")]):
+            done = swirl(*call, environment={"LD_PRELOAD": shim})
+            if "Segmentation" not in done.stderr and done.returncode == 0:
+                self.skipTest("the library is linked in, and no shim comes before it")
+            self.assertEqual(done.returncode, 1, (call, done.stderr))
+            self.assertIn("reading it crashes the HDF5 library (Segmentation fault)", done.stderr)
+        self.assertFalse(os.path.exists(self.path("o.csv")))
+
+    # --- what never ends ------------------------------------------------------------------------
+
+    def test_a_result_into_a_pipe_without_a_reader_ends_at_a_signal(self):
+        os.mkfifo(self.path("pipe"))
+        call = [SWIRL, "run", "--discs", "4", "--events", "2000", "--quiet", "--json", self.path("pipe")]
+        for signal_sent in (signal.SIGTERM, signal.SIGINT):
+            started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
+            time.sleep(1)  # far more than the run takes
+            started.send_signal(signal_sent)
+            _, errors = started.communicate(timeout=60)
+            self.assertEqual(started.returncode, 130)
+            self.assertIn("waiting for a reader", errors)
+        started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
+        with open(self.path("pipe")) as pipe:
+            self.assertEqual(json.load(pipe)["events"]["total"], 2000)
+        started.communicate(timeout=60)
+        self.assertEqual(started.returncode, 0)
+
+    def test_a_configuration_without_an_end_is_refused(self):
+        done = swirl("run", "/dev/zero", timeout=60)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("longer than 1048576 bytes", done.stderr)
+
+    # --- verify ---------------------------------------------------------------------------------
+
+    def test_verify_rejects_what_only_others_read_of_each_series(self):
+        self.recorded(*DISCS)
+        for edit in ("del f['observables/clock/step']", "del f['observables/clock/time']",
+                     "del f['observables/clock/time']; f['observables/clock/time'] = np.zeros(16)",
+                     "del f['observables/events/step']; f['observables/events/step'] = np.arange(16) + 1",
+                     "del f['observables/clock/time']; "
+                     "f['observables/clock/time'] = h5py.ExternalLink('other.h5', '/time')",
+                     "del f['observables/swirls/step']; "
+                     "f['observables/swirls/step'] = h5py.ExternalLink('other.h5', '/step')",
+                     "del particles['angle/time']; particles['angle/time'] = np.arange(17) * 0.2"):
+            done = swirl("verify", self.edited("t.h5", edit))
+            self.assertEqual(done.returncode, 1, (edit, done.stdout))
+            self.assertRegex(done.stderr, "/(step|time)", edit)
+
+    def test_verify_rejects_a_floor_that_is_none_or_another(self):
+        self.recorded(*DISCS)
+        self.expect_error("/floor", "verify", self.edited(
+            "e.h5", "f['floor/velocity'] = np.zeros((30, 2)); f['floor'].attrs['deceleration'] = 1.0"))
+        self.recorded(*SPHERES, "--overwrite")
+        self.assertEqual(swirl("verify", self.path("e.h5")).returncode, 0)
+        for edit in ("del f['floor']", "del f['floor/velocity']",
+                     "v = f['floor/velocity'][()]; v[29, 1] = -v[29, 1]; f['floor/velocity'][()] = v",
+                     "v = f['floor/velocity'][()]; del f['floor/velocity']; "
+                     "f['floor/velocity'] = np.vstack([v, v[:1]])",
+                     "v = f['floor/velocity'][()]; del f['floor/velocity']; "
+                     "f['floor/velocity'] = v.reshape(-1)"):
+            self.expect_error("floor", "verify", self.edited("e.h5", edit))
+
+    def test_verify_rejects_surplus_rows(self):
+        self.recorded(*DISCS)
+        for name, edit in (
+                ("t.h5", "for s in ('step', 'time'):\n"
+                         "    rows = f['observables/clock/' + s][()]\n"
+                         "    del f['observables/clock/' + s]\n"
+                         "    f['observables/clock/' + s] = np.append(rows, rows[-1])"),
+                ("t.h5", "v = f['observables/clock/value']; v.resize((v.shape[0] + 1,))"),
+                ("e.h5", "v = f['events/clock']; v.resize((v.shape[0] + 1,))"),
+                ("e.h5", "v = f['initial/radius'][()]; del f['initial/radius']; "
+                         "f['initial/radius'] = np.append(v, 1.0)")):
+            self.expect_error("edited.h5", "verify", self.edited(name, edit))
+
+    def test_verify_says_whether_measurements_were_compared(self):
+        self.recorded(*DISCS, "--measure", "slip,profile")
+        done = swirl("verify", self.path("r.json"))
+        self.assertIn("measured slip, profile", done.stdout)
+        with open(self.path("r.json")) as opened:
+            result = json.load(opened)
+        del result["measured"]
+        with open(self.path("r.json"), "w") as opened:
+            json.dump(result, opened)
+        done = swirl("verify", self.path("r.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no measurements in the file", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
