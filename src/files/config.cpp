@@ -91,8 +91,9 @@ class Reader {
 Config parse_config(std::string text, std::string_view name) {
     const Reader reader(name);
     if (text.size() > largest_config)
-        throw FileError(fmt::format("'{}' is longer than {} bytes, which no configuration is.",
-                                    name, largest_config));
+        throw FileError(
+            fmt::format("'{}' is longer than {} bytes; a configuration has at most as many.", name,
+                        largest_config));
     if (const auto bad = first_bad_byte(text))
         reader.wrong(line_of(text, *bad),
                      fmt::format("byte 0x{:02x} is not UTF-8 text; a configuration is a text file",

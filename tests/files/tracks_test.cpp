@@ -216,7 +216,7 @@ TEST(MendedTracks, WhereDiscsMoveFarFromFrameToFrameTheNamesAreBelieved) {
 }
 
 TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     scale.pixels_per_radius = 20.0;
     scale.swirl_centre = {500.0, 400.0};
     const Snapshot s = seen(540.0, 370.0, scale);
@@ -229,7 +229,7 @@ TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
 }
 
 TEST(TrackScale, FramesPerTimeAndThePeriodGiveTheClock) {
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 10.0;
     scale.period = 4.0;
     const Snapshot s = seen(0.0, 0.0, scale, 93);  // at time 9.3
@@ -278,7 +278,7 @@ TEST(TrackScale, ThePhaseIsThatOfThePictureAlsoWhereTheSwirlRanClockwise) {
 // A disc that rides with the container has its velocity, whatever the camera's unit of time.
 TEST(TrackScale, VelocitiesAreInUnitsOfTheContainers) {
     for (const double fps : {1.0, 960.0}) {
-        TrackScale scale;
+        TrackScale scale{.container_radius = 8.5};
         scale.frames_per_time = fps;
         scale.period = 400.0 / fps;  // 400 frames
         scale.amplitude = 2.0;
@@ -295,7 +295,7 @@ TEST(TrackScale, VelocitiesAreInUnitsOfTheContainers) {
 }
 
 TEST(TrackScale, VelocitiesAndSpinsOfADumpAreTranslatedToo) {
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     scale.period = pi;  // Ω = 2
     scale.amplitude = 4.0;
     scale.pixels_per_radius = 10.0;  // so the container moves at 80 of the dump's units
@@ -310,14 +310,14 @@ TEST(TrackScale, VelocitiesAndSpinsOfADumpAreTranslatedToo) {
 }
 
 TEST(TrackScale, NoVelocityIsTakenAcrossALongGap) {
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     const auto series = series_of(
         tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n50,0,80,0\n51,0,81,0\n"), scale);
     for (const std::uint64_t k : {2u, 3u}) EXPECT_NEAR(series.frame(k).vx[0], 960.0, 1e-9);
 }
 
 TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 2.0;
     scale.pixels_per_radius = 10.0;
     const auto series = series_of(
@@ -339,7 +339,7 @@ TEST(TrackScale, TheVelocityOfACircularMotionMissesWhatTheHeaderSays) {
     for (int k = 0; k < 3; ++k)
         text += std::to_string(k) + ",0," + std::to_string(1e6 * std::cos(k * step)) + "," +
                 std::to_string(-1e6 * std::sin(k * step)) + "\n";
-    TrackScale scale;
+    TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 50.0;
     scale.pixels_per_radius = 1e6;
     const Snapshot s = series_of(tracks_in(text), scale).frame(1);
