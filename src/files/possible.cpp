@@ -19,8 +19,9 @@ class PossibleDish {
     void container() const {
         between("number of swirls", double(s_.swirls), -most_periods, most_periods);
         between("period", s_.period, smallest_value, largest_value);
-        // A swirl may end later than its period, for rounding.
-        between("clock", s_.clock, 0.0, s_.period * (1.0 + 1e-9));
+        // Rounded: of a camera's tracks it is the time less the whole swirls before.
+        const double rounding = 1e-6 * s_.period;
+        between("clock", s_.clock, -rounding, s_.period + rounding);
         between("container radius", s_.container_radius, smallest_value, largest_value);
         within("container's position", s_.container_centre, largest_coordinate);
         within("container's velocity", s_.container_velocity, largest_magnitude);
