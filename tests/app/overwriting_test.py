@@ -242,6 +242,8 @@ if what == 'quarter': cut('events', 0.25)
                 self.assertEqual(changed.returncode, 0, changed.stderr)
                 says = {"velocities": "differ in length", "impulses": "differ in length",
                         "table": "it has a table", "nothing": "it has a table",
+                        "radius": "radius of disc 3 is nan", "first": "radius of disc 0 is nan",
+                        "container": "container radius is 0", "period": "period is 0",
                         "sticks": "Event 7 of the log is damaged"}.get(what, "differs from")
                 self.refused("verify", self.path("changed.h5"), says=says)
         floor = """
