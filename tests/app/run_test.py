@@ -161,10 +161,15 @@ class Words(unittest.TestCase):
     def test_quiet_is_one_line(self):
         done = swirl("run", "--events", 1000, "--quiet")
         self.assertEqual(done.stdout.count("\n"), 1)
-        self.assertEqual(done.stderr, "")
+        # What to know before believing the line is said nevertheless.
+        self.assertRegex(done.stderr, r"\Awarning: The run made 0\.25 swirls[^\n]+\n\Z")
+        self.assertIn("warning: Without friction the energy grows without bound",
+                      swirl("run", "--mu", 0, "--events", 100000, "--quiet").stderr)
+        self.assertEqual(swirl("run", "--discs", 28, "--periods", 120, "--quiet").stderr, "")
 
     def test_a_log_file_gets_no_bar(self):
-        self.assertEqual(swirl("run", "--events", 50000, "--json", "-", "--quiet").stderr, "")
+        quiet = swirl("run", "--events", 50000, "--json", "-", "--quiet").stderr
+        self.assertRegex(quiet, r"\Awarning: Too short[^\n]+\n\Z")
         self.assertNotIn("\r", swirl("run", "--events", 50000).stderr)
 
 
