@@ -19,7 +19,7 @@ constexpr int law_of(Shape shape) {
         case Shape::disc:
             return 1;
         case Shape::sphere:
-            return 1;
+            return 2;
         case Shape::coin:
             return 1;
     }
