@@ -151,19 +151,22 @@ class Folder:
         def named(row, key):
             return curve == (f"{row[key]:g}" if isinstance(row[key], float) else row[key])
         row = [row for row in self.table(f"{name}_crossings") if named(row, "curve")][0]
-        return Crossing(row, self.points_near(name, curve, row, named))
+        near = self.rows_near(name, curve, row, named)
+        runs = [r["averaged_runs"] for r in near if "averaged_runs" in r]
+        return Crossing(row, {r["point"] for r in near if "point" in r},
+                        min(runs) - 1 if runs else math.inf)
 
-    def points_near(self, name, curve, crossing, named):
+    def rows_near(self, name, curve, crossing, named):
+        """Rows of this curve at the numbers of discs that its crossing, or its lowest point, rests on."""
         try:
             rows = self.table(name)
         except FileNotFoundError:
-            return ()
-        rows = [row for row in rows
-                if any(key in row and named(row, key) for key in ("setting", "curve"))]
+            return []
         at = (crossing_value(crossing).mean if crossing["verdict"] == "crosses"
               else crossing["lowest_discs"])
-        return {row["point"] for row in rows
-                if "point" in row and abs(row["discs"] - at) <= NEAR_CROSSING}
+        return [row for row in rows
+                if any(key in row and named(row, key) for key in ("setting", "curve"))
+                and abs(row["discs"] - at) <= NEAR_CROSSING]
 
     def curve(self, name, most=MOST_DISCS, **wanted):
         """Rows in order of N, up to the paper's last."""
@@ -172,12 +175,14 @@ class Folder:
         return sorted(rows, key=lambda row: row["discs"])
 
 
-def crossing_value(row, points=()):
-    """N_c of a row. Of a bracket: its middle, with the standard deviation of an even distribution."""
+def crossing_value(row, points=(), freedom=math.inf):
+    """N_c of a row; `freedom` is that of the points' errors. For a bracket: its middle, with the
+    standard deviation of an even distribution, which is exact."""
     at, error = row["crossing"], row["crossing_error"]
     if at != at and "lower" in row:
-        at, error = (row["lower"] + row["upper"]) / 2, (row["upper"] - row["lower"]) / math.sqrt(12)
-    return Value(at, error, points)
+        lower, upper = row["lower"], row["upper"]
+        return Value((lower + upper) / 2, (upper - lower) / math.sqrt(12), points)
+    return Value(at, error, points, freedom)
 
 
 def crossing_words(row):
@@ -187,10 +192,10 @@ def crossing_words(row):
 
 
 class Crossing:
-    def __init__(self, row, points):
+    def __init__(self, row, points, freedom=math.inf):
         self.verdict, self.points = row["verdict"], points
-        self.at, self.words = crossing_value(row, points), crossing_words(row)
-        self.lowest = Value(row["lowest"], row["lowest_error"], points)
+        self.at, self.words = crossing_value(row, points, freedom), crossing_words(row)
+        self.lowest = Value(row["lowest"], row["lowest_error"], points, freedom)
         self.lowest_discs = row["lowest_discs"]
 
     @property
@@ -310,10 +315,19 @@ def friction_order(folder):
     return every(steps), text
 
 
+# Columns that count the runs of a point that are not steady, and what such runs do.
+CHANGES = {"drifting_runs": "drift", "jumping_runs": "jump",
+           "switching_runs": "switch between two states"}
+
+
+def changing(row):
+    """How many runs are not steady; 0 in a table without these columns."""
+    return sum(row.get(kind, 0) for kind in CHANGES)
+
+
 def drifts(row):
-    """Most of its runs do: their average is of the way to somewhere else. A row without the columns was
-    never asked."""
-    return "seeds" in row and row["drifting_runs"] > MOSTLY * row["seeds"]
+    """Whether most runs are not steady: their average is not that of one state."""
+    return "seeds" in row and changing(row) > MOSTLY * row["seeds"]
 
 
 def near_omega(rows, bound, where):
@@ -400,11 +414,6 @@ def identity(folder):
 def steady(folder):
     rows = [row for row in folder.table("5b")
             if row["setting"] in ("high", "medium", "low") and row["discs"] <= MOST_DISCS]
-    kinds = {"drifting_runs": "drift", "jumping_runs": "jump",
-             "switching_runs": "switch between two states"}
-
-    def changing(row):
-        return sum(row.get(kind, 0) for kind in kinds)
     judged = [row for row in rows if row["steady_runs"] + changing(row) > 0]
     open_ones = [row for row in rows if row["steady_runs"] < row["seeds"]] or rows
     points = {row["point"] for row in open_ones if isinstance(row.get("point"), str)}
@@ -423,7 +432,7 @@ def steady(folder):
     overall = below(found, CHANCE_OF_DRIFT)
     part = parts(overall, true(False)) if exceptions else overall
     kinds_found = [f"{sum(row.get(kind, 0) for row in judged):.0f} {word}"
-                   for kind, word in kinds.items()]
+                   for kind, word in CHANGES.items()]
     return part, (
         f"Of {sum(runs):.0f} runs with both frictions after 20 periods, {', '.join(kinds_found)} "
         f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short to tell). This is "
