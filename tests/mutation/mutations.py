@@ -2,6 +2,7 @@
 why no test can notice: the mutated program does the same."""
 
 STATISTICS = "src/measure/statistics.hpp"
+STEADY = "src/measure/steady_state.hpp"
 SEVERAL = "src/measure/several_runs.hpp"
 CIRCULAR = "src/measure/circular_mean.hpp"
 CELLS = "src/measure/cell_averages.hpp"
@@ -52,16 +53,16 @@ MUTATIONS = [
     (STATISTICS, "b + lag < run.blocks.size(); ++b", "b + lag + 1 < run.blocks.size(); ++b",
      "the autocovariance omits the last product"),
     (STATISTICS, "periods_per_block *= 2;", "", "coarsened blocks claim to cover one period"),
-    (STATISTICS, "if (d > n / 2 || n - d < 2) continue;", "if (n - d < 2) continue;",
+    (STEADY, "if (d > n / 2 || n - d < 2) continue;", "if (n - d < 2) continue;",
      "MSER-5 may cut more than half"),
-    (STATISTICS, "squares / (left * left)", "squares / left", "MSER-5 minimises the variance"),
-    (STATISTICS, "if (score <= least) {", "if (score < least) {",
+    (STEADY, "squares / (left * left)", "squares / left", "MSER-5 minimises the variance"),
+    (STEADY, "if (score <= least) {", "if (score < least) {",
      "MSER-5 prefers the later of two equal cuts"),
-    (STATISTICS, "batch[i] += blocks[5 * i + k] / 5.0;", "batch[i] += blocks[5 * i] / 5.0;",
+    (STEADY, "batch[i] += blocks[5 * i + k] / 5.0;", "batch[i] += blocks[5 * i] / 5.0;",
      "MSER-5 uses one block of five"),
     (STATISTICS, "(5.0 * z5 + 16.0 * z3 + 3.0 * z)", "(5.0 * z5 + 16.0 * z3 - 3.0 * z)",
      "Student's quantile has a wrong term"),
-    (STATISTICS, "slope *= n > 1.0 ? 12.0 / (n * (n * n - 1.0)) : 0.0;",
+    (STEADY, "slope *= n > 1.0 ? 12.0 / (n * (n * n - 1.0)) : 0.0;",
      "slope *= n > 1.0 ? 12.0 / (n * n * n) : 0.0;", "the trend is fitted with a wrong norm"),
     (STATISTICS, "open_.sum += value * weight;", "open_.sum += value;",
      "a weighted mean forgets the weight"),
