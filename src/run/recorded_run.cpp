@@ -63,8 +63,15 @@ Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
     return about;
 }
 
-/// A state goes on by the law that led to it, or the run would be that of neither program.
-void require_own_law(const std::filesystem::path& file, const Json& about, Shape shape) {
+/// The shape of the bodies whose state a checkpoint holds.
+Shape shape_in(const Json& parameters) {
+    if (parameters.value("body", Json()) == Json("sphere")) return Shape::sphere;
+    return parameters.value("floor", Json()).is_string() ? Shape::coin : Shape::disc;
+}
+
+/// A state is continued by the law that led to it, or the run would be that of neither program.
+void require_own_law(const std::filesystem::path& file, const Json& about) {
+    const Shape shape = shape_in(about.at("identity").at("parameters"));
     const Json law = about.value("law", Json(1));  // what was written before laws had numbers
     if (law == law_of(shape)) return;
     throw FileError(fmt::format(
@@ -182,7 +189,7 @@ class Recorder {
         const Checkpoint kept = read_checkpoint(files_.checkpoint);
         const Json about = about_in(files_.checkpoint, kept),
                    here = identity(config_, files_, observation_);
-        require_own_law(files_.checkpoint, about, config_.shape());
+        require_own_law(files_.checkpoint, about);
         if (is_of_another_length(about.at("identity"), here)) {
             if (!files_.trajectory.empty() || !files_.event_log.empty())
                 throw WrongCall(fmt::format(

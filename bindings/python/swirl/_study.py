@@ -142,7 +142,7 @@ def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3,
             raise TypeError(f"{name} is given, but a crossing is looked for from `fewest` to `most` "
                             "discs, with runs of so many events.")
     told = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
-    said = {"fewest": fewest, "most": most, "tolerance": tolerance, **parameters}
+    said: dict[str, Any] = {"fewest": fewest, "most": most, "tolerance": tolerance, **parameters}
     if rate != "by_time":
         said["rate"] = rate
     text, sentence = _engine.crossing(parameters, _count("fewest", fewest, 1), _count("most", most, 1),
