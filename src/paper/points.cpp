@@ -59,7 +59,9 @@ PaperPoint::PaperPoint(const PaperSettings& settings, std::string point, int see
 }
 
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
-    if (settings.quick) return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 38, 40, 42, 44, 46, 48};
+    // Without gaps where the paper's three frictions cross: between other numbers N_c is a bracket.
+    if (settings.quick)
+        return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 37, 38, 39, 40, 42, 43, 44, 45, 46, 48};
     std::vector<std::int64_t> all;
     for (std::int64_t n = 5; n <= 48; ++n) all.push_back(n);
     return all;
