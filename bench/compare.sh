@@ -30,9 +30,9 @@ build() { # source, build folder
         ninja -C "$2" swirl >>"$2.log"
 }
 give_todays_benchmark() { # source
-    rm -rf "$1"/src/study/bench* "$1/src/study/rival"
-    cp -r "$home"/src/study/bench* "$home/src/study/rival" "$1/src/study"
-    cp "$home/src/app/command_bench.cpp" "$1/src/app"
+    rm -rf "$1"/src/swirl/study/bench* "$1/src/swirl/study/rival"
+    cp -r "$home"/src/swirl/study/bench* "$home/src/swirl/study/rival" "$1/src/swirl/study"
+    cp "$home/src/swirl/cli/command_bench.cpp" "$1/src/swirl/cli"
 }
 echo "building the working tree and $commit" >&2
 build "$home" "$work/new" || { tail -20 "$work/new.log" >&2; exit 1; }

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "simulation/scenes.hpp"
+#include "engine/scenes.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;

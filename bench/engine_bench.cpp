@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "simulation/scenes.hpp"
+#include "engine/scenes.hpp"
 #include "swirl/math/lanes.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/physics/collision_law.hpp"

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "measure/snapshots.hpp"
+#include "swirl/engine/placement.hpp"
+#include "swirl/engine/simulation.hpp"
 #include "swirl/measure/angular_profile.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/collision_rates.hpp"
@@ -21,8 +23,6 @@
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/wall_stress.hpp"
-#include "swirl/simulation/placement.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 namespace {

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <vector>
 
-#include "simulation/scenes.hpp"
+#include "engine/scenes.hpp"
 #include "swirl/math/median.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
-# The engine and what an observer sees of it: math, physics, simulation, measure. Nothing but the
-# standard library, and no exceptions.
+# The engine and its measurements: math, physics, engine, statistics, measure. They use the standard
+# library only, and no exceptions.
 #
 # Whoever links to them compiles the functions in our headers. Nothing may be fused there either, or
 # the same text would give other bits than it gives in our own files.
@@ -7,15 +7,16 @@ add_library(swirl_physics INTERFACE)
 target_compile_features(swirl_physics INTERFACE cxx_std_20)
 target_compile_options(swirl_physics INTERFACE -ffp-contract=off)
 target_include_directories(swirl_physics INTERFACE
-  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
 
 # The event loop is compiled once for each vector width, and the widest that the processor has is
 # chosen at run time; so are the search of its rival and the averages by event. The files of these
 # names get wider instructions; everything else is baseline x86-64.
-file(GLOB_RECURSE simulation_sources CONFIGURE_DEPENDS src/simulation/*.cpp)
-file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/measure/*.cpp)
-file(GLOB_RECURSE rival_sources CONFIGURE_DEPENDS src/study/rival/*.cpp)
-set(avx2_sources ${simulation_sources} ${measure_sources} ${rival_sources})
+file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS src/swirl/engine/*.cpp)
+file(GLOB_RECURSE statistics_sources CONFIGURE_DEPENDS src/swirl/statistics/*.cpp)
+file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/swirl/measure/*.cpp)
+file(GLOB_RECURSE rival_sources CONFIGURE_DEPENDS src/swirl/study/rival/*.cpp)
+set(avx2_sources ${engine_sources} ${measure_sources} ${rival_sources})
 set(avx512_sources ${avx2_sources})
 list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
 list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
@@ -28,28 +29,32 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_source_files_properties(${avx512_sources} PROPERTIES COMPILE_OPTIONS
     "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>;${once}")
 else()
-  list(FILTER simulation_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+  list(FILTER engine_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
   list(FILTER measure_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
   list(FILTER rival_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
 endif()
 
-add_library(swirl_simulation STATIC ${simulation_sources})
-target_link_libraries(swirl_simulation PUBLIC swirl_physics)
-target_compile_options(swirl_simulation PRIVATE -fno-exceptions)
+add_library(swirl_engine STATIC ${engine_sources})
+target_link_libraries(swirl_engine PUBLIC swirl_physics)
+target_compile_options(swirl_engine PRIVATE -fno-exceptions)
 if(SWIRL_FUZZ)
   # Made-up input goes to the readers of files. The engine behind them has the sanitizers' own suite, and
   # with them its loops take the compiler minutes each.
-  target_compile_options(swirl_simulation PRIVATE -fno-sanitize=all)
+  target_compile_options(swirl_engine PRIVATE -fno-sanitize=all)
 endif()
-add_library(swirl_measure STATIC ${measure_sources})
-target_link_libraries(swirl_measure PUBLIC swirl_physics)
-target_compile_options(swirl_measure PRIVATE -fno-exceptions)
+foreach(layer statistics measure)
+  add_library(swirl_${layer} STATIC ${${layer}_sources})
+  target_compile_options(swirl_${layer} PRIVATE -fno-exceptions)
+endforeach()
+target_link_libraries(swirl_statistics PUBLIC swirl_physics)
+target_link_libraries(swirl_measure PUBLIC swirl_statistics)
 swirl_compiled_at_once(swirl_measure)
 set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # The plain loop that the benchmark and the tests hold the engine against.
 add_library(swirl_rival STATIC ${rival_sources})
-target_link_libraries(swirl_rival PUBLIC swirl_simulation)
+target_link_libraries(swirl_rival PUBLIC swirl_engine)
 
 # By these names, installed or as a subdirectory.
-add_library(swirl::engine ALIAS swirl_simulation)
+add_library(swirl::engine ALIAS swirl_engine)
+add_library(swirl::statistics ALIAS swirl_statistics)
 add_library(swirl::measure ALIAS swirl_measure)

@@ -42,9 +42,9 @@ if(ccache_program)
   endif()
 endif()
 
-# The compiler gets several files of a floor at once, since headers and their templates are most of
-# the work; so no two of them may have the same name in their unnamed namespaces (tests/floors). On
-# few cores a floor is one batch or two, since every batch reads the same headers again; many cores
+# The compiler gets several files of a layer at once, since headers and their templates are most of
+# the work; so no two of them may have the same name in their unnamed namespaces (tests/layers). On
+# few cores a layer is one batch or two, since every batch reads the same headers again; many cores
 # wait less for small ones.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 if(cores LESS_EQUAL 4)

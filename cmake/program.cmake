@@ -1,4 +1,4 @@
-# One library per floor of the house; the arrows go down only (docs/design.md, tests/floors).
+# One library per layer; a layer uses only the layers below it (tests/layers).
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 find_package(fmt REQUIRED)
@@ -11,7 +11,7 @@ find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
 
-# Headers that take longer to read than what they are for takes to compile, read once for all floors.
+# Headers that take longer to read than what they are for takes to compile, read once for all layers.
 # Every file still includes what it uses: with ccache alone (SWIRL_PRECOMPILED=OFF) it must.
 option(SWIRL_PRECOMPILED "Precompile the slow headers" ON)
 if(SWIRL_PRECOMPILED)
@@ -28,35 +28,34 @@ endif()
 # done at every frame. The level changes no bit.
 function(swirl_settings target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
-  if(SWIRL_PRECOMPILED AND NOT target STREQUAL "swirl_draw") # which uses none of them
+  if(SWIRL_PRECOMPILED)
     target_precompile_headers(${target} REUSE_FROM swirl_slow_headers)
   endif()
 endfunction()
 
-function(swirl_floor floor level)
-  file(GLOB sources CONFIGURE_DEPENDS src/${floor}/*.cpp)
-  add_library(swirl_${floor} STATIC ${sources})
-  target_link_libraries(swirl_${floor} ${ARGN})
-  swirl_compiled_at_once(swirl_${floor})
-  swirl_settings(swirl_${floor} ${level})
+function(swirl_layer layer level)
+  file(GLOB sources CONFIGURE_DEPENDS src/swirl/${layer}/*.cpp)
+  add_library(swirl_${layer} STATIC ${sources})
+  target_link_libraries(swirl_${layer} ${ARGN})
+  swirl_compiled_at_once(swirl_${layer})
+  swirl_settings(swirl_${layer} ${level})
 endfunction()
 
-swirl_floor(files -O2
-  PUBLIC swirl_measure swirl_simulation nlohmann_json::nlohmann_json fmt::fmt
+swirl_layer(io -O2
+  PUBLIC swirl_measure swirl_engine nlohmann_json::nlohmann_json fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
-target_include_directories(swirl_files SYSTEM PRIVATE ${hdf5_include})
+target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
 # Their classes have members of types that nobody else may see.
-set_source_files_properties(src/files/hdf5.cpp src/files/trajectory_writer.cpp
+set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-swirl_floor(draw -O2 PUBLIC swirl_measure PkgConfig::cairo)
-swirl_floor(run -O1 PUBLIC swirl_files)
-swirl_floor(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
-swirl_floor(film -O1 PUBLIC swirl_run swirl_draw)
-swirl_floor(paper -O1 PUBLIC swirl_study swirl_film)
+swirl_layer(run -O1 PUBLIC swirl_io)
+swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
+swirl_layer(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
+swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
-# The camera's floor is built where OpenCV is (section [camera] of `packages`); without it the rest
+# The layer `tracking` is built where OpenCV is (section [camera] of `packages`); without it the rest
 # is, and `swirl track` says what is missing.
 option(SWIRL_CAMERA "Build `swirl track` where OpenCV is" ON)
 # (Debian has the CMake files of OpenCV in a package that takes all of it along.)
@@ -67,24 +66,24 @@ if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library))
   set(SWIRL_CAMERA OFF)
 endif()
 if(SWIRL_CAMERA)
-  swirl_floor(vision -O3 PUBLIC swirl_run swirl_draw Threads::Threads
+  swirl_layer(tracking -O3 PUBLIC swirl_render Threads::Threads
     PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
-  target_include_directories(swirl_vision SYSTEM PUBLIC ${opencv_include})
+  target_include_directories(swirl_tracking SYSTEM PUBLIC ${opencv_include})
 endif()
 
 # What goes into every result: the version (version.inc) and what built it.
 add_dependencies(swirl_run swirl_version_stamp)
 target_include_directories(swirl_run PRIVATE ${PROJECT_BINARY_DIR}/generated)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
-set_source_files_properties(src/run/version.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINITIONS
   "SWIRL_BUILD=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off\"")
 
 # The command line: one file per subcommand.
-file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
+file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp)
 add_executable(swirl ${app_sources})
 target_link_libraries(swirl PRIVATE swirl_paper CLI11::CLI11)
 if(SWIRL_CAMERA)
-  target_link_libraries(swirl PRIVATE swirl_vision)
+  target_link_libraries(swirl PRIVATE swirl_tracking)
   target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)
 endif()
 swirl_settings(swirl -O1)

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "swirl/engine/placement.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/initial_state.hpp"
-#include "swirl/simulation/placement.hpp"
 
 inline swirl::InitialState paper_dish(std::size_t n, double mu, std::uint64_t seed) {
     using namespace swirl;

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "dish.hpp"
-#include "swirl/simulation/simulation.hpp"
+#include "swirl/engine/simulation.hpp"
 
 int main() {
     swirl::Simulation simulation(paper_dish(28, 0.5, 7));

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "dish.hpp"
+#include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 int main() {
     swirl::Simulation simulation(paper_dish(48, 1.0, 1));

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "dish.hpp"
-#include "swirl/simulation/simulation.hpp"
+#include "swirl/engine/simulation.hpp"
 
 class MeanDistance {
   public:

@@ -1,7 +1,7 @@
 """The rules by which every claim is judged, in one place.
 
 A number that was measured is a Value: a mean, its standard error (between seeds and within them,
-measure/several_runs.hpp), the degrees of freedom of that error (seeds − 1), and the points of the
+statistics/replicates.hpp), the degrees of freedom of that error (seeds − 1), and the points of the
 study that it rests on. A claim asks whether a Value lies above or below a bound. The probability of
 three standard deviations decides, which Student's t turns into a number of errors (threshold()):
 
@@ -17,10 +17,10 @@ Where what is measured depends on a choice of ours (how thick is the layer at th
 judged for each of the choices, and decided only if they agree.
 
 Seeds are added until a claim is decided, so a claim is asked several times. An error in a table
-already has Student's factor for 95 % in it (several_runs.hpp). The threshold multiplies this error,
+already has Student's factor for 95 % in it (replicates.hpp). The threshold multiplies this error,
 so it is stricter than an exact test of one look. That pays for the repeated looks: with 8, 16 and 32
 seeds a value that lies exactly on its bound is decided in at most 0.6 % of all cases, whatever the
-seeds differ by (tests/app/claims_test.py, ErrorRateOfDecided; docs/paper.md has the table).
+seeds differ by (tests/cli/claims_test.py, ErrorRateOfDecided; docs/paper.md has the table).
 """
 
 import math

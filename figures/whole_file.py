@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all, as the program writes its own (src/files/whole_file.hpp):
+"""Files that are there whole or not at all, as the program writes its own (src/swirl/io/atomic_file.hpp):
 beside the target under a name that nobody else has, locked, onto the disk, then renamed. What a kill
 leaves has no lock, and the next `swirl paper` or `experiment` on that folder removes it."""
 

@@ -4,7 +4,7 @@
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
-. "$home/cmake/front_door.sh"
+. "$home/cmake/launcher.sh"
 
 usage() {
     cat <<'TEXT'
@@ -65,7 +65,7 @@ build_page() {
     exec 9<"$lock"
     flock 9
     # shellcheck disable=SC2086
-    changed=$(cd "$home" && find src/math src/physics src/simulation src/measure src/run bindings/wasm web \
+    changed=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics src/swirl/measure src/swirl/run bindings/wasm web \
         -path web/node_modules -prune -o -path web/generated -prune -o -newer "$page" -type f -print \
         -quit 2>/dev/null || true)
     if [ -e "$page" ] && [ -z "$changed" ]; then return 0; fi

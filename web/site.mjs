@@ -22,9 +22,10 @@ const titles = {parameters: "Parameters", measurements: "Measurements", paper: "
                 physics: "Physics", spheres: "Spheres that roll", camera: "From a film", pictures: "Pictures and movies",
                 lab: "The laboratory", python: "Python", python_reference: "Python: reference",
                 files: "Files", determinism: "The same bits everywhere",
-                performance: "Performance", reliability: "Reliability", design: "Design"};
-const documents = readdirSync(join(root, "docs")).filter((name) => name.endsWith(".md"))
-    .map((name) => basename(name, ".md"))
+                performance: "Performance", "explanation/reliability": "Reliability", "explanation/architecture": "Architecture"};
+const nameOf = (file) => file.replace(/^docs\//, "").replace(/\.md$/, "");
+const documents = readdirSync(join(root, "docs"), {recursive: true}).filter((name) => name.endsWith(".md"))
+    .map(nameOf)
     .sort((a, b) => Object.keys(titles).indexOf(a) - Object.keys(titles).indexOf(b));
 
 /** Where in the site the page of a file of the repository is. */
@@ -136,7 +137,7 @@ function pageOf(file) {
 <iframe src="lab.html?discs=48" title="The laboratory" loading="lazy"></iframe>
 <p><a href="lab.html">The laboratory on a page of its own</a></p>\n<h2`);
         write(place, file === "README.md" ? "swirl: marbles in a swirled dish"
-            : titles[basename(file, ".md")] ?? file, body);
+            : titles[nameOf(file)] ?? file, body);
     } else if (file.endsWith(".ipynb")) {
         write(place, file, notebook(file));
     } else if (place === file) {

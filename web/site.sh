@@ -4,7 +4,7 @@
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
-. "$home/cmake/front_door.sh"
+. "$home/cmake/launcher.sh"
 
 usage() {
     cat <<'TEXT'

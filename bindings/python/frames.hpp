@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "swirl/engine/simulation.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/snapshot.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 namespace swirl::python {
 

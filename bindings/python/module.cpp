@@ -1,9 +1,9 @@
-// The module swirl._engine: what Python needs of the floors below the command line. The package
+// The module swirl._engine: what Python needs of the layers below the command line. The package
 // around it (swirl/) gives it names and documentation.
 #include <pybind11/pybind11.h>
 
 #include "calls.hpp"
-#include "swirl/files/file_error.hpp"
+#include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl::python {

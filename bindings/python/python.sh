@@ -5,7 +5,7 @@ set -eu
 home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
 me=swirl
 long="three minutes or so"
-. "$home/cmake/front_door.sh"
+. "$home/cmake/launcher.sh"
 
 build release "build python" bindings/python swirl_python
 # An empty entry would be the current folder, and what lies there would replace modules.

@@ -1,4 +1,4 @@
-// What measurements have found (measure/report.hpp), as plain tuples and arrays.
+// What measurements have found (measure/measurement_report.hpp), as plain tuples and arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>

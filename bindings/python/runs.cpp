@@ -9,8 +9,7 @@
 #include "calls.hpp"
 #include "frames.hpp"
 #include "reports.hpp"
-#include "swirl/files/whole_file.hpp"
-#include "swirl/measure/statistics.hpp"
+#include "swirl/io/atomic_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -18,6 +17,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/statistics/block_average.hpp"
 
 namespace swirl::python {
 namespace {

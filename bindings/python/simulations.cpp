@@ -12,18 +12,18 @@
 #include "arrays.hpp"
 #include "calls.hpp"
 #include "frames.hpp"
-#include "swirl/files/checksum.hpp"
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/possible.hpp"
-#include "swirl/files/state_archive.hpp"
+#include "swirl/engine/continuation.hpp"
+#include "swirl/engine/simulation.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/range_checks.hpp"
+#include "swirl/io/state_archive.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/simd.hpp"
-#include "swirl/simulation/continuation.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 namespace swirl::python {
 namespace {
@@ -75,7 +75,7 @@ py::tuple rotation_of(const Look& look) {
     return py::make_tuple(sample.individual / omega, sample.rigid / omega);
 }
 
-/// Columns as bytes and back, for pickle: StateWriter's (files/state_archive.hpp).
+/// Columns as bytes and back, for pickle: StateWriter's (io/state_archive.hpp).
 template <class Visitor>
 void visit_columns(Frames& f, Visitor&& visit) {
     visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,

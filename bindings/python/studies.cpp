@@ -11,7 +11,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/study/collected_sweep.hpp"
-#include "swirl/study/crossing.hpp"
+#include "swirl/study/crossing_search.hpp"
 #include "swirl/study/sweep.hpp"
 
 namespace swirl::python {

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "container_paths.hpp"
+#include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
-#include "swirl/run/bare_run.hpp"
 #include "swirl/run/config.hpp"
-#include "swirl/simulation/simulation.hpp"
+#include "swirl/run/core_run.hpp"
 
 namespace swirl {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "swirl/measure/report.hpp"
-#include "swirl/measure/statistics.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
 

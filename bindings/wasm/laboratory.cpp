@@ -20,13 +20,13 @@
 
 #include "dish.hpp"
 #include "json.hpp"
-#include "swirl/measure/crossing.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/statistics/zero_crossing.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 
@@ -346,9 +346,10 @@ EXPORTED(events) double events() {
 }
 EXPORTED(state_hash) std::uint64_t state_hash() { return dish->simulation().state_hash(); }
 
-/// ϖ/Ω so far, by event and by time, without the warm-up. For the plot, the rigid-body rate by time
-/// block for block, with the warm-up: a disc near the centre of mass makes peaks in the other. How
-/// many of the blocks are the warm-up's and how many swirls a block has, there and after it: JSON.
+/// ϖ/Ω so far by each of the rotation rates, without the warm-up. For the plot, the rigid-body rate
+/// by time block for block, with the warm-up: a disc near the centre of mass makes peaks in the
+/// other. How many of the blocks are the warm-up's and how many swirls a block has, there and after
+/// it: JSON.
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = dish->rotation().estimates();
     std::string blocks;
@@ -358,10 +359,11 @@ EXPORTED(rotation) std::uint32_t rotation() {
     const BlockSeries &before = dish->rotation_in_warmup().rigid_by_time(),
                       &after = dish->rotation().rigid_by_time();
     return answer(fmt::format(
-        R"({{"by_event":{},"by_time":{},"warmup":{},"warmup_blocks":{},"swirls_per_block":[{},{}],)"
-        R"("blocks":[{}]}})",
-        estimate_json(e.by_event), estimate_json(e.by_time), dish->warmup(), before.size(),
-        before.periods_per_block(), after.periods_per_block(), blocks));
+        R"({{"by_event":{},"by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
+        R"("warmup_blocks":{},"swirls_per_block":[{},{}],"blocks":[{}]}})",
+        estimate_json(e.by_event), estimate_json(e.by_time), estimate_json(e.rigid_by_event),
+        estimate_json(e.rigid_by_time), dish->warmup(), before.size(), before.periods_per_block(),
+        after.periods_per_block(), blocks));
 }
 
 /// What is measured, as it is now: for the columns to come.

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "swirl/engine/simulation.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 

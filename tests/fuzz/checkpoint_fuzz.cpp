@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "fuzzed_file.hpp"
-#include "swirl/files/checkpoint.hpp"
-#include "swirl/files/checksum.hpp"
-#include "swirl/files/file_error.hpp"
+#include "swirl/io/checkpoint.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"

@@ -1,7 +1,7 @@
 // A configuration file, and the parameters in it.
 #include "fuzzed_file.hpp"
-#include "swirl/files/config.hpp"
-#include "swirl/files/file_error.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/toml_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 

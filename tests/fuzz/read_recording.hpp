@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "fuzzed_file.hpp"
-#include "swirl/files/event_log.hpp"
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/track_recording.hpp"
-#include "swirl/files/trajectory.hpp"
+#include "swirl/io/event_log.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/track_recording.hpp"
+#include "swirl/io/trajectory.hpp"
 
 namespace swirl {
 

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "fuzzed_file.hpp"
-#include "swirl/files/file_error.hpp"
+#include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/collected_sweep.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fuzzed_file.hpp"
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/state_archive.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/state_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/run.hpp"

@@ -60,7 +60,7 @@ class Installed(unittest.TestCase):
 
     def test_holds_the_headers_of_the_engine_alone(self):
         self.assertEqual(sorted(os.listdir(os.path.join(self.prefix, "include", "swirl"))),
-                         ["math", "measure", "physics", "simulation"])
+                         ["engine", "math", "measure", "physics", "statistics"])
 
     def build_examples(self, compiler):
         build = os.path.join(self.folder, os.path.basename(compiler))

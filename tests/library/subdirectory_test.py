@@ -20,7 +20,7 @@ target_link_libraries(other PRIVATE swirl::engine swirl::measure)
 PROGRAM = """#include <cstdio>
 #include "dish.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/simulation/simulation.hpp"
+#include "swirl/engine/simulation.hpp"
 int main() {
     int unused;
     swirl::Simulation simulation(paper_dish(28, 0.5, 7));

@@ -1,6 +1,6 @@
-"""Mutation testing: does a test notice when the source is wrong? (docs/reliability.md)
+"""Mutation testing: does a test notice when the source is wrong? (docs/explanation/reliability.md)
 
-Each entry of mutations.py changes one piece of text in a source file of measure or physics. The
+Each entry of mutations.py changes one piece of text in a source file of statistics, measure or physics. The
 mutated file goes to a scratch folder that the compiler searches first; the source tree stays as it
 is. For every test file of that layer that includes the mutated file, this script compiles one
 program and runs it, until one fails: then the mutation is killed. Each program must pass without
@@ -58,8 +58,7 @@ def included(path):
             continue
         found.add(path)
         for name in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
-            waiting.append("src/" + name.removeprefix("swirl/") if name.startswith("swirl/")
-                           else "tests/" + name)
+            waiting.append(("src/" if name.startswith("swirl/") else "tests/") + name)
     return frozenset(found)
 
 
@@ -74,7 +73,8 @@ def parts(test):
     needed, grew = [test], True
     while grew:
         headers = frozenset().union(*(included(part) for part in needed))
-        more = [cpp for cpp in sources_in("src/measure", ".cpp") if cpp not in needed and
+        more = [cpp for layer in ("statistics", "measure")
+                for cpp in sources_in(f"src/swirl/{layer}", ".cpp") if cpp not in needed and
                 re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers]
         needed, grew = needed + more, bool(more)
     return tuple(needed)
@@ -82,9 +82,10 @@ def parts(test):
 
 def tests_of(file):
     """The test files of the layer that see the file: first the one of its name."""
-    layer = file.split("/")[1]
+    layer = file.split("/")[2]
     stem = os.path.basename(file).split(".")[0]
-    tests = [test for test in sources_in(f"tests/{layer}", "_test.cpp")
+    folders = ("statistics", "measure") if layer == "statistics" else (layer,)
+    tests = [test for folder in folders for test in sources_in(f"tests/{folder}", "_test.cpp")
              if any(file in included(part) for part in parts(test))]
     return sorted(tests, key=lambda test: (os.path.basename(test) != stem + "_test.cpp",
                                            file not in included(test), test))
@@ -115,12 +116,12 @@ class Workshop:
             return target
         where = os.path.join(SOURCE, part)
         if part == file:
-            where = os.path.join(overlay, "swirl", part.removeprefix("src/"))
+            where = os.path.join(overlay, part.removeprefix("src/"))
         wide = [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
         # The file of standard headers was compiled without these; it does not fit.
         headers = [] if wide else ["-include", self.headers]
         made = target + f".{threading.get_ident()}"
-        search = ["-I" + folder for folder in (overlay, os.path.join(SOURCE, "include"),
+        search = ["-I" + folder for folder in (overlay, os.path.join(SOURCE, "src"),
                                                os.path.join(SOURCE, "tests"))]
         result = subprocess.run([COMPILER, *FLAGS, *wide, *headers, *search, "-c", where, "-o",
                                  made], capture_output=True, text=True)
@@ -166,7 +167,7 @@ class Workshop:
         file, before, after, *_ = MUTATIONS[number]
         text = text_of(file).replace(before, after)
         overlay = os.path.join(self.scratch, f"mutation_{number}")
-        where = os.path.join(overlay, "swirl", file.removeprefix("src/"))
+        where = os.path.join(overlay, file.removeprefix("src/"))
         os.makedirs(os.path.dirname(where))
         with open(where, "w", encoding="utf-8") as opened:
             opened.write(text)

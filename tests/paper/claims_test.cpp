@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "swirl/measure/crossing.hpp"
-#include "swirl/run/all_cores.hpp"
+#include "swirl/run/parallel_for.hpp"
 #include "swirl/run/run.hpp"
+#include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <map>
 
-#include "files/scratch.hpp"
+#include "io/scratch.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/run/failure.hpp"
 

@@ -74,14 +74,14 @@ def test_it_is_small_and_needs_numpy_alone_to_be_imported():
     assert done.stdout == "[]\n", done.stderr
 
 
-def test_the_bindings_look_at_nothing_above_the_floors_they_may():
+def test_the_bindings_include_only_the_layers_they_may():
     folder = os.path.join(SOURCE, "bindings", "python")
     for name in os.listdir(folder):
         if name.endswith((".cpp", ".hpp")):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
-                for floor in re.findall(r'#include "swirl/(\w+)/', file.read()):
-                    assert floor not in ("app", "paper", "film", "draw", "vision"), \
-                        f"{name} includes {floor}"
+                for layer in re.findall(r'#include "swirl/(\w+)/', file.read()):
+                    assert layer not in ("cli", "paper", "render", "tracking"), \
+                        f"{name} includes {layer}"
 
 
 @pytest.mark.skipif(not shutil.which("clang-format"), reason="clang-format is not installed")

@@ -11,8 +11,8 @@
 #include <limits>
 #include <vector>
 
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/state_archive.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/state_archive.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "swirl/engine/placement.hpp"
+#include "swirl/engine/simulation.hpp"
 #include "swirl/measure/angular_profile.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/collision_rates.hpp"
@@ -12,8 +14,6 @@
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/wall_stress.hpp"
-#include "swirl/simulation/placement.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 namespace {

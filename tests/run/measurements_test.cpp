@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "files/scratch.hpp"
+#include "io/scratch.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 

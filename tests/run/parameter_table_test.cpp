@@ -15,7 +15,7 @@ namespace swirl {
 namespace {
 
 const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/parameters.md";
-constexpr std::string_view begin = "<!-- made of src/run/parameters.hpp -->\n";
+constexpr std::string_view begin = "<!-- made of src/swirl/run/parameters.hpp -->\n";
 constexpr std::string_view end = "<!-- end -->\n";
 
 /// A bar would end the cell.

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "files/scratch.hpp"
-#include "swirl/files/checkpoint.hpp"
-#include "swirl/files/file_error.hpp"
+#include "io/scratch.hpp"
+#include "swirl/io/checkpoint.hpp"
+#include "swirl/io/file_error.hpp"
 
 namespace swirl {
 namespace {

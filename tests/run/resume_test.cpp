@@ -3,9 +3,9 @@
 
 #include <atomic>
 
-#include "files/scratch.hpp"
-#include "swirl/files/file_error.hpp"
-#include "swirl/files/state_archive.hpp"
+#include "io/scratch.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/state_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"

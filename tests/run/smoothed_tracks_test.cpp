@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "swirl/files/track_smoothing.hpp"
+#include "swirl/io/track_smoothing.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/measured_series.hpp"

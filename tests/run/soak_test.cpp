@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "swirl/engine/simulation.hpp"
 #include "swirl/measure/energy_budget.hpp"
 #include "swirl/run/config.hpp"
-#include "swirl/simulation/simulation.hpp"
 
 namespace swirl {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "files/scratch.hpp"
-#include "swirl/files/trajectory.hpp"
+#include "io/scratch.hpp"
+#include "swirl/io/trajectory.hpp"
 #include "swirl/measure/energy_budget.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"

@@ -1,6 +1,6 @@
-// How often the tests of the steady state (measure/steady_state.hpp) are wrong, on recorded series:
-// false alarms of runs that are steady, and the share of jumps, drifts and mixtures that they find
-// when these are planted in such series. The test prints the tables of docs/physics.md.
+// How often the tests of the steady state (statistics/steady_state.hpp) are wrong, on recorded
+// series: false alarms of runs that are steady, and the share of jumps, drifts and mixtures that
+// they find when these are planted in such series. The test prints the tables of docs/physics.md.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -11,10 +11,10 @@
 
 #include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
-#include "swirl/measure/steady_state.hpp"
-#include "swirl/run/all_cores.hpp"
-#include "swirl/run/bare_run.hpp"
 #include "swirl/run/config.hpp"
+#include "swirl/run/core_run.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "swirl/statistics/steady_state.hpp"
 
 namespace swirl {
 namespace {

@@ -13,11 +13,11 @@
 #include <tuple>
 #include <vector>
 
-#include "swirl/measure/several_runs.hpp"
-#include "swirl/run/all_cores.hpp"
+#include "swirl/run/parallel_for.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/run.hpp"
-#include "swirl/study/crossing.hpp"
+#include "swirl/statistics/replicates.hpp"
+#include "swirl/study/crossing_search.hpp"
 
 namespace swirl {
 namespace {

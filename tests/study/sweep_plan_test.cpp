@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files/scratch.hpp"
-#include "swirl/files/file_error.hpp"
+#include "io/scratch.hpp"
+#include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/sweep_plan.hpp"
 

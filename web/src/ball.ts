@@ -1,4 +1,4 @@
-// A sphere seen from above, as the program draws it in films (src/draw/ball.cpp): lit from the upper left,
+// A sphere seen from above, as the program draws it in films (src/swirl/render/ball.cpp): lit from the upper left,
 // with a beach ball's eight patches in its colour and in a paler one, and a dot on each pole.
 
 /** A unit vector: x to the right, y upwards, z towards the eye. */

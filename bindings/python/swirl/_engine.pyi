@@ -64,11 +64,11 @@ class Snapshot:
     @property
     def time(self) -> float: ...
     def m_frame(self) -> Snapshot:
-        """The same in the frame that turns with the swirl (src/measure/m_frame.hpp): the container
+        """The same in the frame that turns with the swirl (src/swirl/measure/m_frame.hpp): the container
         rests at the origin, the wall's point farthest from the swirl centre is at the bottom."""
     def rotation(self) -> tuple[float, float]:
         """The cluster's rotation now, in units of Ω: the paper's, and that of the rigid body that fits
-        best (src/measure/cluster_rotation.hpp)."""
+        best (src/swirl/measure/cluster_rotation.hpp)."""
     def archive(self) -> bytes: ...
     def _repr_svg_(self) -> str: ...
     def __len__(self) -> int: ...

@@ -101,8 +101,8 @@ class Tracks(Recording):
     what was mended, and what noise was found.
 
     Short gaps are filled. Places are smoothed by the noise that they show, and velocities come of that
-    (src/files/track_smoothing.hpp); where frames are fewer than a hundred per swirl, places stay as they
-    are and velocities are differences between frames (src/files/tracks.hpp).
+    (src/swirl/io/track_smoothing.hpp); where frames are fewer than a hundred per swirl, places stay as they
+    are and velocities are differences between frames (src/swirl/io/tracks.hpp).
     """
 
     def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,

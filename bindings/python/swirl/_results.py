@@ -221,7 +221,7 @@ class Rotation:
     """The cluster's rotation ϖ in units of Ω, in the lab frame, over whole swirls after the warm-up.
 
     `by_event` is the paper's average, over events; `rigid` is that of the rigid body that fits best
-    (src/measure/cluster_rotation.hpp). Below zero it is counterrotation.
+    (src/swirl/measure/cluster_rotation.hpp). Below zero it is counterrotation.
     """
 
     by_event: Estimate

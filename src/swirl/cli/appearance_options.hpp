@@ -1,0 +1,25 @@
+// The options that say how a picture or a movie looks, the same for both.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "swirl/cli/options.hpp"
+#include "swirl/render/movie.hpp"
+
+namespace swirl {
+
+/// As given; appearance() reads it.
+struct AppearanceTexts {
+    std::string frame, color = "none", theme = "dark", title, size;
+    std::optional<double> trail_length;
+    bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
+};
+
+std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand);
+
+/// Throws WrongCall. `otherwise` is the size if none was given.
+Appearance appearance(const AppearanceTexts& texts, Size otherwise);
+
+}  // namespace swirl

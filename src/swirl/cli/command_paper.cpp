@@ -1,0 +1,161 @@
+// swirl paper: the paper's figures.
+#include <fmt/format.h>
+
+#include "swirl/cli/command_line.hpp"
+#include "swirl/cli/commands.hpp"
+#include "swirl/cli/config_file.hpp"
+#include "swirl/cli/output.hpp"
+#include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/stop_signal.hpp"
+#include "swirl/paper/movies.hpp"
+#include "swirl/paper/paper.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+namespace {
+
+struct PaperCall {
+    PaperSettings settings;
+    std::string config_file, out = "out", events, seed;
+    std::vector<std::string> figures;
+    bool quiet = false, movies = false;
+};
+
+void make_movies(const PaperCall& call) {
+    PaperMoviesSettings settings;
+    settings.out = call.out;
+    settings.quick = call.settings.quick;
+    settings.seed = call.settings.seed;
+    PaperMovies made;
+    {
+        ProgressLine line("movies", call.quiet);
+        PaperMoviesControl control;
+        control.stop = &stop_signal();
+        control.progress = [&](double fraction, const std::string& name) {
+            line.show(fraction, name);
+        };
+        made = make_paper_movies(settings, control);
+    }
+    std::string text;
+    if (made.remembered > 0)
+        text = fmt::format("{} of {} movies were there from an earlier call.\n", made.remembered,
+                           made.files.size() - 1);
+    for (const auto& file : made.files) text += fmt::format("wrote {}\n", file.string());
+    print_all(text);
+}
+
+/// What could be made is there; what could not makes the call a failure.
+void refuse_missing(const PaperResult& result) {
+    std::string names;
+    for (const MadeFigure& figure : result.figures)
+        if (!figure.problem.empty())
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", figure.name);
+    if (!names.empty())
+        throw Failure(fmt::format("Could not be made: {}; see above for why.", names));
+}
+
+void make_paper(PaperCall& call) {
+    call.settings.out = call.out;
+    if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
+    if (!call.seed.empty()) call.settings.seed = resolve({{"seed", call.seed}}).seed;
+    std::vector<PaperFigure> figures;
+    for (const std::string& name : call.figures) figures.push_back(paper_figure(name));
+    if (figures.empty()) figures = paper_figures();
+    make_folder(call.out);
+    if (call.movies) {
+        make_movies(call);
+        if (call.figures.empty()) return;
+    }
+
+    PaperResult result;
+    {
+        const std::string what =
+            figures.size() == 1 ? fmt::format("Figure {}", figures.front().name) : "paper";
+        ProgressLine line(what, call.quiet);
+        PaperControl control;
+        control.stop = &stop_signal();
+        control.progress = [&](double fraction, double rate) {
+            line.show(fraction, short_number(rate) + " events/s");
+        };
+        // Claims are judged where all figures are there.
+        result = make_figures(figures, call.settings, control, call.figures.empty());
+    }
+    std::string text;
+    std::vector<std::filesystem::path> files;
+    for (const MadeFigure& figure : result.figures) {
+        for (const std::string& finding : figure.outcome.findings)
+            text += result.figures.size() == 1 ? finding + "\n"
+                                               : fmt::format("{:<26}{}\n", figure.name, finding);
+        files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
+    }
+    if (call.figures.empty())
+        for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
+            files.push_back(file);
+    // What failed stands with each figure; of several figures, which share runs, it is counted.
+    if (result.failed > 0 && result.figures.size() > 1)
+        text += fmt::format("{} of all runs failed, as said above.\n", result.failed);
+    text += fmt::format("{} runs{} in {}.\n", result.tasks,
+                        result.remembered > 0
+                            ? fmt::format(", {} of them from an earlier call,", result.remembered)
+                            : "",
+                        short_duration(result.seconds));
+    if (call.figures.empty())
+        text += fmt::format("wrote {} and {} more files there\n", files.back().string(),
+                            files.size() - 1);
+    else
+        for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
+    print_all(text);
+    refuse_missing(result);
+}
+
+std::string figure_list() {
+    std::string text = "Figures:";
+    for (const PaperFigure& figure : paper_figures())
+        text += fmt::format("\n  {:<19} {}", figure.name, figure.description);
+    return text;
+}
+
+void add_paper_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<PaperCall>();
+    subcommand
+        .add_option("config", call->config_file,
+                    "a TOML file with the names of the options; options given here override it")
+        ->type_name("FILE.toml");
+    subcommand
+        .add_option("--figure", call->figures, "which ones [all]; may be given several times")
+        ->type_name("NAME");
+    subcommand.add_flag("--quick", call->settings.quick,
+                        "fewer points and shorter runs: the shape in a minute");
+    subcommand.add_flag("--movies", call->movies,
+                        "the paper's numerical videos, and movies.html that plays them");
+    subcommand
+        .add_option("--events", call->events,
+                    "length of a run [1e6 as in the paper, quick 2e5]; what is counted in swirls "
+                    "becomes shorter or longer by the same factor")
+        ->type_name("NUMBER");
+    subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");
+    subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");
+    subcommand.add_flag("--quiet", call->quiet, "no progress");
+    subcommand.set_examples({"swirl paper --figure 5b --quick",
+                             "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
+    subcommand.explain(figure_list() + "\n");
+    subcommand.callback([call, &subcommand] {
+        ParameterTexts parameters;
+        if (!call->config_file.empty())
+            take_config_file(subcommand, call->config_file, parameters, Lists::refused, "paper");
+        for (const auto& [name, into] :
+             {std::pair("events", &call->events), std::pair("seed", &call->seed)})
+            if (const auto found = parameters.find(name); found != parameters.end())
+                if (into->empty()) *into = found->second;
+        make_paper(*call);
+    });
+}
+
+const Command paper_command(20, "paper",
+                            "The paper's figures: tables and drawings, from simulation.",
+                            add_paper_command);
+
+}  // namespace
+}  // namespace swirl

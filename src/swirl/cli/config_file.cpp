@@ -1,0 +1,153 @@
+#include "swirl/cli/config_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/toml_file.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+/// What is wrong in a configuration is wrong in the call.
+Config parsed(const std::string& file, Lists lists) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw WrongCall(fmt::format(
+            "There is no configuration file '{}'; options begin with --, as in --discs {}.", file,
+            lists == Lists::taken ? "5:48" : "48"));
+    std::string text = read_whole_file(file, largest_config);
+    try {
+        return parse_config(std::move(text), file);
+    } catch (const FileError& wrong) {
+        throw WrongCall(wrong.what());
+    }
+}
+
+/// What --measure and --figure take is a list anyway.
+bool is_list_by_nature(const std::string& name) { return name == "measure" || name == "figure"; }
+
+/// Gives the target of an option a value from a file.
+struct Set {
+    const std::string& name;
+    const std::string& text;
+    const std::string& file;
+
+    [[noreturn]] void wrong(const char* what) const {
+        throw WrongCall(
+            fmt::format("'{}': {} is '{}', but it must be {}.", file, name, text, what));
+    }
+    double number() const {
+        const auto value = read_number(text);
+        if (!value) wrong("a number");
+        return *value;
+    }
+    template <class Whole>
+    Whole whole() const {
+        const auto value = read_whole_number(text);
+        if (!value || *value < std::numeric_limits<Whole>::min() ||
+            *value > std::numeric_limits<Whole>::max())
+            wrong("a whole number");
+        return static_cast<Whole>(*value);
+    }
+
+    void operator()(bool* flag) const {
+        if (text != "true" && text != "false") wrong("true or false");
+        *flag = text == "true";
+    }
+    void operator()(std::string* into) const { *into = text; }
+    void operator()(std::int64_t* into) const { *into = whole<std::int64_t>(); }
+    void operator()(int* into) const { *into = whole<int>(); }
+    void operator()(double* into) const { *into = number(); }
+    void operator()(std::optional<int>* into) const { *into = whole<int>(); }
+    void operator()(std::optional<std::int64_t>* into) const { *into = whole<std::int64_t>(); }
+    void operator()(std::optional<double>* into) const { *into = number(); }
+    void operator()(std::vector<std::string>* into) const {
+        std::string_view rest = text;
+        for (;;) {
+            const std::size_t comma = rest.find(',');
+            into->emplace_back(rest.substr(0, comma));
+            if (comma == rest.npos) return;
+            rest.remove_prefix(comma + 1);
+        }
+    }
+    void operator()(const std::function<void(const std::string&)>& take) const { take(text); }
+};
+
+/// "trail_length" of "--trail-length"; an argument by its place has its own name in small letters.
+std::string name_in_file(const Option& option) {
+    std::string name = option.name.starts_with("--") ? option.name.substr(2) : option.name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return plain_name(name);
+}
+
+}  // namespace
+
+ConfigFile read_config_file(const std::string& file, const std::vector<std::string>& names,
+                            Lists lists, const std::string& command) {
+    Config config = parsed(file, lists);
+    ConfigFile found;
+    for (const auto& [name, entry] : config.entries) {
+        const std::string at = fmt::format("'{}', line {}", file, entry.line);
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            const auto meant = nearest_name(name, names);
+            throw WrongCall(fmt::format("{}: there is no option '{}'{}", at, name,
+                                        meant ? fmt::format("; did you mean '{}'?", *meant)
+                                              : "; `swirl " + command + " --help` lists them."));
+        }
+        if (entry.is_list && lists == Lists::refused && !is_list_by_nature(name))
+            throw WrongCall(fmt::format(
+                "{}: {} is a list, but one value is needed; `swirl sweep` takes lists.", at, name));
+        if (entry.values.empty())
+            throw WrongCall(fmt::format("{}: the list of {} is empty.", at, name));
+        auto& into = find_parameter(name) ? found.parameters : found.others;
+        into.emplace(name, fmt::format("{}", fmt::join(entry.values, ",")));
+    }
+    found.text = std::move(config.text);
+    return found;
+}
+
+void take_others(const ParameterTexts& from_file,
+                 const std::map<std::string, std::string*>& texts) {
+    for (const auto& [name, text] : texts)
+        if (const auto found = from_file.find(name); found != from_file.end() && text->empty())
+            *text = found->second;
+}
+
+bool is_config_file(const std::string& argument) { return argument.ends_with(".toml"); }
+
+void take_config_file(const Subcommand& subcommand, const std::string& file,
+                      ParameterTexts& parameters, Lists lists, const std::string& command,
+                      const std::vector<std::vector<std::string>>& instead) {
+    std::map<std::string, const Option*> options;
+    std::vector<std::string> names;
+    for (const Option& option : subcommand.options()) {
+        if (!option.name.starts_with("--") && option.is_given) continue;  // the file itself
+        options[name_in_file(option)] = &option;
+        names.push_back(name_in_file(option));
+    }
+    const ConfigFile found = read_config_file(file, names, lists, command);
+    parameters = overridden(found.parameters, parameters);
+    const auto replaced = [&](const std::string& name) {
+        return std::any_of(instead.begin(), instead.end(), [&](const auto& group) {
+            return std::find(group.begin(), group.end(), name) != group.end() &&
+                   std::any_of(group.begin(), group.end(), [&](const std::string& other) {
+                       return options.at(other)->is_given;
+                   });
+        });
+    };
+    for (const auto& [name, text] : found.others) {
+        const Option& option = *options.at(name);
+        if (!option.is_given && !replaced(name)) std::visit(Set{name, text, file}, option.target);
+    }
+}
+
+}  // namespace swirl

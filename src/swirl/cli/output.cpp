@@ -1,0 +1,153 @@
+#include "swirl/cli/output.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "swirl/cli/stop_signal.hpp"
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/shell_word.hpp"
+
+namespace swirl {
+namespace {
+
+std::string last_error() { return std::generic_category().message(errno); }
+
+void refuse_option(const std::filesystem::path& name, const char* kind) {
+    if (name.native().starts_with('-'))
+        throw WrongCall(fmt::format(
+            "'{0}' looks like an option, but here the name of a {1} must stand; a {1} of that "
+            "name would be {2}.",
+            name.string(), kind, shell_word("./" + name.string())));
+}
+
+}  // namespace
+
+void refuse_unwritable(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (file.empty()) throw WrongCall("The name of an output file is empty.");
+    refuse_option(file, "file");
+    if (std::filesystem::is_directory(file, ignored))
+        throw Failure(fmt::format("'{}' is a folder, but it must be the name of a file to write.",
+                                  file.string()));
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
+                                  folder.string()));
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
+}
+
+std::filesystem::path whole_name(const std::filesystem::path& file) {
+    std::error_code unknown;
+    auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
+    return unknown ? std::filesystem::absolute(file).lexically_normal() : whole;
+}
+
+void refuse_same_files(const std::vector<std::filesystem::path>& files) {
+    if (std::count(files.begin(), files.end(), "-") > 1)
+        throw WrongCall(
+            "Only one thing can go to standard output, which is what '-' stands for; give each of "
+            "the others a file.");
+    std::vector<std::filesystem::path> seen;
+    for (const auto& file : files) {
+        if (file.empty() || file == "-") continue;
+        std::filesystem::path whole = whole_name(file);
+        if (std::find(seen.begin(), seen.end(), whole) != seen.end())
+            throw WrongCall(fmt::format(
+                "'{}' is the name of two files; each needs a name of its own.", file.string()));
+        seen.push_back(std::move(whole));
+    }
+}
+
+namespace {
+
+constexpr int milliseconds_to_wait = 200;
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
+    throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
+}
+
+/// For as long as nobody wants an end of it: a pipe may never have a reader, or one that rests.
+void refuse_to_wait_after_stop(const std::filesystem::path& file) {
+    if (stop_signal().load())
+        throw Interrupted(
+            fmt::format("Stopped while waiting for a reader of '{}'.", file.string()));
+}
+
+/// A pipe, a device or the like. Opening a pipe would block until it has a reader, and no signal
+/// would end that.
+int opened_for_writing(const std::filesystem::path& file) {
+    for (;;) {
+        const int stream = open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (stream >= 0) return stream;
+        if (errno == EINTR) continue;
+        const int why = errno;
+        std::error_code ignored;
+        const bool lacks_reader = why == ENXIO && std::filesystem::is_fifo(file, ignored);
+        errno = why;
+        if (!lacks_reader) fail_to_write(file);
+        refuse_to_wait_after_stop(file);
+        poll(nullptr, 0, milliseconds_to_wait);
+    }
+}
+
+void write_all(int stream, const std::filesystem::path& file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = write(stream, text.data(), text.size());
+        if (written >= 0) {
+            text.remove_prefix(static_cast<std::size_t>(written));
+            continue;
+        }
+        if (errno == EINTR) continue;
+        if (errno != EAGAIN) fail_to_write(file);
+        pollfd wait{stream, POLLOUT, 0};
+        if (poll(&wait, 1, milliseconds_to_wait) == 0) refuse_to_wait_after_stop(file);
+    }
+}
+
+}  // namespace
+
+void write_output(const std::filesystem::path& file, const std::string& text) {
+    std::error_code ignored;
+    // Through a link to what it stands for: /dev/stdout must stay what it is.
+    const auto target = std::filesystem::is_symlink(file, ignored)
+                            ? std::filesystem::weakly_canonical(file, ignored)
+                            : file;
+    const auto kind = std::filesystem::status(file, ignored).type();
+    if (kind == std::filesystem::file_type::regular ||
+        kind == std::filesystem::file_type::not_found) {
+        write_named_file(target.empty() ? file : target, text);
+        return;
+    }
+    const int stream = opened_for_writing(file);
+    write_all(stream, file, text);
+    if (close(stream) != 0) fail_to_write(file);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    refuse_option(folder, "folder");
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw Failure(
+            fmt::format("The folder '{}' cannot be made: {}.", folder.string(), error.message()));
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Failure(fmt::format("The folder '{}' cannot be written to: {}.", folder.string(),
+                                  last_error()));
+}
+
+void print_all(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+        return;
+    throw Failure(fmt::format("Writing to standard output failed: {}.", last_error()));
+}
+
+}  // namespace swirl

@@ -1,0 +1,105 @@
+#include "swirl/cli/progress_line.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace swirl {
+namespace {
+
+constexpr std::chrono::milliseconds redraw(100);
+constexpr std::chrono::seconds first_line(10), later_lines(30);
+
+bool is_set(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value && *value;
+}
+
+bool smart_terminal() {
+    const char* const kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) && kind && std::string(kind) != "dumb";
+}
+
+std::size_t terminal_width() {
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+    return size.ws_col;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::string what, bool quiet)
+    : what_(std::move(what)),
+      quiet_(quiet),
+      terminal_(smart_terminal()),
+      color_(terminal_ && !is_set("NO_COLOR")),
+      begin_(Clock::now()),
+      next_(begin_ + (terminal_ ? std::chrono::seconds(0) : first_line)) {}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
+    const std::lock_guard lock(mutex_);
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+    drawn_ = false;
+}
+
+void ProgressLine::show(double fraction, const std::string& rate) {
+    if (quiet_) return;
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    if (now < next_) return;
+    const double part = std::clamp(fraction, 0.0, 1.0);
+    // Something else has begun: the time that the last took says nothing of it.
+    if (part < last_) begin_ = now;
+    last_ = part;
+    const double elapsed = std::chrono::duration<double>(now - begin_).count();
+    const double left = part > 0.0 ? elapsed * (1.0 - part) / part : 0.0;
+    if (terminal_) {
+        next_ = now + redraw;
+        draw_bar(part, rate, left);
+        return;
+    }
+    next_ = now + later_lines;
+    fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", what_, 100.0 * part, rate,
+               part > 0.0 ? short_duration(left) : "unknown time");
+}
+
+void ProgressLine::draw_bar(double fraction, const std::string& rate, double left) {
+    const std::string tail = fmt::format(" {:3.0f} %  {}  {} left", 100.0 * fraction, rate,
+                                         fraction > 0.0 ? short_duration(left) : "?");
+    const std::size_t width = terminal_width();
+    const std::size_t taken = what_.size() + tail.size() + 2;
+    const std::size_t bar = width > taken + 8 ? std::min<std::size_t>(width - taken - 1, 40) : 0;
+    const auto full = static_cast<std::size_t>(fraction * static_cast<double>(bar));
+    std::string line = what_ + " ";
+    if (bar > 0) {
+        if (color_) line += "\x1b[36m";
+        for (std::size_t k = 0; k < bar; ++k) line += k < full ? "█" : "·";
+        if (color_) line += "\x1b[0m";
+    }
+    fmt::print(stderr, "\r{}{}\x1b[K", line, taken < width ? tail : "");
+    std::fflush(stderr);
+    drawn_ = true;
+}
+
+std::string short_number(double value) {
+    if (value >= 1e6) return fmt::format("{:.1f} million", value / 1e6);
+    if (value >= 1e3) return fmt::format("{:.0f} thousand", value / 1e3);
+    return fmt::format("{:.0f}", value);
+}
+
+std::string short_duration(double seconds) {
+    const auto s = static_cast<long long>(std::ceil(std::min(seconds, 1e15)));
+    if (s < 60) return fmt::format("{} s", s);
+    if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+    if (s < 48 * 3600) return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+    return fmt::format("{} days", s / 86400);
+}
+
+}  // namespace swirl

@@ -1,0 +1,52 @@
+#include "swirl/cli/tracks_input.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/track_fit.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Null where nothing was smoothed.
+Json smoothing_json(const TrackSmoothing& s) {
+    if (!s.done) return nullptr;
+    return {{"noise_pixels", s.noise},
+            {"window_pictures", s.window},
+            {"bend_pixels", s.bend},
+            {"place_error_pixels", s.place_error},
+            {"velocity_error", s.velocity_error()},
+            {"kicks_per_picture", s.kicks},
+            {"added_to_temperature", s.missing_energy}};
+}
+
+Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
+    return {{"filled_positions", tracks.mended.filled},
+            {"renamed", tracks.mended.renamed},
+            {"dropped_positions", tracks.mended.dropped},
+            {"breaks", fitted.series.breaks.size()},
+            {"frames_outside", fitted.fit.outside},
+            {"frames_overlapping", fitted.fit.overlapping},
+            {"wall_gap", fitted.fit.wall_gap},
+            {"fitting_phase", fitted.fit.fitting_phase},
+            {"smoothing", smoothing_json(fitted.smoothing)}};
+}
+
+}  // namespace
+
+OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, double misfit) {
+    const TrackScale scale = track_scale(camera, file);
+    const Tracks tracks = read_tracks(file, scale);
+    if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
+        throw Failure(fmt::format(
+            "'{}' holds a single frame, which tells no velocities; two are the least.", file));
+    FittedSeries fitted = fitted_series(tracks, scale, misfit);
+    const Json found = camera_json(tracks, fitted);
+    return {std::move(fitted.series), std::move(fitted.remarks), found};
+}
+
+}  // namespace swirl

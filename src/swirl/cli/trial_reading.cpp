@@ -1,0 +1,88 @@
+#include "swirl/cli/trial_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "swirl/cli/stop_signal.hpp"
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/event_log.hpp"
+#include "swirl/io/track_recording.hpp"
+#include "swirl/io/trajectory.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+void read_all_of_log(const std::string& file) {
+    constexpr std::uint64_t at_once = 1 << 16;
+    const EventLogReader log(file);
+    for (const char* name : {"parameters", "version"}) log.provenance(name);
+    for (std::uint64_t k = 0; k < log.events(); k += at_once)
+        log.read(k, std::min(at_once, log.events() - k));
+}
+
+/// In the child. It ends in the same way whether the file is refused or not.
+[[noreturn]] void read_and_exit(const std::string& file) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(crash, SIG_DFL);
+    try {
+        if (is_event_log(file))
+            read_all_of_log(file);
+        else if (is_track_recording(file))
+            read_track_recording(file);
+        else
+            TrajectoryReader(file).read_all();
+    } catch (...) {
+    }
+    _exit(0);
+}
+
+/// Ends with the child, at the latest at a signal.
+int status_of(pid_t child, int its_end) {
+    pollfd wait{its_end, POLLIN, 0};
+    constexpr int milliseconds = 100;
+    while (poll(&wait, 1, milliseconds) <= 0)
+        if (stop_signal().load()) kill(child, SIGKILL);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    return status;
+}
+
+}  // namespace
+
+void try_reading(const std::string& file) {
+    if (!first_bytes(file).starts_with("\x89HDF")) return;
+    stop_signal();
+    // The child alone has the end to write to, and never writes: it is closed when the child ends.
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw Failure(fmt::format("There is no pipe to be had: {}.", system_reason()));
+    const pid_t child = fork();
+    if (child == 0) read_and_exit(file);
+    const std::string reason = system_reason();
+    close(ends[1]);
+    const int status = child < 0 ? 0 : status_of(child, ends[0]);
+    close(ends[0]);
+    if (child < 0) throw Failure(fmt::format("The system starts no other process: {}.", reason));
+    if (stop_signal().load()) throw Interrupted("Stopped while the file was read.");
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    // Killed for lack of memory, or by someone: this process may fare better, or be told why.
+    if (status == 0 || signal == SIGKILL) return;
+    throw Failure(fmt::format("'{}' is damaged: reading it crashes the HDF5 library ({}).", file,
+                              signal != 0 ? strsignal(signal) : "its process ended"));
+}
+
+}  // namespace swirl

@@ -1,0 +1,169 @@
+// What every collision must keep (invariant.hpp): the discs touch; momentum, linear and
+// angular, is conserved; energy does not grow, in the frame of the wall where there is one, and
+// falls by what the impulses work.
+//
+// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+#pragma once
+
+#include "swirl/engine/invariant.hpp"
+#include "swirl/math/lanes.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/container_path.hpp"
+
+namespace swirl {
+inline namespace SWIRL_TARGET {
+
+/// Rounding errors of velocities and impulses are 10⁻¹³ and of what follows from them not much
+/// larger; what is wrong is wrong by far more. Of a length it is what is left for bodies that are
+/// pressed together for long: one rounding is handed on to the next contact.
+inline constexpr double allowed_rounding = 1e-10;
+
+SWIRL_INLINE bool is_rounding(double error, double scale) {
+    return magnitude(error) <= allowed_rounding * scale;
+}
+
+// How far from touching two bodies may be at their contact, with nothing wrong but the rounding of
+// doubles, each by ε = 2⁻⁵³ of itself. What they hold, places, velocities and times, is exact by
+// definition. Let L be the largest coordinate on their ways, s how far apart they are at the later
+// of the times held, from where the contact is predicted (contact_time.hpp), v how fast that
+// changes, σ the distance of contact, and t its time.
+//
+// 1. A place at a time is x + u (t − t₀), where u (t − t₀) leads from one coordinate to another and
+//    is no longer than 2L: the difference, the product and the sum are rounded by 2εL, 2εL and εL.
+//    With two bodies, two coordinates, at the prediction and at the contact: 28 εL at most.
+// 2. At the time τ that is found, |s + vτ|² − σ² is not zero, since c, 2bτ and aτ² are rounded by
+//    3εs², 6εs|vτ| and 3ε|vτ|², and the way |vτ| is no longer than s + σ ≤ 2s: 27 εs². A
+//    discriminant D that is wrong by δ adds cδ/(√D − b)²; δ is 8εb² at most and (√D − b)² no less
+//    than b², so 8 εs², also of discs that graze, whose τ has lost half of its digits, and of those
+//    that are said to miss each other. As |x|² − σ² = (|x| + σ)(|x| − σ), the distance is off by
+//    18 εs²/σ. That grows with the square of the way: in a dish of 10⁷ radii it is 0.1 of them.
+// 3. The sum now + τ is rounded by εt, in which they come nearer by εt|v|.
+//
+// For disc and wall s and σ are the clearance R − r at most, and so is s²/σ.
+inline constexpr double roundings = 32.0 * 0x1p-53;
+
+SWIRL_INLINE double size_of(const Vec2& x) { return larger(magnitude(x.x), magnitude(x.y)); }
+
+SWIRL_INLINE double rounding_of_contact(const Flight<double>& i, const Flight<double>& j,
+                                        double sum_of_radii, double t) {
+    const double now = larger(i.time, j.time);
+    const Vec2 s = j.position_at(now) - i.position_at(now), v = j.velocity - i.velocity;
+    const double L = larger(larger(size_of(i.position), size_of(j.position)),
+                            larger(size_of(i.position_at(t)), size_of(j.position_at(t))));
+    return roundings * (L + dot(s, s) / sum_of_radii + t * square_root(dot(v, v)));
+}
+/// The container's centre turns, or begins where its leg does.
+SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const Leg& leg,
+                                             double clearance, double t) {
+    const Flight<double> centre = leg.flight_at(t);
+    const Vec2 v = disc.velocity - centre.velocity;
+    const double L = larger(larger(size_of(disc.position), size_of(disc.position_at(t))),
+                            larger(size_of(leg.start), size_of(centre.position)));
+    return roundings * (L + clearance + t * square_root(dot(v, v)));
+}
+
+/// A body before and after a collision, seen from a frame that moves with a velocity of its own.
+/// The wall, whose mass is infinite, has no energy in its own frame and gains none.
+struct Collided {
+    Body before, after;
+    Vec2 frame;
+
+    SWIRL_INLINE bool is_wall() const { return before.inverse_mass == 0.0; }
+    SWIRL_INLINE Vec2 gain_of_momentum() const {
+        if (is_wall()) return {0.0, 0.0};
+        return (1.0 / before.inverse_mass) * (after.velocity - before.velocity);
+    }
+    SWIRL_INLINE double gain_of_spin() const {
+        if (is_wall()) return 0.0;
+        return (after.spin - before.spin) / before.inverse_inertia;
+    }
+    SWIRL_INLINE double momentum() const {
+        if (is_wall()) return 0.0;
+        const Vec2 v = before.velocity - frame;
+        return square_root(dot(v, v)) / before.inverse_mass;
+    }
+    SWIRL_INLINE double speed() const { return square_root(dot(before.velocity, before.velocity)); }
+    SWIRL_INLINE double energy(const Body& body) const {
+        if (is_wall()) return 0.0;
+        const Vec2 v = body.velocity - frame;
+        return 0.5 * (dot(v, v) / body.inverse_mass + body.spin * body.spin / body.inverse_inertia);
+    }
+};
+
+/// The energy that both impulses bring: with u the speed of approach and m_n, m_t the effective
+/// masses, −u J_n + J_n²/2m_n along the normal and slip J_t + J_t²/2m_t along the tangent.
+SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, const Vec2& normal) {
+    const Vec2 tangent{normal.y, -normal.x};
+    const Vec2 relative = j.velocity - i.velocity;
+    const double approach = -dot(relative, normal);
+    const double slip = dot(relative, tangent) + i.radius * i.spin + j.radius * j.spin;
+    const double inverse_masses = i.inverse_mass + j.inverse_mass;
+    const double inverse_tangential = inverse_masses + i.radius * i.radius * i.inverse_inertia +
+                                      j.radius * j.radius * j.inverse_inertia;
+    return J.normal * (0.5 * J.normal * inverse_masses - approach) +
+           J.tangential * (0.5 * J.tangential * inverse_tangential + slip);
+}
+
+[[maybe_unused]] static void check_energy(const Collided& i, const Collided& j, const Vec2& normal,
+                                          const Surface& surface, const Impulse& J) {
+    const double before = i.energy(i.before) + j.energy(j.before);
+    const double after = i.energy(i.after) + j.energy(j.after);
+    promise::friction_obeys_coulombs_law(J.normal >= 0.0 &&
+                                         magnitude(J.tangential) <=
+                                             surface.mu * J.normal * (1.0 + allowed_rounding));
+    // Velocities are held in the lab, where a dish may be a million times as fast as its discs are
+    // against each other: each is rounded to 2⁻⁵³ of its size, and moves the energy by as much
+    // times the momentum. Sixteen such roundings are more than a collision has.
+    const double rounded = 16.0 * 0x1p-53 * (i.speed() + j.speed()) *
+                           (i.momentum() + j.momentum() + J.normal + magnitude(J.tangential));
+    const double allowed = allowed_rounding * before + rounded;
+    promise::energy_never_grows(after - before <= allowed);
+    promise::energy_changes_by_the_work_of_the_impulses(
+        magnitude(after - before - work_of(J, i.before, j.before, normal)) <= allowed);
+}
+
+/// `separation` points from i to j; `contact` is how long it is when they touch, but for
+/// `rounding`. Angular momentum is taken about the centre of i, where i gains spin alone.
+[[maybe_unused]] static void check_disc_collision(const Collided& i, const Collided& j,
+                                                  const Vec2& separation, const Surface& surface,
+                                                  const Impulse& J, double rounding,
+                                                  bool overlapped_at_start) {
+    const double distance = square_root(dot(separation, separation));
+    const double contact = i.before.radius + j.before.radius;
+    check_energy(i, j, (1.0 / distance) * separation, surface, J);
+
+    const Vec2 gain = i.gain_of_momentum() + j.gain_of_momentum();
+    const double scale = magnitude(J.normal) + magnitude(J.tangential) +
+                         (square_root(dot(i.before.velocity, i.before.velocity)) +
+                          square_root(dot(j.before.velocity, j.before.velocity))) /
+                             smaller(i.before.inverse_mass, j.before.inverse_mass);
+    promise::momentum_is_conserved(is_rounding(gain.x, scale) && is_rounding(gain.y, scale));
+
+    if (overlapped_at_start) return;
+    promise::discs_touch_at_contact(magnitude(distance - contact) <=
+                                    allowed_rounding * contact + rounding);
+    const double angular =
+        cross(separation, j.gain_of_momentum()) + i.gain_of_spin() + j.gain_of_spin();
+    const double spins = magnitude(i.before.spin / i.before.inverse_inertia) +
+                         magnitude(j.before.spin / j.before.inverse_inertia);
+    // The impulse along the tangent has the radii for its levers, which the rounding leaves out.
+    promise::angular_momentum_is_conserved(magnitude(angular) <=
+                                           allowed_rounding * (contact * scale + spins) +
+                                               rounding * magnitude(J.tangential));
+}
+
+/// `from_centre` points from the centre of the container to the disc; `contact` is how long it is
+/// when the disc touches the wall, but for `rounding`.
+[[maybe_unused]] static void check_wall_collision(const Collided& disc, const Collided& wall,
+                                                  const Vec2& from_centre, double contact,
+                                                  const Surface& surface, const Impulse& J,
+                                                  double rounding, bool overlapped_at_start) {
+    const double distance = square_root(dot(from_centre, from_centre));
+    check_energy(disc, wall, (1.0 / distance) * from_centre, surface, J);
+    if (overlapped_at_start) return;
+    promise::discs_touch_at_contact(magnitude(distance - contact) <=
+                                    allowed_rounding * (contact + disc.before.radius) + rounding);
+}
+
+}  // namespace SWIRL_TARGET
+}  // namespace swirl

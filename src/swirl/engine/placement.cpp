@@ -1,0 +1,571 @@
+#include "swirl/engine/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "swirl/math/random.hpp"
+#include "swirl/math/real.hpp"
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+/// The caller's question whether to go on, asked every few thousandths of a second: in every loop
+/// over discs or sites, of which there may be hundreds of millions. Where it has ended, what is
+/// found is of no use.
+class Patience {
+  public:
+    explicit Patience(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
+    bool ended() {
+        if (!ended_ && is_stopped_) ended_ = is_stopped_();
+        return ended_;
+    }
+
+  private:
+    const std::function<bool()>& is_stopped_;
+    bool ended_ = false;
+};
+
+constexpr double row_height = 0.86602540378443864676;  // √3/2
+
+/// The narrowest lattice from which places are drawn, in units of the widest that would do.
+constexpr double sparsest = 1.0 / 16.0;
+
+/// Sites of the triangular lattice of the given spacing within `reach` of one of them.
+template <class Visit>
+void for_each_site(double spacing, double reach, Patience& patience, Visit visit) {
+    const auto rows = static_cast<long>(reach / (spacing * row_height)) + 1;
+    for (long row = -rows; row <= rows && !patience.ended(); ++row) {
+        const double y = spacing * row_height * static_cast<double>(row);
+        const double left = reach * reach - y * y;
+        if (left < 0.0) continue;
+        const double shift = (row & 1) ? 0.5 : 0.0;
+        const auto half = static_cast<long>(square_root(left) / spacing) + 2;
+        for (long column = -half; column <= half; ++column) {
+            const double x = spacing * (static_cast<double>(column) + shift);
+            if (x * x <= left) visit(Vec2{x, y});
+        }
+    }
+}
+
+std::size_t count_sites(double spacing, double reach, Patience& patience) {
+    std::size_t count = 0;
+    for_each_site(spacing, reach, patience, [&](const Vec2&) { ++count; });
+    return count;
+}
+
+/// The widest spacing that still has n sites, to one part in 10⁶, or whatever it has come to when
+/// patience ends. A lattice narrower than `least` is not looked at; then nothing is found.
+template <class CountSites>
+std::optional<double> widest_spacing(std::size_t n, double widest, double least,
+                                     CountSites count_sites_of, Patience& patience) {
+    double enough = 0.0, too_wide = widest;
+    // Halve until it is narrow enough, then bisect.
+    for (double guess = too_wide; enough == 0.0; guess = larger(0.5 * guess, least)) {
+        if (count_sites_of(guess) >= n)
+            enough = guess;
+        else if (guess <= least || patience.ended())
+            return std::nullopt;
+        else
+            too_wide = guess;
+    }
+    while (too_wide - enough > 1e-6 * enough && !patience.ended()) {
+        const double middle = 0.5 * (enough + too_wide);
+        (count_sites_of(middle) >= n ? enough : too_wide) = middle;
+    }
+    return enough;
+}
+
+Vec2 turned(const Vec2& site, const Vec2& turn) {
+    return {turn.x * site.x - turn.y * site.y, turn.y * site.x + turn.x * site.y};
+}
+
+/// n of the sites at random, which then are the first n and all there are.
+void choose(std::size_t n, std::vector<Vec2>& sites, Random& random, Patience& patience) {
+    for (std::size_t k = 0; k < n && !patience.ended(); ++k)
+        std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
+    sites.resize(n);
+}
+
+std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Random& random,
+                               Patience& patience) {
+    std::vector<Vec2> sites;
+    for_each_site(spacing, reach, patience, [&](const Vec2& site) { sites.push_back(site); });
+    if (patience.ended()) return {};
+    choose(n, sites, random, patience);
+    const Vec2 turn = unit_circle(random.uniform());
+    for (Vec2& site : sites) site = turned(site, turn);
+    return sites;
+}
+
+/// Moves each disc within its free space, if it may be there.
+template <class IsAllowed>
+void shake(std::vector<Vec2>& centres, double freedom, Random& random, Patience& patience,
+           IsAllowed is_allowed) {
+    for (Vec2& centre : centres) {
+        if (patience.ended()) return;
+        const Vec2 moved = centre + random.in_disc(freedom);
+        if (is_allowed(moved)) centre = moved;
+    }
+}
+
+/// Square cells no smaller than the largest disc, so that whoever overlaps is in a cell next door.
+class Cells {
+  public:
+    Cells(const std::vector<Vec2>& centres, double container_radius, double width,
+          Patience& patience)
+        : side_(static_cast<std::size_t>(2.0 * container_radius / width) + 1),
+          width_(width),
+          radius_(container_radius),
+          head_(side_ * side_, none),
+          next_(centres.size(), none) {
+        for (std::size_t i = centres.size(); i-- > 0 && !patience.ended();) {
+            const std::size_t cell = row(centres[i].y) * side_ + row(centres[i].x);
+            next_[i] = head_[cell];
+            head_[cell] = i;
+        }
+    }
+    template <class Visit>
+    void near(const Vec2& p, Visit visit) const {
+        const std::size_t cx = row(p.x), cy = row(p.y);
+        for (std::size_t y = cy - (cy > 0); y <= cy + 1 && y < side_; ++y)
+            for (std::size_t x = cx - (cx > 0); x <= cx + 1 && x < side_; ++x)
+                for (std::size_t j = head_[y * side_ + x]; j != none; j = next_[j]) visit(j);
+    }
+
+  private:
+    static constexpr std::size_t none = ~std::size_t{0};
+    std::size_t row(double x) const {
+        const double k = (x + radius_) / width_;
+        return k <= 0.0 ? 0 : std::min(side_ - 1, static_cast<std::size_t>(k));
+    }
+    std::size_t side_;
+    double width_, radius_;
+    std::vector<std::size_t> head_, next_;
+};
+
+/// Pushes overlapping discs apart, and all of them into the dish, until none overlaps: each sweep
+/// moves the two discs of an overlapping pair away from each other by half the overlap and a
+/// little more. False if thousands of sweeps do not suffice, or what can be done in some seconds.
+bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
+                double container_radius, Patience& patience) {
+    long pairs = 300'000'000;
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double margin = 1e-3 * *std::min_element(radii.begin(), radii.end());
+    for (int sweep = 0; sweep < 4000 && pairs > 0 && !patience.ended(); ++sweep) {
+        bool overlap = false;
+        // The cells are made for the centres as they are now; a push within the sweep is smaller
+        // than the cells, and whoever is missed is found in the next one.
+        const Cells cells(centres, container_radius, 2.0 * (largest + margin), patience);
+        for (std::size_t i = 0; i < centres.size(); ++i) {
+            if (i % 64 == 0 && (pairs < 0 || patience.ended())) return false;
+            cells.near(centres[i], [&](std::size_t j) {
+                --pairs;
+                if (j <= i) return;
+                const double sum = radii[i] + radii[j];
+                const Vec2 s = centres[j] - centres[i];
+                const double d2 = dot(s, s);
+                if (d2 >= sum * sum) return;
+                overlap = true;
+                const double d = square_root(d2);
+                const Vec2 push = d > 0.0 ? (0.5 * (sum + margin - d) / d) * s : Vec2{sum, 0.0};
+                centres[i] = centres[i] - push;
+                centres[j] = centres[j] + push;
+            });
+            const double reach = container_radius - radii[i];
+            const double d2 = dot(centres[i], centres[i]);
+            if (d2 > reach * reach) {
+                overlap = true;
+                centres[i] = ((reach - smaller(margin, reach)) / square_root(d2)) * centres[i];
+            }
+        }
+        if (!overlap) return true;
+    }
+    return false;
+}
+
+/// In radii of the smallest disc: overlaps are reckoned so much deeper.
+constexpr double relaxation_margin = 1e-5;
+
+/// Discs that are pressed against each other and against the wall, and slide down the energy of
+/// their overlaps. Ends without overlap, or in a dead end.
+class Relaxation {
+  public:
+    Relaxation(const std::vector<double>& radii, double container_radius, Random& random)
+        : radii_(radii),
+          container_radius_(container_radius),
+          margin_(relaxation_margin * *std::min_element(radii.begin(), radii.end())),
+          width_(2.0 * *std::max_element(radii.begin(), radii.end()) + margin_),
+          force_(radii.size()),
+          velocity_(radii.size()) {
+        for (const double r : radii) centres_.push_back(random.in_disc(container_radius - r));
+    }
+
+    /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics that is
+    /// turned towards the force while it goes downhill, and stopped when it goes uphill. Takes its
+    /// steps off `budget`: one for each disc, or for each sixteen discs that were looked at.
+    bool succeeds(long& budget, Patience& patience) {
+        double step = 0.1, turn = 0.1;
+        int downhill = 0;
+        for (int k = 0; k < longest && budget > 0 && !patience.ended(); ++k) {
+            const bool overlap = find_forces(budget, patience);
+            budget -= std::max(static_cast<long>(radii_.size()), looks_ / 16);
+            if (patience.ended()) return false;
+            if (!overlap) return true;
+            double power = 0.0, force2 = 0.0, speed2 = 0.0;
+            for (std::size_t i = 0; i < centres_.size(); ++i) {
+                power += dot(force_[i], velocity_[i]);
+                force2 += dot(force_[i], force_[i]);
+                speed2 += dot(velocity_[i], velocity_[i]);
+            }
+            if (force2 < balanced * margin_ * margin_) return false;
+            if (power > 0.0) {
+                const double along = turn * square_root(speed2 / force2);
+                for (std::size_t i = 0; i < centres_.size(); ++i)
+                    velocity_[i] = (1.0 - turn) * velocity_[i] + along * force_[i];
+                if (++downhill > 5) {
+                    step = smaller(1.1 * step, 1.0);
+                    turn *= 0.99;
+                }
+            } else {
+                std::fill(velocity_.begin(), velocity_.end(), Vec2{0.0, 0.0});
+                step *= 0.5;
+                turn = 0.1;
+                downhill = 0;
+            }
+            for (std::size_t i = 0; i < centres_.size(); ++i) {
+                velocity_[i] = velocity_[i] + step * force_[i];
+                centres_[i] = centres_[i] + step * velocity_[i];
+            }
+        }
+        return false;
+    }
+    std::vector<Vec2> centres() const { return centres_; }
+
+  private:
+    static constexpr int longest = 20000;     // steps
+    static constexpr double balanced = 1e-6;  // forces, in margins²: it will not get better
+
+    /// The force on each disc, which is the depth of its overlaps; they are reckoned with a margin,
+    /// so that in the end there are none. False if there are none now, true also if there is no
+    /// budget or patience left to tell.
+    bool find_forces(long budget, Patience& patience) {
+        bool overlap = false;
+        looks_ = 0;
+        std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
+        const Cells cells(centres_, container_radius_, width_, patience);
+        for (std::size_t i = 0; i < centres_.size(); ++i) {
+            if (i % 64 == 63 && (looks_ > 16 * budget || patience.ended())) return true;
+            cells.near(centres_[i], [&](std::size_t j) {
+                ++looks_;
+                if (j <= i) return;
+                const Vec2 s = centres_[j] - centres_[i];
+                const double touch = radii_[i] + radii_[j];
+                const double d2 = dot(s, s), sum = touch + margin_;
+                if (d2 >= sum * sum || d2 == 0.0) return;
+                overlap |= d2 < touch * touch;
+                const double d = square_root(d2);
+                const Vec2 push = ((sum - d) / d) * s;
+                force_[i] = force_[i] - push;
+                force_[j] = force_[j] + push;
+            });
+            const double reach = container_radius_ - radii_[i];
+            const double d2 = dot(centres_[i], centres_[i]);
+            const double near = larger(reach - margin_, 0.0);
+            if (d2 <= near * near) continue;
+            overlap |= d2 > reach * reach;
+            const double d = square_root(d2);
+            force_[i] = force_[i] - (2.0 * (d - near) / d) * centres_[i];
+        }
+        return overlap;
+    }
+
+    const std::vector<double>& radii_;
+    double container_radius_, margin_, width_;
+    std::vector<Vec2> centres_, force_, velocity_;
+    long looks_ = 0;  // at pairs, when the forces were last found
+};
+
+/// Two discs side by side fill a diameter of the dish.
+double sum_of_two_largest(const std::vector<double>& radii) {
+    double first = 0.0, second = 0.0;
+    for (const double r : radii) {
+        second = larger(second, smaller(r, first));
+        first = larger(first, r);
+    }
+    return first + second;
+}
+
+/// Random places relaxed, again and again, until one of them ends without overlap. The budget is
+/// some seconds' worth.
+std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double container_radius,
+                                       Random& random, Patience& patience) {
+    for (long budget = 100'000'000; budget > 0 && !patience.ended();) {
+        Relaxation relaxation(radii, container_radius, random);
+        if (relaxation.succeeds(budget, patience)) return relaxation.centres();
+    }
+    return std::nullopt;
+}
+
+/// Two discs of any sizes on a diameter; or discs of one size on a ring, with one in the middle
+/// from seven on. For up to nine that is the densest arrangement there is (Pirl 1969,
+/// doi:10.1002/mana.19690400110), so with a negative `slack` they do not fit.
+struct FewDiscs {
+    std::size_t on_ring;
+    double slack;  // of the container's radius above the smallest that holds them
+};
+
+std::optional<FewDiscs> as_few_discs(const std::vector<double>& radii, double container_radius) {
+    const std::size_t n = radii.size();
+    if (n == 2) return FewDiscs{2, container_radius - (radii[0] + radii[1])};
+    if (n < 2 || n > 9 ||
+        std::any_of(radii.begin(), radii.end(), [&](double r) { return r != radii[0]; }))
+        return std::nullopt;
+    const std::size_t on_ring = n < 7 ? n : n - 1;
+    const double ring = radii[0] / unit_circle(0.5 / static_cast<double>(on_ring)).y;
+    return FewDiscs{on_ring, container_radius - (radii[0] + ring)};
+}
+
+/// Where each has the same room towards its neighbours and the wall. Turned by a random angle, it
+/// is tried again if roundings make two overlap: there may be no room at all.
+std::optional<std::vector<Vec2>> place_few(const FewDiscs& few, const std::vector<double>& radii,
+                                           double container_radius, Random& random) {
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double turn = random.uniform();
+        std::vector<Vec2> centres(radii.size(), {0.0, 0.0});
+        bool fits = true;
+        for (std::size_t i = 0; i < centres.size(); ++i) {
+            if (i < few.on_ring) {
+                const double reach = container_radius - radii[i];
+                const double at = static_cast<double>(i) / static_cast<double>(few.on_ring);
+                centres[i] = (reach - 0.5 * few.slack) * unit_circle(at - turn);
+                fits &= dot(centres[i], centres[i]) <= reach * reach;
+            }
+            for (std::size_t j = 0; j < i; ++j) {
+                const Vec2 s = centres[i] - centres[j];
+                const double sum = radii[i] + radii[j];
+                fits &= dot(s, s) >= sum * sum;
+            }
+        }
+        if (fits) return centres;
+    }
+    return std::nullopt;
+}
+
+/// A disc this many times as small as the largest has its place in the gaps between the large.
+constexpr double very_unequal = 16.0;
+
+/// Puts n discs of one size, or less, on lattice sites that are free of others, and shakes them.
+/// Adds them to `centres`; false if there are fewer free sites than discs.
+bool fill_gaps(std::size_t n, double radius, double container_radius, std::vector<Vec2>& centres,
+               const std::vector<double>& radii, Random& random, Patience& patience) {
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double reach = container_radius - radius;
+    const Cells cells(centres, container_radius, 2.0 * largest, patience);
+    const Vec2 turn = unit_circle(random.uniform());
+    const auto is_free = [&](const Vec2& p) {
+        bool free = dot(p, p) <= reach * reach;
+        cells.near(p, [&](std::size_t j) {
+            const Vec2 s = centres[j] - p;
+            const double sum = (radii[j] + radius) * (1.0 + 1e-9);
+            free &= dot(s, s) >= sum * sum;
+        });
+        return free;
+    };
+    const auto for_each_free_site = [&](double spacing, auto visit) {
+        for_each_site(spacing, reach, patience, [&](const Vec2& site) {
+            if (patience.ended()) return;
+            const Vec2 p = turned(site, turn);
+            if (is_free(p)) visit(p);
+        });
+    };
+    const auto count = [&](double spacing) {
+        std::size_t sites = 0;
+        for_each_free_site(spacing, [&](const Vec2&) { ++sites; });
+        return sites;
+    };
+    const double touching = 2.0 * radius * (1.0 + 1e-9);
+    const auto widest = widest_spacing(n, larger(4.0 * reach / square_root(double(n)), touching),
+                                       touching, count, patience);
+    if (!widest || patience.ended()) return false;
+    const double spacing = 0.5 * (touching + *widest);
+    std::vector<Vec2> sites;
+    for_each_free_site(spacing, [&](const Vec2& site) { sites.push_back(site); });
+    if (patience.ended() || sites.size() < n) return false;
+    choose(n, sites, random, patience);
+    shake(sites, 0.49 * (spacing - touching), random, patience, is_free);
+    centres.insert(centres.end(), sites.begin(), sites.end());
+    return true;
+}
+
+std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
+                                       Random& random, Patience& patience);
+
+/// The large discs first, then those that are smaller by far, into the gaps, and so on. Nothing if
+/// one of the sizes does not find room.
+std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
+                                               double container_radius, Random& random,
+                                               Patience& patience) {
+    std::vector<std::size_t> order(radii.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return radii[i] > radii[j]; });
+    std::vector<Vec2> placed;
+    std::vector<double> of_placed;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        const double largest = radii[order[begin]];
+        std::vector<double> alike;
+        for (; end < order.size() && very_unequal * radii[order[end]] > largest; ++end)
+            alike.push_back(radii[order[end]]);
+        if (begin == 0) {
+            const auto centres = place(alike, container_radius, random, patience);
+            if (!centres) return std::nullopt;
+            placed = *centres;
+        } else if (!fill_gaps(alike.size(), largest, container_radius, placed, of_placed, random,
+                              patience)) {
+            return std::nullopt;
+        }
+        of_placed.insert(of_placed.end(), alike.begin(), alike.end());
+    }
+    std::vector<Vec2> centres(radii.size());
+    for (std::size_t k = 0; k < order.size(); ++k) centres[order[k]] = placed[k];
+    return centres;
+}
+
+/// Discs that may fit, without overlap.
+std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
+                                       Random& random, Patience& patience) {
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double smallest = *std::min_element(radii.begin(), radii.end());
+    const double reach = container_radius - largest;
+    const auto widest = widest_spacing(
+        radii.size(), 4.0 * reach + 1.0, 0.0,
+        [&](double spacing) { return count_sites(spacing, reach, patience); }, patience);
+    if (!widest) return std::nullopt;
+    if (*widest > 2.0 * largest) {
+        // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
+        // dish that is all but empty a wider one, with some hundred sites for each disc.
+        const double spacing =
+            larger(largest + 0.5 * smaller(*widest, 3.0 * largest), sparsest * *widest);
+        auto centres = choose_sites(radii.size(), spacing, reach, random, patience);
+        shake(centres, 0.49 * (spacing - 2.0 * largest), random, patience,
+              [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
+        return centres;
+    }
+    // With less room than the margin with which overlaps are relaxed, that would not end.
+    const auto few = as_few_discs(radii, container_radius);
+    if (few && few->slack < relaxation_margin * smallest)
+        return place_few(*few, radii, container_radius, random);
+    if (very_unequal * smallest <= largest) {
+        const auto centres = place_by_size(radii, container_radius, random, patience);
+        if (centres || patience.ended()) return centres;
+    }
+    if (smallest < largest) {
+        auto centres = choose_sites(radii.size(), *widest, reach, random, patience);
+        if (push_apart(centres, radii, container_radius, patience)) return centres;
+    }
+    return relax(radii, container_radius, random, patience);
+}
+
+/// Morton's curve through the squares of a grid over the dish, 2¹⁶ by 2¹⁶: near numbers are near
+/// places, and mostly the other way round.
+std::uint32_t place_on_curve(const Vec2& p, double container_radius) {
+    const auto row = [&](double x) {
+        const double share = 0.5 + 0.5 * (x / container_radius);
+        return static_cast<std::uint32_t>(65535.0 * larger(0.0, smaller(share, 1.0)));
+    };
+    const auto with_gaps = [](std::uint32_t bits) {
+        bits = (bits | bits << 8) & 0x00ff00ffu;
+        bits = (bits | bits << 4) & 0x0f0f0f0fu;
+        bits = (bits | bits << 2) & 0x33333333u;
+        return (bits | bits << 1) & 0x55555555u;
+    };
+    return with_gaps(row(p.x)) | with_gaps(row(p.y)) << 1;
+}
+
+struct OnCurve {
+    std::uint32_t place, disc;
+};
+
+constexpr std::size_t discs_till_asked = 1 << 10;
+
+/// Eleven bits at a time, from the last on.
+void sort_by_place(std::vector<OnCurve>& all, Patience& patience) {
+    constexpr std::uint32_t digits = 1u << 11;
+    std::vector<OnCurve> sorted(all.size());
+    for (int shift = 0; shift < 32; shift += 11) {
+        const auto digit = [&](const OnCurve& one) { return one.place >> shift & (digits - 1); };
+        std::vector<std::size_t> next(digits + 1, 0);
+        for (const OnCurve& one : all) ++next[digit(one) + 1];
+        for (std::size_t d = 1; d < digits; ++d) next[d] += next[d - 1];
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (k % discs_till_asked == 0 && patience.ended()) return;
+            sorted[next[digit(all[k])]++] = all[k];
+        }
+        all.swap(sorted);
+    }
+}
+
+/// Of discs of one radius those beside each other have near numbers, so that whom an event looks at
+/// is near in memory, too.
+std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
+                                       const std::vector<double>& radii, double container_radius,
+                                       Patience& patience) {
+    std::vector<OnCurve> curve(centres.size());
+    struct Numbers {
+        std::vector<std::uint32_t> all;
+        std::size_t given = 0;
+    };
+    std::map<double, Numbers> of_radius;
+    for (std::uint32_t i = 0; i < centres.size(); ++i) {
+        if (i % discs_till_asked == 0 && patience.ended()) return {};
+        curve[i] = {place_on_curve(centres[i], container_radius), i};
+        of_radius[radii[i]].all.push_back(i);
+    }
+    sort_by_place(curve, patience);
+    std::vector<Vec2> numbered(centres.size());
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+        if (k % discs_till_asked == 0 && patience.ended()) return {};
+        Numbers& numbers = of_radius[radii[curve[k].disc]];
+        numbered[numbers.all[numbers.given++]] = centres[curve[k].disc];
+    }
+    return numbered;
+}
+
+/// As many discs are all in the processor's nearer caches, however they are numbered.
+constexpr std::size_t near_in_any_order = 4000;
+
+}  // namespace
+
+double most_discs_in_dish(double radius, double container_radius) {
+    const double rho = (container_radius - radius) / (2.0 * radius);
+    return std::floor(pi * rho * rho / row_height + pi * rho + 1.0);
+}
+
+std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
+                                             double container_radius, std::uint64_t seed,
+                                             const std::function<bool()>& is_stopped) {
+    if (radii.empty()) return std::vector<Vec2>{};
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const double smallest = *std::min_element(radii.begin(), radii.end());
+    if (!(container_radius >= largest)) return std::nullopt;
+    if (radii.size() > 1 && container_radius < sum_of_two_largest(radii)) return std::nullopt;
+    double area = 0.0;
+    for (const double r : radii) area += r * r;
+    if (area > container_radius * container_radius) return std::nullopt;
+    if (static_cast<double>(radii.size()) > most_discs_in_dish(smallest, container_radius))
+        return std::nullopt;
+    Random random(seed);
+    Patience patience(is_stopped);
+    auto centres = place(radii, container_radius, random, patience);
+    if (centres && radii.size() > near_in_any_order)
+        centres = numbered_along_curve(*centres, radii, container_radius, patience);
+    return patience.ended() ? std::nullopt : std::move(centres);
+}
+
+}  // namespace swirl

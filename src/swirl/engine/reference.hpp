@@ -1,0 +1,69 @@
+// The paper's method (SI, "Finding the next event") as one would tell it: find the times of all
+// events that may come, take the first, apply it. One disc or sphere after the other and nothing
+// remembered; the engine must agree with it bit for bit. When they touch, and what a collision does
+// to them, is reference_bodies.hpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "swirl/engine/pending_event.hpp"
+#include "swirl/engine/reference_bodies.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/initial_state.hpp"
+
+namespace swirl {
+
+class Reference {
+  public:
+    explicit Reference(const InitialState& initial)
+        : path_(initial.path), bodies_(initial), size_(bodies_.size()) {}
+
+    /// Says of the event what decides it; the normal and the overlap are left empty.
+    Event step() { return apply(first_of_all()); }
+
+    PendingEvent first_of_all() const {
+        PendingEvent first{never, size_, size_};
+        const auto consider = [&](const PendingEvent& event) {
+            if (precedes(event, first)) first = event;
+        };
+        for (std::uint32_t i = 0; i < size_; ++i) {
+            consider({bodies_.wall_time(i, leg()), i, i});
+            consider({bodies_.begins_to_roll(i), i, the_floor});
+            for (std::uint32_t j = i + 1; j < size_; ++j)
+                consider({bodies_.meeting_time(i, j), i, j});
+        }
+        return leg().end <= first.time ? PendingEvent{leg().end, size_, size_} : first;
+    }
+
+    Event apply(const PendingEvent& event) {
+        const auto [t, i, j] = event;
+        if (i == size_) return end_leg();
+        if (j == the_floor)
+            return {swirls_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
+                    0.0};
+        if (event.is_with_wall())
+            return {swirls_, t, EventKind::disc_wall, i, i, {}, bodies_.hit_wall(i, t, leg()), 0.0};
+        return {swirls_, t, EventKind::disc_disc, i, j, {}, bodies_.hit(i, j, t), 0.0};
+    }
+
+    const Disc& disc(std::size_t i) const { return bodies_.disc(i); }
+    const Leg& leg() const { return path_.legs[leg_]; }
+
+  private:
+    Event end_leg() {
+        const Event event{swirls_, leg().end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+        leg_ = (leg_ + 1) % path_.legs.size();
+        if (leg_ == 0) ++swirls_;
+        bodies_.end_leg(event.clock, leg(), leg_ == 0);
+        return event;
+    }
+
+    ContainerPath path_;
+    ReferenceBodies bodies_;
+    std::uint32_t size_;
+    std::size_t leg_ = 0;
+    std::int64_t swirls_ = 0;
+};
+
+}  // namespace swirl

@@ -1,0 +1,237 @@
+// What an event does to the discs. When the next one comes, and between whom, is for the loop to
+// find (event_loop.hpp).
+#pragma once
+
+#include "swirl/engine/collision_checks.hpp"
+#include "swirl/engine/neighbors/engine_state.hpp"
+#include "swirl/math/lanes.hpp"
+#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/event.hpp"
+
+namespace swirl {
+inline namespace SWIRL_TARGET {
+
+/// What an event needs of a disc: it flies straight, and the floor is none of its business.
+struct Discs {
+    using Body = swirl::Body;
+    static constexpr bool have_floor = false;
+
+    SWIRL_INLINE static Vec2 position_at(const EngineState& state, std::uint32_t i, double t) {
+        return state.discs[i].flight().position_at(t);
+    }
+    SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double) {
+        const HotDisc& d = state.discs[i];
+        const DiscKind& kind = state.kinds[d.kind];
+        return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
+    }
+    SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_body(velocity); }
+    SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
+        return state.discs[i].time;
+    }
+    SWIRL_INLINE static bool feel_every_leg(const EngineState&) { return false; }
+
+    /// How two meet, or one and the wall.
+    SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
+                                           double since_last, const Vec2&, const Vec2&) {
+        return swirl::at_contact(surface, since_last);
+    }
+
+    /// Brings disc i to time t and gives it its new velocities.
+    SWIRL_INLINE static void write_back(EngineState& state, std::uint32_t i, const Vec2& position,
+                                        double t, const Body& body) {
+        HotDisc& disc = state.discs[i];
+        state.cold(i).angle = state.cold(i).angle + (t - disc.time) * disc.spin;
+        store_four(&disc.position.x, position.x, position.y, body.velocity.x, body.velocity.y);
+        *reinterpret_cast<Double2*>(&disc.time) = Double2{t, disc.radius};
+        disc.spin = body.spin;
+        ++disc.collisions;
+    }
+    /// All clocks restart.
+    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i, bool) {
+        HotDisc& disc = state.discs[i];
+        state.cold(i).angle = state.cold(i).angle + (state.clock - disc.time) * disc.spin;
+        disc.position = disc.flight().position_at(state.clock);
+        disc.time = 0.0;
+        ++disc.collisions;
+    }
+};
+
+/// And of a sphere: it may slide, and its flight follows from its state and the floor's velocity.
+struct Spheres {
+    using Body = SphereBody;
+    static constexpr bool have_floor = true;
+
+    SWIRL_INLINE static Disc load(const EngineState& state, std::uint32_t i) {
+        const HotDisc& d = state.discs[i];
+        const DiscKind& kind = state.kinds[d.kind];
+        const SphereState& sphere = state.spheres[i];
+        return {d.position,
+                d.velocity,
+                state.cold(i).angle,
+                d.spin,
+                d.time,
+                d.radius,
+                kind.mass,
+                kind.inertia,
+                sphere.rolling_spin,
+                sphere.last_collision};
+    }
+    /// And how it moves from now on.
+    SWIRL_INLINE static void store(EngineState& state, std::uint32_t i, const Disc& sphere) {
+        HotDisc& d = state.discs[i];
+        d.position = sphere.position;
+        d.velocity = sphere.velocity;
+        d.time = sphere.time;
+        d.spin = sphere.spin;
+        ++d.collisions;
+        state.cold(i).angle = sphere.angle;
+        state.spheres[i] = {floor_motion(sphere, state.floor, state.legs[state.leg].velocity),
+                            sphere.rolling_spin, sphere.last_collision};
+    }
+    SWIRL_INLINE static Parabola<double> flight(const EngineState& state, std::uint32_t i) {
+        const HotDisc& d = state.discs[i];
+        return {d.position, d.velocity, state.spheres[i].motion.acceleration, d.time};
+    }
+
+    SWIRL_INLINE static Vec2 position_at(const EngineState& state, std::uint32_t i, double t) {
+        return flight(state, i).position_at(t);
+    }
+    SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double t) {
+        const Disc d = moved_to(load(state, i), state.spheres[i].motion, t);
+        const DiscKind& kind = state.kinds[state.discs[i].kind];
+        return {{d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia},
+                d.rolling_spin};
+    }
+    SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_for_spheres(velocity); }
+    SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
+        return state.spheres[i].last_collision;
+    }
+    SWIRL_INLINE static Surface at_contact(const EngineState& state, const Surface& surface,
+                                           double since_last, const Vec2& separation,
+                                           const Vec2& relative_velocity) {
+        return at_contact_on_floor(surface, since_last, state.floor, separation, relative_velocity);
+    }
+    /// The floor takes another velocity.
+    SWIRL_INLINE static bool feel_every_leg(const EngineState& state) {
+        return state.floor.deceleration != 0.0;
+    }
+
+    SWIRL_INLINE static void write_back(EngineState& state, std::uint32_t i, const Vec2& position,
+                                        double t, const Body& body) {
+        Disc sphere = load(state, i);
+        sphere.angle = sphere.angle + (t - sphere.time) * sphere.spin;
+        sphere.position = position;
+        sphere.velocity = body.velocity;
+        sphere.spin = body.spin;
+        sphere.rolling_spin = body.rolling_spin;
+        sphere.time = sphere.last_collision = t;
+        store(state, i, sphere);
+    }
+    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i,
+                                              bool clocks_restart) {
+        Disc sphere = moved_to(load(state, i), state.spheres[i].motion, state.clock);
+        if (clocks_restart) sphere.time = sphere.last_collision = 0.0;
+        store(state, i, sphere);
+    }
+    SWIRL_INLINE static Event begin_to_roll(EngineState& state, std::uint32_t i, double t) {
+        store(state, i,
+              set_rolling(load(state, i), state.spheres[i].motion, state.floor,
+                          state.legs[state.leg].velocity));
+        ++state.begun_to_roll;
+        return {state.swirls, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
+    }
+};
+
+/// Discs i < j meet at time t.
+template <class Bodies>
+SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint32_t j, double t) {
+    using Body = typename Bodies::Body;
+    const Vec2 at_i = Bodies::position_at(state, i, t);
+    const Vec2 at_j = Bodies::position_at(state, j, t);
+    const Body before_i = Bodies::body_at(state, i, t), before_j = Bodies::body_at(state, j, t);
+    Body body_i = before_i, body_j = before_j;
+    const Vec2 s = at_j - at_i;
+    const double since_last =
+        t - larger(Bodies::last_collision(state, i), Bodies::last_collision(state, j));
+    state.elastic_by_tc += is_elastic_by_tc_model(state.disc_surface, since_last);
+    const Surface surface = Bodies::at_contact(state, state.disc_surface, since_last, s,
+                                               body_j.velocity - body_i.velocity);
+    const Impulse impulse = collide(body_i, body_j, s, surface);
+    if constexpr (internal_checks && !Bodies::have_floor) {
+        const double rounding = rounding_of_contact(
+            state.discs[i].flight(), state.discs[j].flight(), body_i.radius + body_j.radius, t);
+        state.largest_rounding = larger(state.largest_rounding, rounding);
+        check_disc_collision({before_i, body_i, before_i.velocity},
+                             {before_j, body_j, before_i.velocity}, s, state.disc_surface, impulse,
+                             state.largest_rounding, state.overlapped_at_start);
+    }
+    Bodies::write_back(state, i, at_i, t, body_i);
+    Bodies::write_back(state, j, at_j, t, body_j);
+    ++state.disc_disc;
+    const double distance = square_root(dot(s, s));
+    return {state.swirls,
+            t,
+            EventKind::disc_disc,
+            i,
+            j,
+            {s.x / distance, s.y / distance},
+            impulse,
+            body_i.radius + body_j.radius - distance};
+}
+
+template <class Bodies>
+SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
+    using Body = typename Bodies::Body;
+    const Flight<double> centre = state.legs[state.leg].flight_at(t);
+    if (state.on_turning_leg()) state.turning_centre = centre;
+    const Vec2 at = Bodies::position_at(state, i, t);
+    const Body before = Bodies::body_at(state, i, t);
+    Body body = before, wall = Bodies::wall(centre.velocity);
+    const Vec2 s = at - centre.position;
+    const double since_last = t - Bodies::last_collision(state, i);
+    state.elastic_by_tc += is_elastic_by_tc_model(state.wall_surface, since_last);
+    const Surface surface =
+        Bodies::at_contact(state, state.wall_surface, since_last, s, wall.velocity - body.velocity);
+    const Impulse impulse = collide(body, wall, s, surface);
+    if constexpr (internal_checks && !Bodies::have_floor) {
+        const double clearance = state.container_radius - body.radius;
+        const double rounding =
+            rounding_of_wall_contact(state.discs[i].flight(), state.legs[state.leg], clearance, t);
+        state.largest_rounding = larger(state.largest_rounding, rounding);
+        check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
+                             clearance, state.wall_surface, impulse, state.largest_rounding,
+                             state.overlapped_at_start);
+    }
+    Bodies::write_back(state, i, at, t, body);
+    ++state.disc_wall;
+    const double distance = square_root(dot(s, s));
+    return {state.swirls,
+            t,
+            EventKind::disc_wall,
+            i,
+            i,
+            {s.x / distance, s.y / distance},
+            impulse,
+            distance - (state.container_radius - body.radius)};
+}
+
+/// The container takes its next leg. With the last leg of a swirl everybody is brought up to date
+/// and all clocks restart, so that times stay short and precise however long the run; state.clock
+/// is then 0. Who feels the floor is brought up to date with every leg.
+template <class Bodies>
+SWIRL_INLINE Event take_next_leg(EngineState& state) {
+    state.clock = state.legs[state.leg].end;
+    ++state.path_vertex;
+    const Event event{state.swirls, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    const bool is_last = ++state.leg == state.leg_count;
+    if (!is_last && !Bodies::feel_every_leg(state)) return event;
+    if (is_last) state.leg = 0;
+    for (std::uint32_t i = 0; i < state.size; ++i) Bodies::bring_up_to_date(state, i, is_last);
+    if (!is_last) return event;
+    state.clock = 0.0;
+    ++state.swirls;
+    return event;
+}
+
+}  // namespace SWIRL_TARGET
+}  // namespace swirl

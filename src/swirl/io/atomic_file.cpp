@@ -1,0 +1,306 @@
+#include "swirl/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "swirl/io/file_error.hpp"
+
+namespace swirl {
+namespace {
+
+/// Sixteen characters that nobody else has thought of, whatever the machine, the container and the
+/// number of the process are called.
+std::string random_name() {
+    std::uint64_t bits = 0;
+    if (::getrandom(&bits, sizeof bits, 0) != sizeof bits)
+        throw FileError(fmt::format("The system gave no random number: {}.", system_reason()));
+    return fmt::format("{:016x}", bits);
+}
+
+/// NAME.<sixteen hexadecimal digits>.partial
+bool is_aside_of(std::string_view name, std::string_view target) {
+    const std::size_t size = target.size() + 1 + 16 + partial_suffix.size();
+    if (name.size() != size || !name.starts_with(target) || !name.ends_with(partial_suffix) ||
+        name[target.size()] != '.')
+        return false;
+    const std::string_view digits = name.substr(target.size() + 1, 16);
+    return digits.find_first_not_of("0123456789abcdef") == digits.npos;
+}
+
+/// False, and errno says why, if it was not done: EEXIST where there is such a name. Some file
+/// systems rename over what is there only, some know no second name of a file; on those that can do
+/// neither nothing is left but to look and to hope.
+bool rename_to_new_name(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
+        return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+    if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0;
+    if (errno == EEXIST) return false;
+    if (::access(to.c_str(), F_OK) == 0) {
+        errno = EEXIST;
+        return false;
+    }
+    return ::rename(from.c_str(), to.c_str()) == 0;
+}
+
+constexpr std::size_t buffer_size = 1 << 20;
+
+}  // namespace
+
+bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+        offset += static_cast<std::uint64_t>(written);
+    }
+    return true;
+}
+
+void refuse_irregular(const std::filesystem::path& path) {
+    std::error_code ignored;
+    throw FileError(fmt::format("'{}' is {}.", path.string(),
+                                std::filesystem::is_directory(path, ignored)
+                                    ? "a folder, but it must be the name of a file to read"
+                                    : "not a regular file, but it must be one"));
+}
+
+std::string system_reason() { return std::generic_category().message(errno); }
+
+void sync_folder_of(const std::filesystem::path& path) {
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // Some file systems know no such wish, and say so.
+    const bool done = handle >= 0 && (::fsync(handle) == 0 || errno == EINVAL || errno == ENOTSUP);
+    const std::string reason = system_reason();
+    if (handle >= 0) ::close(handle);
+    if (!done)
+        throw FileError(fmt::format("'{}' could not be written to: {}.", folder.string(), reason));
+}
+
+SyncTogether::SyncTogether(const std::filesystem::path& folder)
+    : folder_(folder), handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (handle_ < 0) fail();
+}
+SyncTogether::~SyncTogether() { ::close(handle_); }
+
+void SyncTogether::fail() {
+    throw FileError(
+        fmt::format("'{}' could not be written to: {}.", folder_.string(), system_reason()));
+}
+
+void SyncTogether::sync() {
+    if (::syncfs(handle_) != 0) fail();
+}
+
+void refuse_to_replace(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const auto kind = std::filesystem::status(path, unknown).type();
+    if (kind == std::filesystem::file_type::regular ||
+        kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none)
+        return;
+    throw FileError(fmt::format("'{}' is {}, and no file can take its place.", path.string(),
+                                kind == std::filesystem::file_type::directory
+                                    ? "a folder"
+                                    : "a device, a pipe or a socket"));
+}
+
+void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
+    refuse_to_replace(path);
+    if (::rename(partial.c_str(), path.c_str()) != 0)
+        throw FileError(fmt::format("'{}' could not be renamed to '{}': {}.", partial.string(),
+                                    path.string(), system_reason()));
+    sync_folder_of(path);
+}
+
+WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
+    refuse_to_replace(path);
+    // Again if the name is taken, or if somebody took the file for a leftover before it was locked.
+    for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
+        aside_ = path.string() + "." + random_name() + std::string(partial_suffix);
+        file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file_ < 0 && errno != EEXIST) fail();
+        struct stat about;
+        if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0 && ::fstat(file_, &about) == 0 &&
+            about.st_nlink == 0)
+            ::close(std::exchange(file_, -1));
+    }
+    if (file_ < 0) fail();
+}
+
+WholeFile::~WholeFile() {
+    if (file_ < 0) return;
+    ::unlink(aside_.c_str());
+    ::close(file_);
+}
+
+void WholeFile::fail() {
+    throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
+}
+
+void WholeFile::empty_buffer() {
+    if (!write_at(file_, size_ - buffer_.size(), buffer_)) fail();
+    buffer_.clear();
+}
+
+void WholeFile::append(std::string_view bytes) {
+    if (buffer_.size() + bytes.size() < buffer_size) {
+        buffer_ += bytes;
+        size_ += bytes.size();
+        return;
+    }
+    empty_buffer();
+    if (!write_at(file_, size_, bytes)) fail();
+    size_ += bytes.size();
+}
+
+void WholeFile::replace(std::uint64_t offset, std::string_view bytes) {
+    empty_buffer();
+    if (!write_at(file_, offset, bytes)) fail();
+}
+
+void WholeFile::finish() {
+    empty_buffer();
+    if (::fsync(file_) != 0) fail();
+    give_name();
+    sync_folder_of(path_);
+}
+
+void WholeFile::give_name() {
+    if (::rename(aside_.c_str(), path_.c_str()) != 0) fail();
+    if (::close(std::exchange(file_, -1)) != 0) fail();
+}
+
+bool WholeFile::finish_as_new() {
+    empty_buffer();
+    if (::fsync(file_) != 0) fail();
+    if (!rename_to_new_name(aside_, path_)) {
+        if (errno != EEXIST) fail();
+        return false;
+    }
+    if (::close(std::exchange(file_, -1)) != 0) fail();
+    sync_folder_of(path_);
+    return true;
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+    WholeFile file(path);
+    file.append(bytes);
+    file.finish();
+}
+
+bool write_new_file(const std::filesystem::path& path, std::string_view bytes) {
+    WholeFile file(path);
+    file.append(bytes);
+    return file.finish_as_new();
+}
+
+std::filesystem::path free_name(const std::string& first) {
+    std::filesystem::path name = first;
+    std::error_code ignored;
+    for (int k = 2; std::filesystem::exists(name, ignored); ++k)
+        name = fmt::format("{}-{}", first, k);
+    return name;
+}
+
+void write_named_file(const std::filesystem::path& path, std::string_view bytes) {
+    write_whole_file(path, bytes);
+    remove_leftovers_of(path);
+}
+
+namespace {
+
+std::string read_to_the_end(int file, const std::filesystem::path& path, std::size_t most) {
+    std::string bytes;
+    struct stat about;
+    if (::fstat(file, &about) == 0 && about.st_size > 0)
+        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), most));
+    char block[65536];
+    ssize_t got;
+    while (bytes.size() <= most && (got = ::read(file, block, sizeof block)) != 0) {
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0)
+            throw FileError(
+                fmt::format("'{}' could not be read: {}.", path.string(), system_reason()));
+        bytes.append(block, static_cast<std::size_t>(got));
+    }
+    return bytes;
+}
+
+std::string read_file(const std::filesystem::path& path, bool regular_only,
+                      std::size_t most = std::string::npos - 1) {
+    // A pipe that nobody writes to would keep us waiting in open().
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (regular_only ? O_NONBLOCK : 0));
+    if (file < 0)
+        throw FileError(
+            fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
+    const auto close = [](const int* open) { ::close(*open); };
+    const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&file, close);
+    struct stat about;
+    const bool known = ::fstat(file, &about) == 0;
+    if (known && (S_ISDIR(about.st_mode) || (regular_only && !S_ISREG(about.st_mode))))
+        refuse_irregular(path);
+    return read_to_the_end(file, path, most);
+}
+
+}  // namespace
+
+std::string read_whole_file(const std::filesystem::path& path, std::size_t most) {
+    return read_file(path, false, most);
+}
+std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
+
+std::string first_bytes(const std::filesystem::path& path) {
+    std::error_code unknown;
+    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+        refuse_irregular(path);
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw FileError(fmt::format("'{}' cannot be opened.", path.string()));
+    std::string bytes(8, '\0');
+    stream.read(bytes.data(), 8);
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
+
+namespace {
+
+/// `name`: only what was to become that file.
+void remove_leftovers_in(const std::filesystem::path& folder, std::string_view name) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, error), end;
+         !error && it != end; it.increment(error)) {
+        const std::string found = it->path().filename().string();
+        const std::size_t tail = 1 + 16 + partial_suffix.size();
+        if (found.size() <= tail) continue;
+        const std::string target = found.substr(0, found.size() - tail);
+        if (!is_aside_of(found, target) || (!name.empty() && target != name)) continue;
+        const int file = ::open(it->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (file < 0) continue;
+        // Whoever still writes it has it locked.
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
+        ::close(file);
+    }
+}
+
+}  // namespace
+
+void remove_leftovers(const std::filesystem::path& folder) { remove_leftovers_in(folder, {}); }
+void remove_leftovers_of(const std::filesystem::path& path) {
+    remove_leftovers_in(path.parent_path(), path.filename().string());
+}
+
+}  // namespace swirl

@@ -1,0 +1,505 @@
+#include "swirl/io/export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <span>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/trajectory.hpp"
+
+namespace swirl {
+namespace {
+
+using Text = fmt::memory_buffer;
+
+std::string_view view(const Text& text) { return {text.data(), text.size()}; }
+
+template <class... Parts>
+void add(Text& text, fmt::format_string<Parts...> format, Parts&&... parts) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Parts>(parts)...);
+}
+
+double known(double value) { return std::isnan(value) ? 0.0 : value; }
+
+/// Discs of one radius and mass are one species, numbered in order of appearance.
+std::vector<int> species_of(const Snapshot& s, int& count) {
+    std::vector<std::pair<double, double>> kinds;
+    std::vector<int> species(s.size());
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const std::pair kind(s.radius[i], s.mass[i]);
+        const auto found = std::find(kinds.begin(), kinds.end(), kind);
+        species[i] = int(found - kinds.begin());
+        if (found == kinds.end()) kinds.push_back(kind);
+    }
+    count = std::max(1, int(kinds.size()));
+    return species;
+}
+
+template <class Write>
+void write_frames(const SnapshotSeries& series, const ExportOptions& options, Write&& write) {
+    const std::uint64_t count = exported_frames(series, options);
+    for (std::uint64_t n = 0; n < count; ++n) {
+        const std::uint64_t k = options.first + n * options.stride;
+        write(k, series.frame(k));
+        if (options.done) options.done(n + 1);
+    }
+}
+
+/// Of which everything is known: a recording of ours.
+bool has_spheres(const SnapshotSeries& series) {
+    if (series.frames == 0) return false;
+    const Snapshot first = series.frame(0);
+    return first.are_spheres() && !first.turned.empty();
+}
+
+void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        int kinds;
+        const std::vector<int> species = species_of(s, kinds);
+        Text text;
+        add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
+            s.size());
+        add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
+        add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass {}\n",
+            !s.are_spheres()   ? "omegaz"
+            : s.turned.empty() ? "omegaz omegax omegay"
+                               : "omegaz omegax omegay quatw quati quatj quatk");
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
+            const Vec2 p = s.position(i);
+            add(text, "{} {} {} {} 0 {} {} 0 {} {} {}", i + 1, species[i] + 1, p.x, p.y, s.vx[i],
+                s.vy[i], s.radius[i], s.mass[i], known(s.spin[i]));
+            if (s.are_spheres()) add(text, " {} {}", s.spin_x[i], s.spin_y[i]);
+            if (!s.turned.empty()) {
+                const Quaternion q = s.quaternion(i);
+                add(text, " {} {} {} {}", q.w, q.x, q.y, q.z);
+            }
+            add(text, "\n");
+        }
+        file.append(view(text));
+    });
+}
+
+void write_xyz(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    write_frames(series, options, [&](std::uint64_t, const Snapshot& s) {
+        int kinds;
+        const std::vector<int> species = species_of(s, kinds);
+        Text text;
+        add(text,
+            "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{} Time={} "
+            "pbc=\"F F F\"\n",
+            s.size(), s.are_spheres() ? 3 : 1, s.turned.empty() ? "" : ":orientation:R:4",
+            s.time());
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
+            const Vec2 p = s.position(i);
+            add(text, "D{} {} {} 0 {} {} 0 ", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i]);
+            if (s.are_spheres()) add(text, "{} {} ", s.spin_x[i], s.spin_y[i]);
+            add(text, "{} {} {}", known(s.spin[i]), s.radius[i], i + 1);
+            if (!s.turned.empty()) {
+                const Quaternion q = s.quaternion(i);
+                add(text, " {} {} {} {}", q.x, q.y, q.z, q.w);  // as OVITO has them
+            }
+            add(text, "\n");
+        }
+        file.append(view(text));
+    });
+}
+
+void write_csv(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    file.append("frame,particle,x,y\n");
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        Text text;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
+            const Vec2 p = s.position(i);
+            add(text, "{},{},{},{}\n", k, i, (series.reach + p.x) * options.pixels_per_radius,
+                (series.reach - p.y) * options.pixels_per_radius);
+        }
+        file.append(view(text));
+    });
+}
+
+/// What is not known is an empty cell.
+void add_known(Text& text, double value) {
+    if (std::isnan(value))
+        add(text, ",");
+    else
+        add(text, ",{}", value);
+}
+
+void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    const bool spheres = has_spheres(series);
+    file.append(
+        "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
+        "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)");
+    if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
+    file.append("\n");
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        Text text;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            options.listen_at(i);
+            const Vec2 p = s.position(i);
+            add(text, "{},{},{},{},{},{},{},{}", k, s.time(), double(s.swirls) + s.clock / s.period,
+                s.container_centre.x, s.container_centre.y, i, p.x, p.y);
+            for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
+                                       s.mass[i], s.inertia[i]})
+                add_known(text, value);
+            if (spheres) {
+                const Quaternion q = s.quaternion(i);
+                add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
+            }
+            add(text, "\n");
+        }
+        file.append(view(text));
+    });
+}
+
+// --- VTK -----------------------------------------------------------------------------------------
+
+std::string base64(std::string_view bytes) {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= n ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+template <class T>
+void add_array(Text& text, const char* type, const char* name, int components,
+               const std::vector<T>& values) {
+    const std::uint64_t size = values.size() * sizeof(T);
+    std::string bytes(sizeof size + size, '\0');
+    std::memcpy(bytes.data(), &size, sizeof size);
+    if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+    add(text,
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n"
+        "</DataArray>\n",
+        type, name, components, base64(bytes));
+}
+
+std::string vtp_of(const Snapshot& s) {
+    const std::size_t n = s.size();
+    std::vector<double> points(3 * n), velocity(3 * n), angle(n);
+    std::vector<std::int64_t> connectivity(n), offsets(n), id(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 p = s.position(i);
+        points[3 * i] = p.x;
+        points[3 * i + 1] = p.y;
+        velocity[3 * i] = s.vx[i];
+        velocity[3 * i + 1] = s.vy[i];
+        angle[i] = s.orientation(i);
+        connectivity[i] = id[i] = std::int64_t(i);
+        offsets[i] = std::int64_t(i + 1);
+    }
+    Text text;
+    add(text,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+        "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+        n);
+    add_array(text, "Float64", "Points", 3, points);
+    add(text, "</Points>\n<Verts>\n");
+    add_array(text, "Int64", "connectivity", 1, connectivity);
+    add_array(text, "Int64", "offsets", 1, offsets);
+    add(text, "</Verts>\n<PointData>\n");
+    add_array(text, "Float64", "velocity", 3, velocity);
+    add_array(text, "Float64", "angle", 1, angle);
+    add_array(text, "Float64", "spin", 1, s.spin);
+    if (s.are_spheres()) {
+        add_array(text, "Float64", "spin_x", 1, s.spin_x);
+        add_array(text, "Float64", "spin_y", 1, s.spin_y);
+    }
+    if (!s.turned.empty()) {
+        std::vector<double> turned;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Quaternion q = s.quaternion(i);
+            turned.insert(turned.end(), {q.w, q.x, q.y, q.z});
+        }
+        add_array(text, "Float64", "turned", 4, turned);
+    }
+    add_array(text, "Float64", "radius", 1, s.radius);
+    add_array(text, "Float64", "mass", 1, s.mass);
+    add_array(text, "Int64", "id", 1, id);
+    add(text, "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+    return fmt::to_string(text);
+}
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// The frames, under their names; what the index says of them. Those of a call that fails are
+/// removed.
+std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem::path& folder,
+                             const ExportOptions& options) {
+    std::vector<std::filesystem::path> written;
+    Text index;
+    add(index,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n<Collection>\n");
+    try {
+        SyncTogether frames(folder);
+        write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+            const std::string name = fmt::format("{:06}.vtp", k);
+            WholeFile frame(folder / name);  // the index waits for the disk, not each frame
+            frame.append(vtp_of(s));
+            frame.empty_buffer();
+            frame.give_name();
+            written.push_back(folder / name);
+            add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
+                escaped(folder.filename().string()), name);
+        });
+        frames.sync();
+    } catch (...) {
+        std::error_code ignored;
+        for (const auto& frame : written) std::filesystem::remove(frame, ignored);
+        std::filesystem::remove(folder, ignored);  // unless something else is in it
+        throw;
+    }
+    add(index, "</Collection>\n</VTKFile>\n");
+    return fmt::to_string(index);
+}
+
+/// The index goes first, if there is one, and comes last: it never names a frame that is not there,
+/// or is of another recording.
+void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
+               const ExportOptions& options) {
+    std::filesystem::path folder = path;
+    folder.replace_extension();
+    if (folder == path) folder += "_frames";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw FileError(fmt::format("The folder '{}' could not be made: {}.", folder.string(),
+                                    error.message()));
+    remove_leftovers(folder);
+    refuse_to_replace(path);
+    std::filesystem::remove(path, error);
+    write_named_file(path, write_vtp_frames(series, folder, options));
+}
+
+// --- GSD (gsd.readthedocs.io, "File layer", version 2.0) -----------------------------------------
+
+struct GsdHeader {
+    std::uint64_t magic = 0x65DF65DF65DF65DF;
+    std::uint64_t index_location = 0, index_allocated_entries = 0;
+    std::uint64_t namelist_location = 0, namelist_allocated_entries = 0;
+    std::uint32_t schema_version = 1u << 16 | 4u;
+    std::uint32_t gsd_version = 2u << 16;
+    char application[64] = "swirl";
+    char schema[64] = "hoomd";
+    char reserved[80] = {};
+};
+static_assert(sizeof(GsdHeader) == 256);
+
+struct GsdEntry {
+    std::uint64_t frame, N;
+    std::int64_t location;
+    std::uint32_t M;
+    std::uint16_t id;
+    std::uint8_t type, flags;
+};
+static_assert(sizeof(GsdEntry) == 32);
+
+enum GsdType : std::uint8_t {
+    gsd_u8 = 1,
+    gsd_u32 = 3,
+    gsd_u64 = 4,
+    gsd_i8 = 5,
+    gsd_f32 = 9,
+    gsd_f64
+};
+
+class GsdWriter {
+  public:
+    GsdWriter(WholeFile& file, bool of_spheres) : file_(file) {
+        file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
+        std::string list;
+        // A name that is there must have values.
+        for (const char* name : std::span(names).first(names.size() - (of_spheres ? 0 : 1)))
+            list += name + std::string(1, '\0');
+        header_.namelist_location = file_.size();
+        header_.namelist_allocated_entries = (list.size() + 63) / 64;
+        list.resize(64 * header_.namelist_allocated_entries);
+        file_.append(list);
+    }
+    template <class T>
+    void add(std::string_view name, GsdType type, const std::vector<T>& values,
+             std::uint32_t columns) {
+        const auto id = std::find(std::begin(names), std::end(names), name) - std::begin(names);
+        entries_.push_back({frame_, values.size() / columns, std::int64_t(file_.size()), columns,
+                            std::uint16_t(id), type, 0});
+        file_.append({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    }
+    void end_frame() { ++frame_; }
+    void finish() {
+        // Readers look entries up by bisection; the spare one at the end marks the end.
+        std::stable_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) {
+            return a.frame != b.frame ? a.frame < b.frame : a.id < b.id;
+        });
+        entries_.push_back({});
+        header_.index_location = file_.size();
+        header_.index_allocated_entries = entries_.size();
+        file_.append(
+            {reinterpret_cast<const char*>(entries_.data()), entries_.size() * sizeof(GsdEntry)});
+        file_.replace(0, {reinterpret_cast<const char*>(&header_), sizeof header_});
+    }
+
+  private:
+    static constexpr std::array names{"configuration/step",
+                                      "configuration/dimensions",
+                                      "configuration/box",
+                                      "particles/N",
+                                      "particles/types",
+                                      "particles/typeid",
+                                      "particles/mass",
+                                      "particles/diameter",
+                                      "particles/moment_inertia",
+                                      "particles/position",
+                                      "particles/orientation",
+                                      "particles/velocity",
+                                      "particles/angmom",
+                                      "log/particles/angular_velocity",
+                                      "log/time",
+                                      "log/particles/rolling_spin"};
+    WholeFile& file_;
+    GsdHeader header_;
+    std::vector<GsdEntry> entries_;
+    std::uint64_t frame_ = 0;
+};
+
+/// As HOOMD has it: 2 q L, L = q̄ (I ω) q in the body's own axes, that is 2 (I ω) q. Zero where the
+/// spin or the moment of inertia is not known.
+Quaternion angular_momentum(const Snapshot& s, std::size_t i, const Quaternion& q) {
+    const double twice = 2.0 * known(s.inertia[i]);
+    const Vec2 rolling = s.are_spheres() ? Vec2{s.spin_x[i], s.spin_y[i]} : Vec2{0.0, 0.0};
+    return Quaternion{0.0, twice * rolling.x, twice * rolling.y, twice * known(s.spin[i])} * q;
+}
+
+void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+    GsdWriter gsd(file, has_spheres(series));
+    const float width = float(2.0 * series.reach);
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        const std::size_t n = s.size();
+        gsd.add("configuration/step", gsd_u64, std::vector<std::uint64_t>{k}, 1);
+        if (k == options.first) {
+            gsd.add("configuration/dimensions", gsd_u8, std::vector<std::uint8_t>{2}, 1);
+            gsd.add("configuration/box", gsd_f32, std::vector<float>{width, width, 1, 0, 0, 0}, 1);
+        }
+        gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(n)}, 1);
+        if (k == options.first || !series.same_discs()) {
+            int kinds;
+            const std::vector<int> species = species_of(s, kinds);
+            std::vector<char> types;
+            for (int kind = 0; kind < kinds; ++kind)
+                for (const char c : fmt::format("D{:<14}", kind + 1))
+                    types.push_back(c == ' ' ? '\0' : c);
+            gsd.add("particles/types", gsd_i8, types, 15);
+            gsd.add("particles/typeid", gsd_u32,
+                    std::vector<std::uint32_t>(species.begin(), species.end()), 1);
+            std::vector<float> mass(s.mass.begin(), s.mass.end()), diameter, inertia;
+            for (std::size_t i = 0; i < n; ++i) {
+                diameter.push_back(float(2.0 * s.radius[i]));
+                const float about_z = float(known(s.inertia[i]));
+                const float about_xy = s.are_balls() ? about_z : 0.0f;
+                inertia.insert(inertia.end(), {about_xy, about_xy, about_z});
+            }
+            gsd.add("particles/mass", gsd_f32, mass, 1);
+            gsd.add("particles/diameter", gsd_f32, diameter, 1);
+            gsd.add("particles/moment_inertia", gsd_f32, inertia, 3);
+        }
+        std::vector<float> position, orientation, velocity, momentum;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec2 p = s.position(i);
+            const double half = 0.5 * known(s.orientation(i));
+            const Quaternion q = s.turned.empty()
+                                     ? Quaternion{std::cos(half), 0.0, 0.0, std::sin(half)}
+                                     : s.quaternion(i);
+            position.insert(position.end(), {float(p.x), float(p.y), 0.0f});
+            orientation.insert(orientation.end(), {float(q.w), float(q.x), float(q.y), float(q.z)});
+            velocity.insert(velocity.end(), {float(s.vx[i]), float(s.vy[i]), 0.0f});
+            const Quaternion L = angular_momentum(s, i, q);
+            momentum.insert(momentum.end(), {float(L.w), float(L.x), float(L.y), float(L.z)});
+        }
+        gsd.add("particles/position", gsd_f32, position, 3);
+        gsd.add("particles/orientation", gsd_f32, orientation, 4);
+        gsd.add("particles/velocity", gsd_f32, velocity, 3);
+        gsd.add("particles/angmom", gsd_f32, momentum, 4);
+        gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
+        if (s.are_spheres()) {
+            std::vector<double> rolling;
+            for (std::size_t i = 0; i < n; ++i)
+                rolling.insert(rolling.end(), {s.spin_x[i], s.spin_y[i]});
+            gsd.add("log/particles/rolling_spin", gsd_f64, rolling, 2);
+        }
+        gsd.add("log/time", gsd_f64, std::vector<double>{s.time()}, 1);
+        gsd.end_frame();
+    });
+    gsd.finish();
+}
+
+template <auto write>
+void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
+                const ExportOptions& options) {
+    WholeFile file(path);
+    write(series, file, options);
+    file.finish();
+    remove_leftovers_of(path);
+}
+
+constexpr std::array formats{
+    ExportFormat{"lammps", ".dump", "text dump, for OVITO, VMD", whole_file<write_lammps>},
+    ExportFormat{"xyz", ".xyz", "extended, for OVITO, ASE", whole_file<write_xyz>},
+    ExportFormat{"vtp", ".pvd", "ParaView, VTK", write_vtp},
+    ExportFormat{"csv", ".csv", "trackpy, in pixels", whole_file<write_csv>},
+    ExportFormat{"table", ".csv", "CSV of everything, in units of a run", whole_file<write_table>},
+    ExportFormat{"gsd", ".gsd", "HOOMD", whole_file<write_gsd>},
+};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return formats; }
+
+const ExportFormat* export_format(std::string_view name) {
+    for (const ExportFormat& format : formats)
+        if (format.name == name) return &format;
+    return nullptr;
+}
+
+std::uint64_t exported_frames(const SnapshotSeries& series, const ExportOptions& options) {
+    const std::uint64_t end = options.last < series.frames ? options.last + 1 : series.frames;
+    return options.first < end ? (end - options.first - 1) / options.stride + 1 : 0;
+}
+
+void export_series(const SnapshotSeries& series, const ExportFormat& format,
+                   const std::filesystem::path& path, const ExportOptions& options) {
+    format.write(series, path, options);
+}
+
+}  // namespace swirl

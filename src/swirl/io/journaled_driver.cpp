@@ -1,0 +1,106 @@
+#include "swirl/io/journaled_driver.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+
+namespace swirl {
+namespace {
+
+struct StagedDriver {
+    H5FD_t common;  // must come first: the library sees this
+    StagedFile* file;
+    haddr_t end_of_allocation;
+    std::string* failure;  // the sentence of the first failure
+};
+
+StagedDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<StagedDriver*>(file); }
+const StagedDriver& driver_of(const H5FD_t* file) {
+    return *reinterpret_cast<const StagedDriver*>(file);
+}
+
+template <class Action>
+herr_t guarded(StagedDriver& driver, Action&& action) {
+    try {
+        action();
+        return 0;
+    } catch (const std::exception& error) {
+        if (driver.failure->empty()) *driver.failure = error.what();
+        return -1;
+    }
+}
+
+struct Opening {
+    StagedFile* file;
+    std::string* failure;
+};
+Opening opening;
+
+const H5FD_class_t& driver_class() {
+    static const H5FD_class_t driver = [] {
+        H5FD_class_t c;
+        std::memset(&c, 0, sizeof c);
+        c.name = "swirl_staged";
+        c.maxaddr = haddr_t(1) << 62;
+        c.fc_degree = H5F_CLOSE_STRONG;
+        c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
+            if (opening.file == nullptr) return nullptr;
+            auto* d = static_cast<StagedDriver*>(std::calloc(1, sizeof(StagedDriver)));
+            if (d == nullptr) return nullptr;
+            d->file = opening.file;
+            d->failure = opening.failure;
+            return &d->common;
+        };
+        c.close = [](H5FD_t* file) -> herr_t {
+            std::free(&driver_of(file));
+            return 0;
+        };
+        c.cmp = [](const H5FD_t* a, const H5FD_t* b) {
+            const auto *x = driver_of(a).file, *y = driver_of(b).file;
+            return x < y ? -1 : x > y ? 1 : 0;
+        };
+        c.query = [](const H5FD_t*, unsigned long* flags) -> herr_t {
+            *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
+                     H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+            return 0;
+        };
+        c.get_eoa = [](const H5FD_t* file, H5FD_mem_t) {
+            return driver_of(file).end_of_allocation;
+        };
+        c.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
+            driver_of(file).end_of_allocation = end;
+            return 0;
+        };
+        c.get_eof = [](const H5FD_t* file, H5FD_mem_t) -> haddr_t {
+            return driver_of(file).file->size();
+        };
+        c.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* to) -> herr_t {
+            return guarded(driver_of(file), [&] { driver_of(file).file->read(at, to, size); });
+        };
+        c.write = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size,
+                     const void* from) -> herr_t {
+            return guarded(driver_of(file), [&] { driver_of(file).file->write(at, from, size); });
+        };
+        c.truncate = [](H5FD_t* file, hid_t, hbool_t) -> herr_t {
+            driver_of(file).file->resize(driver_of(file).end_of_allocation);
+            return 0;
+        };
+        const H5FD_mem_t map[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
+        std::copy(std::begin(map), std::end(map), std::begin(c.fl_map));
+        return c;
+    }();
+    return driver;
+}
+
+}  // namespace
+
+hid_t staged_driver() {
+    static const hid_t id = H5FDregister(&driver_class());
+    return id;
+}
+
+OpensOnly::OpensOnly(StagedFile& file, std::string& failure) { opening = {&file, &failure}; }
+OpensOnly::~OpensOnly() { opening = {}; }
+
+}  // namespace swirl

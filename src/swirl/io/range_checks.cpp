@@ -1,0 +1,80 @@
+#include "swirl/io/range_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "swirl/io/file_error.hpp"
+#include "swirl/physics/limits.hpp"
+
+namespace swirl {
+namespace {
+
+class PossibleDish {
+  public:
+    PossibleDish(const Snapshot& snapshot, Spins spins, const std::string& file)
+        : s_(snapshot), spins_(spins), file_(file) {}
+
+    void container() const {
+        between("number of swirls", double(s_.swirls), -most_periods, most_periods);
+        between("period", s_.period, smallest_value, largest_value);
+        // Rounded: of a camera's tracks it is the time less the whole swirls before.
+        const double rounding = 1e-6 * s_.period;
+        between("clock", s_.clock, -rounding, s_.period + rounding);
+        between("container radius", s_.container_radius, smallest_value, largest_value);
+        within("container's position", s_.container_centre, largest_coordinate);
+        within("container's velocity", s_.container_velocity, largest_magnitude);
+    }
+    void disc(std::size_t i) {
+        disc_ = i;
+        const double R = s_.container_radius;
+        // A disc as large as its container is rounded up to it.
+        between("radius", s_.radius[i], smallest_value, R * (1.0 + 1e-9));
+        between("mass", s_.mass[i], smallest_value, largest_value);
+        within("velocity", s_.velocity(i), largest_magnitude);
+        within("position", s_.position(i), largest_coordinate);
+        if (is_known(s_.inertia[i]))
+            between("moment of inertia", s_.inertia[i], smallest_inertia, largest_inertia);
+        if (is_known(s_.angle[i])) within("angle", s_.angle[i], largest_magnitude);
+        if (is_known(s_.spin[i])) within("spin", s_.spin[i], largest_magnitude);
+        if (!s_.are_spheres()) return;
+        within("rolling spin", Vec2{s_.spin_x[i], s_.spin_y[i]}, largest_magnitude);
+        if (s_.turned.empty()) return;
+        const Quaternion& q = s_.turned[i];
+        // Of length 1; the products of many rotations are rounded.
+        between("orientation's length", q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.99, 1.01);
+    }
+
+  private:
+    bool is_known(double value) const { return spins_ == Spins::known || !std::isnan(value); }
+    void between(const char* name, double value, double from, double to) const {
+        if (value >= from && value <= to) return;
+        throw FileError(fmt::format("{} {}{} is {} in swirl {}, but must be from {} to {}.",
+                                    file_.empty() ? "The" : fmt::format("'{}': the", file_), name,
+                                    disc_ ? fmt::format(" of disc {}", *disc_) : "", value,
+                                    s_.swirls, from, to));
+    }
+    void within(const char* name, double value, double most) const {
+        between(name, value, -most, most);
+    }
+    void within(const char* name, const Vec2& value, double most) const {
+        within(name, value.x, most);
+        within(name, value.y, most);
+    }
+
+    const Snapshot& s_;
+    const Spins spins_;
+    const std::string& file_;
+    std::optional<std::size_t> disc_;
+};
+
+}  // namespace
+
+void require_possible(const Snapshot& snapshot, Spins spins, const std::string& file) {
+    PossibleDish check(snapshot, spins, file);
+    check.container();
+    for (std::size_t i = 0; i < snapshot.size(); ++i) check.disc(i);
+}
+
+}  // namespace swirl

@@ -1,0 +1,122 @@
+#include "swirl/io/toml_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/utf8.hpp"
+
+namespace swirl {
+namespace {
+
+/// The parser must not see what is no text: where the first such byte is.
+std::optional<std::size_t> first_bad_byte(std::string_view text) {
+    const auto is_control = [](char c) {
+        return (c >= 0 && c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
+    };
+    const auto control = std::find_if(text.begin(), text.end(), is_control);
+    const auto at = static_cast<std::size_t>(control - text.begin());
+    if (const auto bad = first_byte_not_utf8(text.substr(0, at))) return bad;
+    return control == text.end() ? std::nullopt : std::optional(at);
+}
+
+int line_of(std::string_view text, std::size_t at) {
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+}
+
+/// The line with a number, as far as a sentence can quote it; "" if it is longer.
+std::string_view quotable_line(std::string_view text, std::size_t number) {
+    for (; number > 1; --number) {
+        const std::size_t end = text.find('\n');
+        if (end == text.npos) return "";
+        text.remove_prefix(end + 1);
+    }
+    text = text.substr(0, text.find_first_of("\r\n"));
+    return text.size() > 60 ? "" : text;
+}
+
+class Reader {
+  public:
+    explicit Reader(std::string_view name) : name_(name) {}
+
+    [[noreturn]] void wrong(int line, std::string_view what) const {
+        throw FileError(fmt::format("'{}', line {}: {}.", name_, line, what));
+    }
+
+    /// What the parser says of it is written for programmers.
+    [[noreturn]] void not_toml(std::string_view text, const toml::source_position& at) const {
+        const std::string_view line = quotable_line(text, at.line);
+        throw FileError(fmt::format(
+            "'{}', line {}, column {}: {} is not TOML, where a line is NAME = VALUE, each name "
+            "once, texts in quotation marks and lists in square brackets.",
+            name_, at.line, at.column, line.empty() ? "this" : fmt::format("'{}'", line)));
+    }
+
+    std::string value(const toml::node& node, std::string_view key) const {
+        if (const auto* text = node.as_string()) return text->get();
+        if (const auto* number = node.as_integer()) return std::to_string(number->get());
+        if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+        if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+        wrong(int(node.source().begin.line),
+              fmt::format("{} must be a number, a text or a list of them", key));
+    }
+
+    ConfigEntry entry(const toml::node& node, std::string_view key) const {
+        ConfigEntry entry;
+        entry.line = int(node.source().begin.line);
+        if (node.is_table())
+            wrong(
+                entry.line,
+                fmt::format("[{}] is a table; write the names of the options without tables", key));
+        const toml::array* list = node.as_array();
+        entry.is_list = list != nullptr;
+        if (list == nullptr) {
+            entry.values.push_back(value(node, key));
+        } else {
+            for (const toml::node& element : *list) entry.values.push_back(value(element, key));
+        }
+        return entry;
+    }
+
+  private:
+    std::string_view name_;
+};
+
+}  // namespace
+
+Config parse_config(std::string text, std::string_view name) {
+    const Reader reader(name);
+    if (text.size() > largest_config)
+        throw FileError(
+            fmt::format("'{}' is longer than {} bytes; a configuration has at most as many.", name,
+                        largest_config));
+    if (const auto bad = first_bad_byte(text))
+        reader.wrong(line_of(text, *bad),
+                     fmt::format("byte 0x{:02x} is not UTF-8 text; a configuration is a text file",
+                                 static_cast<unsigned char>(text[*bad])));
+    Config config;
+    try {
+        const toml::table table = toml::parse(text, name);
+        for (const auto& [key, node] : table) {
+            std::string option(key.str());
+            std::replace(option.begin(), option.end(), '-', '_');
+            if (!config.entries.emplace(option, reader.entry(node, key.str())).second)
+                reader.wrong(int(node.source().begin.line),
+                             fmt::format("{} is given twice", option));
+        }
+    } catch (const toml::parse_error& error) {
+        reader.not_toml(text, error.source().begin);
+    }
+    config.text = std::move(text);
+    return config;
+}
+
+Config read_config(const std::filesystem::path& path) {
+    return parse_config(read_whole_file(path, largest_config), path.string());
+}
+
+}  // namespace swirl

@@ -1,0 +1,89 @@
+// How fast the discs turn about the cluster's centre of mass, against where they are: the paper's
+// Fig. 3.
+//
+//   plain (3a)       ⟨ϖ_M,i⟩ over the discs found in a slice of θ, ϖ_M,i = ϖ_i − Ω, in units of Ω
+//   of the wall      ⟨ϖ_wall(θ_i)⟩ over the same discs: at θ the wall's point p = R (cos θ, sin θ)
+//                    passes the centre of mass at the rate
+//                    (p − r_cm) × (v_wall − v_cm) / |p − r_cm|², everything in the M-frame,
+//                    v_wall = −Ω ẑ × p; in units of Ω
+//   normalised (3b)  the first divided by the second: 1 where the discs move with the wall
+//   distance, speed  of the same discs from the centre of mass, and relative to it in the frame
+//                    that turns with Ω: where the cluster is long, ϖ_M falls though the speed does
+//                    not (caption of Fig. 3a)
+//
+// A cluster that moves rigidly with the wall has −1, −1 and 1 in every slice. The paper normalises
+// because the centre of mass is not at C, so even the wall passes it at a rate that depends on θ.
+//
+// Units: Ω. Slices are equal, the first begins at θ = 0 (m_frame.hpp: +x; M is at 3π/2).
+// Normalisation: every disc found in a slice counts the same at every sample. Error from blocks of
+// periods. Limits: a slice never visited: NaN. A disc nearer to the centre of mass than its own
+// radius is left out: ϖ_i is a speed divided by that distance, and without the cut-off its variance
+// has no bound, so that a single disc may make the mean of a slice.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+
+namespace swirl {
+
+class AngularProfile {
+  public:
+    explicit AngularProfile(std::size_t slices = 72) : cells_(slices) {}
+
+    void sample(const MFrameView& view);
+    void close_block() { cells_.close_block(); }
+
+    std::size_t slices() const { return cells_.size(); }
+    /// The middle of a slice, in radians.
+    double theta(std::size_t slice) const {
+        return 2.0 * pi * (static_cast<double>(slice) + 0.5) / static_cast<double>(cells_.size());
+    }
+    double visits(std::size_t slice) const { return cells_.visits(slice); }
+    Estimate plain(std::size_t slice) const { return cells_.estimate(slice, 0); }
+    Estimate wall(std::size_t slice) const { return cells_.estimate(slice, 1); }
+    Estimate distance(std::size_t slice) const { return cells_.estimate(slice, 2); }
+    Estimate speed(std::size_t slice) const { return cells_.estimate(slice, 3); }
+    Estimate normalised(std::size_t slice) const {
+        const double wall_mean = cells_.mean(slice, 1);
+        return scaled(cells_.estimate(slice, 0), 1.0 / wall_mean);
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "angular velocity about the centre of mass, in slices of θ",
+                          {{"theta", "°"},
+                           {"visits", "1"},
+                           {"varpi_m", "Ω"},
+                           {"varpi_m_error", "Ω"},
+                           {"wall", "Ω"},
+                           {"normalised", "1"},
+                           {"normalised_error", "1"},
+                           {"distance", "r"},
+                           {"distance_error", "r"},
+                           {"speed", "v"},
+                           {"speed_error", "v"}}};
+        for (std::size_t s = 0; s < slices(); ++s) {
+            const Estimate own = plain(s), ratio = normalised(s), away = distance(s),
+                           fast = speed(s);
+            table.add({theta(s) * degrees_per_radian, visits(s), own.mean, own.error, wall(s).mean,
+                       ratio.mean, ratio.error, away.mean, away.error, fast.mean, fast.error});
+        }
+        visit(std::move(table));
+    }
+    void merge(const AngularProfile& other) { cells_.merge(other.cells_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(cells_);
+    }
+
+  private:
+    CellMeans<4> cells_;
+    std::vector<double> own_, wall_, slice_;  // of one sample
+};
+
+}  // namespace swirl

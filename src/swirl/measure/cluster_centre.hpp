@@ -1,0 +1,146 @@
+// Where the cluster is in the M-frame, what shape it has, and which forces act on its discs there
+// (paper, main text: the centrifugal force pushes the discs towards M, the Coriolis force to the
+// left of it; the oblong shape of the cluster).
+//
+//   x, y          of the centre of mass; M is at (0, −R), so x < 0 is left of it
+//   distance      of the centre of mass from C
+//   theta         direction of the centre of mass about C; M is at 270°, a smaller θ is clockwise
+//                 of it: by 270° − θ the cluster lags behind the swirl
+//   left          share of the discs with x < 0
+//   elongation    √(λ₁/λ₂) of the discs' mean square distances along and across the longest axis
+//                 through the centre of mass: 1 if it is round
+//   centrifugal   Ω² |p − S| of a disc of mass 1, mean and highest; S is (0, A)
+//   coriolis      2 Ω |v|, v in the M-frame, mean and highest
+//
+// Only every 8th sample is used. Units: r, ° and v²/r for the forces. Error from blocks of periods;
+// the highest has none. Limits: a centre of mass at C has no direction; fewer than three discs, or
+// discs in a line, have no elongation.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/circular_mean.hpp"
+
+namespace swirl {
+
+class ClusterCentre {
+  public:
+    explicit ClusterCentre(int every = 8) : every_(every) {}
+
+    void sample(const MFrameView& view) {
+        if (samples_++ % every_ != 0 || view.size() == 0) return;
+        const Vec2 centre = view.centre_of_mass().position;
+        x_.add(centre.x);
+        y_.add(centre.y);
+        distance_.add(square_root(dot(centre, centre)));
+        direction_.add(centre);
+        const double omega = view.frame.omega, n = static_cast<double>(view.size());
+        const double amplitude =
+            square_root(dot(view.frame.centre, view.frame.centre));  // S is the lab's origin
+        double left = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const Vec2 p = view.position(i), d = p - centre, v = view.velocity(i);
+            const Vec2 from_S = p - Vec2{0.0, amplitude};
+            left += p.x < 0.0 ? 1.0 : 0.0;
+            xx += d.x * d.x;
+            xy += d.x * d.y;
+            yy += d.y * d.y;
+            const double centrifugal = omega * omega * square_root(dot(from_S, from_S));
+            const double coriolis = 2.0 * omega * square_root(dot(v, v));
+            centrifugal_.add(centrifugal);
+            coriolis_.add(coriolis);
+            most_centrifugal_ = std::max(most_centrifugal_, centrifugal);
+            most_coriolis_ = std::max(most_coriolis_, coriolis);
+        }
+        left_.add(left / n);
+        const double mean = 0.5 * (xx + yy);
+        const double apart = square_root(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+        if (view.size() > 2 && mean - apart > 1e-9 * mean)
+            elongation_.add(square_root((mean + apart) / (mean - apart)));
+    }
+    void close_block() {
+        for (BlockMean* mean : means()) mean->close_block();
+        direction_.close_block();
+    }
+
+    Estimate x() const { return x_.estimate(); }
+    Estimate y() const { return y_.estimate(); }
+    Estimate distance() const { return distance_.estimate(); }
+    const CircularMean& direction() const { return direction_; }
+    Estimate left() const { return left_.estimate(); }
+    Estimate elongation() const { return elongation_.estimate(); }
+    Estimate centrifugal() const { return centrifugal_.estimate(); }
+    Estimate coriolis() const { return coriolis_.estimate(); }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"x", "r", "of the centre of mass in the M-frame; left of M is negative",
+                        x()});
+        visit(ReportRow{"y", "r", "of the centre of mass in the M-frame; M is at −R", y()});
+        visit(ReportRow{"distance", "r", "of the centre of mass from C", distance()});
+        visit(ReportRow{"theta",
+                        "°",
+                        "direction of the centre of mass; it lags by 270° less this",
+                        scaled(direction_.angle(), degrees_per_radian),
+                        {{"concentration", "1", direction_.concentration()},
+                         {"count", "1", direction_.count()}}});
+        visit(ReportRow{"left", "1", "share of the discs left of the line from C to M", left()});
+        visit(
+            ReportRow{"elongation", "1", "how much longer than wide the cluster is", elongation()});
+        visit(ReportRow{"centrifugal", "v²/r", "centrifugal force on a disc, per mass",
+                        centrifugal()});
+        visit(ReportRow{"coriolis", "v²/r", "Coriolis force on a disc, per mass", coriolis()});
+        visit(ReportRow{"most_centrifugal",
+                        "v²/r",
+                        "the highest centrifugal force",
+                        {.mean = samples_ > 0 ? most_centrifugal_ : not_known},
+                        {},
+                        false});
+        visit(ReportRow{"most_coriolis",
+                        "v²/r",
+                        "the highest Coriolis force",
+                        {.mean = samples_ > 0 ? most_coriolis_ : not_known},
+                        {},
+                        false});
+    }
+    void merge(const ClusterCentre& other) {
+        x_.merge(other.x_);
+        y_.merge(other.y_);
+        distance_.merge(other.distance_);
+        left_.merge(other.left_);
+        elongation_.merge(other.elongation_);
+        centrifugal_.merge(other.centrifugal_);
+        coriolis_.merge(other.coriolis_);
+        direction_.merge(other.direction_);
+        samples_ += other.samples_;
+        most_centrifugal_ = std::max(most_centrifugal_, other.most_centrifugal_);
+        most_coriolis_ = std::max(most_coriolis_, other.most_coriolis_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(samples_);
+        visit(most_centrifugal_);
+        visit(most_coriolis_);
+        for (BlockMean* mean : means()) visit(*mean);
+        visit(direction_);
+    }
+
+  private:
+    std::array<BlockMean*, 7> means() {
+        return {&x_, &y_, &distance_, &left_, &elongation_, &centrifugal_, &coriolis_};
+    }
+
+    int every_;
+    std::int64_t samples_ = 0;
+    double most_centrifugal_ = 0.0, most_coriolis_ = 0.0;
+    BlockMean x_, y_, distance_, left_, elongation_, centrifugal_, coriolis_;
+    CircularMean direction_;
+};
+
+}  // namespace swirl

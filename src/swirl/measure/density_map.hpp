@@ -1,0 +1,101 @@
+// Where the discs are, in the M-frame: the paper's Figs 2b, 2c and 5c.
+//
+//   density of a cell = ⟨number of disc centres in it⟩ / area of the cell
+//
+// in discs per unit area (unit of length: the disc radius), averaged over samples. Summed over all
+// cells, times the area of a cell, it is the number of discs. By event, as in the paper: sample
+// after every event, or after every k-th, which changes the error but not the mean. By time: sample
+// at equal time steps. Error from blocks of periods (cell_averages.hpp).
+//
+// Source: paper, SI "Simulation parameters" (100 × 100 cells over the container's bounding square).
+// Limits: no samples: NaN everywhere. A centre outside the square is counted in outside() alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/square_grid.hpp"
+
+namespace swirl {
+
+class DensityMap {
+  public:
+    explicit DensityMap(double container_radius, std::size_t side = 100)
+        : grid_{side, container_radius}, counts_(grid_.cells() + 1) {}
+
+    void sample(const MFrameView& view) {
+        counts_.add_weight();
+        cell_.resize(view.size());
+        grid_.locate(view.size(), view.x.data(), view.y.data(), cell_.data());
+        for (const std::int32_t cell : cell_) counts_.add(static_cast<std::size_t>(cell));
+    }
+    void close_block() { counts_.close_block(); }
+
+    const SquareGrid& grid() const { return grid_; }
+    Estimate density(std::size_t cell) const {
+        return scaled(counts_.estimate(cell), 1.0 / grid_.cell_area());
+    }
+    double count(std::size_t cell) const { return counts_.sum(cell); }
+    double samples() const { return counts_.weight(); }
+    double outside() const { return counts_.sum(grid_.cells()); }
+
+    void merge(const DensityMap& other) { counts_.merge(other.counts_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(counts_);
+    }
+
+  private:
+    SquareGrid grid_;
+    CellRates counts_;                // the last one is outside
+    std::vector<std::int32_t> cell_;  // of every disc, at one sample
+};
+
+/// Both averages.
+class DensityMaps {
+  public:
+    explicit DensityMaps(double container_radius)
+        : by_time_(container_radius), by_event_(container_radius) {}
+
+    void sample(const MFrameView& view) { by_time_.sample(view); }
+    void sample_by_event(const MFrameView& view) { by_event_.sample(view); }
+    void close_block() {
+        by_time_.close_block();
+        by_event_.close_block();
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "discs per area, in cells of the container's bounding square",
+                          {{"x", "r"},
+                           {"y", "r"},
+                           {"by_time", "1/r²"},
+                           {"by_time_error", "1/r²"},
+                           {"by_event", "1/r²"},
+                           {"by_event_error", "1/r²"}}};
+        for (std::size_t c = 0; c < by_time_.grid().cells(); ++c) {
+            const Vec2 p = by_time_.grid().centre_of(c);
+            const Estimate time = by_time_.density(c), event = by_event_.density(c);
+            table.add({p.x, p.y, time.mean, time.error, event.mean, event.error});
+        }
+        visit(std::move(table));
+    }
+    void merge(const DensityMaps& other) {
+        by_time_.merge(other.by_time_);
+        by_event_.merge(other.by_event_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(by_time_);
+        visit(by_event_);
+    }
+
+  private:
+    DensityMap by_time_, by_event_;
+};
+
+}  // namespace swirl

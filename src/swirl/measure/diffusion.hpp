@@ -1,0 +1,195 @@
+// How far the discs wander, and how far they turn, in a given time.
+//
+//   displacement          ⟨|Δ(r − C)|²⟩      relative to the container, in the lab's directions
+//   angular displacement  ⟨Δα⟩ and ⟨Δα²⟩ − ⟨Δα⟩²   of the discs' orientation α
+//
+// for lags of 1, 2, 4, … samples, over all discs and beginnings. In free diffusion they grow as 4
+// D t and 2 D_rot t; in a dish the first saturates near the square of its size, and within a period
+// it shows the sloshing. Take lags of whole periods to see the diffusion through it.
+//
+// Units: length², rad (the angle is counted through full turns). Normalisation: every disc and
+// every beginning counts the same. Error from blocks of periods: a displacement belongs to the
+// block in which it ends. Those of a lag of L periods overlap for L blocks, so L blocks count as
+// one independent sample: the error is √L times that of the blocks. Limits: orientation unknown
+// (NaN): no angular displacement (NaN). Samples that do not follow in equal steps of time (to 1 %),
+// or another number of discs, begin anew, and are counted.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/physics/snapshot.hpp"
+#include "swirl/statistics/block_average.hpp"
+
+namespace swirl {
+
+class Diffusion {
+  public:
+    /// Lags up to 2^(lags − 1) samples.
+    explicit Diffusion(std::size_t lags = 10)
+        : window_((std::size_t{1} << (lags - 1)) + 1), moves_(lags), turns_(lags) {}
+
+    void sample(const Snapshot& s) {
+        const double step = s.time() - last_time_;
+        const bool first = samples_ == 0;
+        const bool even = step > 0.0 && (samples_ < 2 || std::abs(step - step_) <= 0.01 * step_);
+        if (s.size() != discs_ || (!first && !even)) {
+            if (!first) breaks_ += 1.0;
+            samples_ = 0;
+            discs_ = s.size();
+            past_.assign(window_ * discs_, {});
+        }
+        if (samples_ == 1) step_ = step;
+        last_time_ = s.time();
+        period_ = s.period;
+        if (discs_ == 0) return;
+
+        State* const now = at(samples_);
+        for (std::size_t i = 0; i < discs_; ++i)
+            now[i] = {s.position(i) - s.container_centre, s.orientation(i)};
+        for (std::size_t k = 0; k < lags(); ++k) {
+            const std::int64_t lag = std::int64_t{1} << k;
+            if (lag > samples_) break;
+            const State* const then = at(samples_ - lag);
+            double square = 0.0, turned = 0.0, turned_square = 0.0;
+            for (std::size_t i = 0; i < discs_; ++i) {
+                const Vec2 d = now[i].position - then[i].position;
+                const double turn = now[i].angle - then[i].angle;
+                square += dot(d, d);
+                turned += turn;
+                turned_square += turn * turn;
+            }
+            const double visits = static_cast<double>(discs_);
+            moves_.add(k, {square}, visits);
+            turns_.add(k, {turned, turned_square}, visits);
+        }
+        ++samples_;
+    }
+    /// The discs of the next sample are not those of the last, though there may be as many.
+    void begin_anew() { discs_ = 0; }
+    void close_block() {
+        moves_.close_block();
+        turns_.close_block();
+    }
+
+    std::size_t lags() const { return moves_.size(); }
+    /// In units of the snapshots' time.
+    double lag(std::size_t k) const { return step_ * static_cast<double>(std::int64_t{1} << k); }
+    Estimate square_displacement(std::size_t k) const { return apart(moves_.estimate(k), k); }
+    /// ⟨Δα⟩.
+    Estimate mean_turn(std::size_t k) const { return apart(turns_.estimate(k, 0), k); }
+    /// ⟨Δα²⟩ − ⟨Δα⟩²; the error is that of ⟨Δα²⟩.
+    Estimate turn_variance(std::size_t k) const {
+        Estimate e = apart(turns_.estimate(k, 1), k);
+        e.mean -= turns_.mean(k, 0) * turns_.mean(k, 0);
+        return e;
+    }
+    double breaks() const { return breaks_; }
+
+    /// The other must have as many lags and the same time step.
+    void merge(const Diffusion& other) {
+        if (step_ == 0.0) step_ = other.step_;
+        if (period_ == 0.0) period_ = other.period_;
+        moves_.merge(other.moves_);
+        turns_.merge(other.turns_);
+        breaks_ += other.breaks_;
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(past_);
+        visit(discs_);
+        visit(samples_);
+        visit(last_time_);
+        visit(step_);
+        visit(period_);
+        visit(breaks_);
+        visit(moves_);
+        visit(turns_);
+    }
+    /// Where the discs are to begin again, what is kept of those before does not matter.
+    bool is_consistent() const { return discs_ == 0 || past_.size() / discs_ == window_; }
+
+    struct State {
+        Vec2 position{};
+        double angle = 0.0;
+    };
+
+  private:
+    State* at(std::int64_t index) {
+        return past_.data() + static_cast<std::size_t>(index) % window_ * discs_;
+    }
+
+    /// As many blocks as the lag is long count as one.
+    Estimate apart(Estimate e, std::size_t k) const {
+        const double blocks = std::fmax(1.0, lag(k) / period_);
+        e.error *= square_root(blocks);
+        e.effective_samples /= blocks;
+        return e;
+    }
+
+    std::size_t window_;  // samples that are kept
+    std::vector<State> past_;
+    std::size_t discs_ = 0;
+    std::int64_t samples_ = 0;
+    double last_time_ = 0.0, step_ = 0.0, period_ = 0.0, breaks_ = 0.0;
+    CellMeans<1> moves_;
+    CellMeans<2> turns_;
+};
+
+/// For lags below a period, and for lags of whole periods.
+class DiffusionLags {
+  public:
+    /// At equal steps of time within the period.
+    void sample_within_period(const Snapshot& s) { within_.sample(s); }
+    /// Once per period, always at the same phase.
+    void sample_across_periods(const Snapshot& s) { across_.sample(s); }
+    void begin_anew() {
+        within_.begin_anew();
+        across_.begin_anew();
+    }
+    void close_block() {
+        within_.close_block();
+        across_.close_block();
+    }
+
+    /// A lag that was not reached is left out.
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "squared displacement and turn of a disc against the time between",
+                          {{"lag", "r/v"},
+                           {"displacement", "r²"},
+                           {"displacement_error", "r²"},
+                           {"turn", "rad"},
+                           {"turn_error", "rad"},
+                           {"turn_variance", "rad²"},
+                           {"turn_variance_error", "rad²"}}};
+        for (const Diffusion* d : {&within_, &across_})
+            for (std::size_t k = 0; k < d->lags(); ++k) {
+                const Estimate moved = d->square_displacement(k), turn = d->mean_turn(k),
+                               variance = d->turn_variance(k);
+                if (moved.blocks == 0 || std::isnan(moved.mean)) continue;
+                table.add({d->lag(k), moved.mean, moved.error, turn.mean, turn.error, variance.mean,
+                           variance.error});
+            }
+        visit(std::move(table));
+    }
+    void merge(const DiffusionLags& other) {
+        within_.merge(other.within_);
+        across_.merge(other.across_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(within_);
+        visit(across_);
+    }
+
+  private:
+    Diffusion within_{7};  // up to 64 of the 73 steps of a period
+    Diffusion across_{8};  // up to 128 periods
+};
+
+}  // namespace swirl

@@ -1,0 +1,64 @@
+// How the places at which something happens are distributed over θ: a mean direction
+// (circular_mean.hpp) says nothing of two maxima.
+//
+// Units: shares of all places in equal slices of θ, which add up to 1. Limits: no places, no shares
+// (NaN). The null vector has no direction and is not counted.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/statistics/circular_mean.hpp"
+
+namespace swirl {
+
+class DirectionHistogram {
+  public:
+    static constexpr std::size_t slices = 36;
+
+    void add(const Vec2& place) {
+        if (!(dot(place, place) > 0.0)) return;
+        const auto slice = static_cast<std::size_t>(turns_of(place) * slices);
+        counts_[std::min(slice, slices - 1)] += 1.0;
+    }
+    double share(std::size_t slice) const {
+        double all = 0.0;
+        for (const double count : counts_) all += count;
+        return counts_[slice] / all;
+    }
+    void merge(const DirectionHistogram& other) {
+        for (std::size_t k = 0; k < slices; ++k) counts_[k] += other.counts_[k];
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(std::span(counts_));
+    }
+
+  private:
+    std::vector<double> counts_ = std::vector<double>(slices);
+};
+
+/// Where discs become pinned and free.
+inline ReportTable table_of(const char* description, const DirectionHistogram& pinned,
+                            const DirectionHistogram& free) {
+    ReportTable table{"places", description, {{"theta", "°"}, {"pinned", "1"}, {"free", "1"}}};
+    for (std::size_t k = 0; k < DirectionHistogram::slices; ++k)
+        table.add({360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
+                   pinned.share(k), free.share(k)});
+    return table;
+}
+
+/// A mean direction as it is reported.
+inline ReportRow row_of(const char* name, const char* description, const CircularMean& mean) {
+    return {name,
+            "°",
+            description,
+            scaled(mean.angle(), degrees_per_radian),
+            {{"concentration", "1", mean.concentration()}, {"count", "1", mean.count()}}};
+}
+
+}  // namespace swirl

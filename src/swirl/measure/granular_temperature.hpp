@@ -1,0 +1,108 @@
+// How strongly the discs jiggle: the random motion that is left when the mean flow is taken away.
+//
+//   of a cell    T = ½ (⟨m u²⟩ − ⟨m u⟩²/⟨m⟩) over the discs found in it, u the velocity relative
+//                to the container in the M-frame: twice the energy per degree of freedom (a disc
+//                has two), the kT of a gas
+//   granular     the average of T over all discs
+//   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom; of spheres, that
+//                about the vertical)
+//
+// In equilibrium the last two are equal; friction at the wall drives the spins and makes them
+// differ. Units: disc mass × (container's speed)². Source: Goldhirsch 2003,
+// doi:10.1146/annurev.fluid.35.101101.161114. Error from blocks of periods: that of ½⟨m u²⟩ (of
+// ⟨I ω²⟩), the mean flow being known better than what moves about it.
+//
+// Only every 8th sample is used, unless told otherwise.
+//
+// Smoothed velocities miss some of ½⟨m u²⟩, which is added if it is told (add_energy).
+//
+// Limits: a cell never visited has no temperature (NaN), one visited once has 0. Whatever structure
+// the flow has inside a cell counts as temperature. Missing spins (NaN) make that of the spin NaN.
+#pragma once
+
+#include <algorithm>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/square_grid.hpp"
+
+namespace swirl {
+
+class GranularTemperature {
+  public:
+    explicit GranularTemperature(double container_radius, std::size_t side = 20, int every = 8)
+        : grid_{side, container_radius}, every_(every), cells_(grid_.cells()), spins_(1) {}
+
+    void sample(const MFrameView& view) {
+        if (samples_++ % every_ != 0) return;
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            const double m = view.mass[i], I = view.inertia[i], spin = view.spin[i];
+            spins_.add(0, {I, I * spin, I * spin * spin});
+            const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
+            if (cell == SquareGrid::nowhere) continue;
+            const double ux = view.ux[i], uy = view.uy[i], energy = m * (ux * ux + uy * uy);
+            cells_.add(cell, {m, m * ux, m * uy, energy});
+            energies_.add(energy);
+        }
+    }
+    void close_block() {
+        cells_.close_block();
+        spins_.close_block();
+        energies_.close_block();
+    }
+
+    /// ½⟨u²⟩ of a disc is so much more than its velocities say; all discs have the mass 1.
+    void add_energy(double missing) { missing_ = missing; }
+
+    const SquareGrid& grid() const { return grid_; }
+    double temperature(std::size_t cell) const {
+        const double x = cells_.mean(cell, 1), y = cells_.mean(cell, 2);
+        return larger(0.5 * (cells_.mean(cell, 3) - (x * x + y * y) / cells_.mean(cell, 0)), 0.0);
+    }
+    Estimate granular() const {
+        Estimate e = scaled(energies_.estimate(), 0.5);
+        double sum = 0.0, visits = 0.0;
+        for (std::size_t c = 0; c < cells_.size(); ++c) {
+            if (cells_.visits(c) == 0.0) continue;
+            sum += cells_.visits(c) * temperature(c);
+            visits += cells_.visits(c);
+        }
+        e.mean = visits > 0.0 ? sum / visits + missing_ : not_known;
+        return e;
+    }
+    Estimate of_the_spin() const {
+        Estimate e = spins_.estimate(0, 2);
+        e.mean -= spins_.mean(0, 1) * spins_.mean(0, 1) / spins_.mean(0, 0);
+        return e;
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"granular", "m v²", "granular temperature T of the motion", granular()});
+        visit(ReportRow{"of_the_spin", "m v²", "temperature of the spins", of_the_spin()});
+    }
+    void merge(const GranularTemperature& other) {
+        cells_.merge(other.cells_);
+        spins_.merge(other.spins_);
+        energies_.merge(other.energies_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(samples_);
+        visit(cells_);
+        visit(spins_);
+        visit(energies_);
+    }
+
+  private:
+    SquareGrid grid_;
+    int every_;
+    double missing_ = 0.0;
+    std::int64_t samples_ = 0;
+    CellMeans<4> cells_;
+    CellMeans<3> spins_;
+    BlockMean energies_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,88 @@
+// The measurements there are, one row each: name, one line of description, and the class in
+// measure/ that makes it. Command line, JSON, CSV and docs/measurements.md have them from here;
+// what a measurement is given, and when, follows from the functions that its class has
+// (observation.hpp).
+#pragma once
+
+#include <tuple>
+
+#include "swirl/measure/angular_profile.hpp"
+#include "swirl/measure/cluster_centre.hpp"
+#include "swirl/measure/collision_rates.hpp"
+#include "swirl/measure/density_map.hpp"
+#include "swirl/measure/diffusion.hpp"
+#include "swirl/measure/energy_budget.hpp"
+#include "swirl/measure/flow_map.hpp"
+#include "swirl/measure/granular_temperature.hpp"
+#include "swirl/measure/hexatic_order.hpp"
+#include "swirl/measure/local_packing.hpp"
+#include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/radial_density.hpp"
+#include "swirl/measure/rolling.hpp"
+#include "swirl/measure/slip.hpp"
+#include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/wall_residence.hpp"
+#include "swirl/measure/wall_stress.hpp"
+
+namespace swirl {
+
+template <class Kind>
+struct MeasurementRow {
+    const char* name;
+    const char* header;  // in src/swirl/measure/, with the definition
+    const char* description;
+    Kind (*make)(double container_radius);
+};
+
+template <class Kind>
+constexpr MeasurementRow<Kind> measurement(const char* name, const char* header,
+                                           const char* description) {
+    return {name, header, description, [](double) { return Kind(); }};
+}
+/// One that must know how large the container is.
+template <class Kind>
+constexpr MeasurementRow<Kind> measurement_in_container(const char* name, const char* header,
+                                                        const char* description) {
+    return {name, header, description, [](double radius) { return Kind(radius); }};
+}
+
+// clang-format off
+inline constexpr std::tuple measurement_list{
+    measurement_in_container<DensityMaps>("density", "density_map.hpp",
+        "density map, 100 × 100, by time and by event (Figs 2, 5c)"),
+    measurement_in_container<FlowMap>("flow", "flow_map.hpp",
+        "velocity relative to the container, 20 × 20 (Figs 2, 5d)"),
+    measurement<AngularProfile>("profile", "angular_profile.hpp",
+        "angular velocity about the centre of mass against θ (Fig. 3)"),
+    measurement<PinnedByCollisions>("pinned", "pinned_loose.hpp",
+        "where discs become pinned and free, by tracks and by collisions (Fig. 3)"),
+    measurement<WallStays>("stays", "wall_residence.hpp",
+        "stays in the wall layer: where discs become pinned and free there (Fig. 3)"),
+    measurement<ClusterCentre>("centre", "cluster_centre.hpp",
+        "where the cluster is in the M-frame, its shape, centrifugal and Coriolis force"),
+    measurement<Slip>("slip", "slip.hpp",
+        "slip parameter, perimeter, pancake line (Figs 1b, 4a)"),
+    measurement<SpinFrustration>("frustration", "spin_frustration.hpp",
+        "spins at the wall and of neighbours, sticking contacts (Fig. 4b)"),
+    measurement_in_container<RadialDensity>("radial", "radial_density.hpp",
+        "density against the distance from the container's centre"),
+    measurement_in_container<GranularTemperature>("temperature", "granular_temperature.hpp",
+        "granular temperature, of the motion and of the spins"),
+    measurement<HexaticOrder>("order", "hexatic_order.hpp",
+        "hexatic order ψ6 from Voronoi neighbours, of all discs and of the pinned"),
+    measurement<LocalPacking>("packing", "local_packing.hpp",
+        "local packing fraction from Voronoi cells, of all discs and of the pinned"),
+    measurement<CollisionRates>("collisions", "collision_rates.hpp",
+        "collision rates of a disc, mean free time"),
+    measurement_in_container<WallStress>("wall", "wall_stress.hpp",
+        "pressure on the wall and traction along it against θ"),
+    measurement<DiffusionLags>("diffusion", "diffusion.hpp",
+        "squared displacement and turn of a disc against the time between"),
+    measurement<EnergyBudget>("energy", "energy_budget.hpp",
+        "energy budget: work of wall and floor, losses in friction and collisions"),
+    measurement<Rolling>("rolling", "rolling.hpp",
+        "of spheres: rolling and sliding on the floor, vertical rubbing, frustration"),
+};
+// clang-format on
+
+}  // namespace swirl

@@ -1,0 +1,68 @@
+// How the discs are spread between the centre of the container and its wall.
+//
+//   ρ(ring) = ⟨number of disc centres in the ring⟩ / area of the ring
+//
+// in discs per unit area, about C. Rings are equally wide, from 0 to R. Σ ρ × area is the number of
+// discs. Times the area of a disc it is the packing fraction that many discs would have everywhere.
+//
+// Units: 1/length². Normalisation: per sample. Error from blocks of periods. Limits: no samples:
+// NaN. A centre outside the container (a camera's error) is counted in no ring.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+
+namespace swirl {
+
+class RadialDensity {
+  public:
+    explicit RadialDensity(double container_radius, std::size_t rings = 43)
+        : container_radius_(container_radius), counts_(rings + 1) {}
+
+    void sample(const MFrameView& view);
+    void close_block() { counts_.close_block(); }
+
+    std::size_t rings() const { return counts_.size() - 1; }
+    double inner_radius(std::size_t ring) const {
+        return container_radius_ * static_cast<double>(ring) / static_cast<double>(rings());
+    }
+    double outer_radius(std::size_t ring) const { return inner_radius(ring + 1); }
+    double area(std::size_t ring) const {
+        const double inner = inner_radius(ring), outer = outer_radius(ring);
+        return pi * (outer - inner) * (outer + inner);
+    }
+    Estimate density(std::size_t ring) const {
+        return scaled(counts_.estimate(ring), 1.0 / area(ring));
+    }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        ReportTable table{"",
+                          "discs per area, in rings about the container's centre",
+                          {{"inner_radius", "r"},
+                           {"outer_radius", "r"},
+                           {"density", "1/r²"},
+                           {"density_error", "1/r²"}}};
+        for (std::size_t ring = 0; ring < rings(); ++ring) {
+            const Estimate e = density(ring);
+            table.add({inner_radius(ring), outer_radius(ring), e.mean, e.error});
+        }
+        visit(std::move(table));
+    }
+    void merge(const RadialDensity& other) { counts_.merge(other.counts_); }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(counts_);
+    }
+
+  private:
+    double container_radius_;
+    CellRates counts_;                // the last one is outside
+    std::vector<std::int32_t> ring_;  // of every disc, at one sample
+};
+
+}  // namespace swirl

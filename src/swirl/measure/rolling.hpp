@@ -1,0 +1,131 @@
+// How spheres on a floor roll, how much they slide on it, and how far they keep each other from
+// rolling (floor.hpp, collision_law.hpp).
+//
+// Seen at equal steps of time, every 7th sample:
+//
+//   rolling share    the share of the spheres that do not slip on the floor (they roll, or rest on
+//   it); and of those at the
+//                    wall, the gap to which is below 0.1 R
+//   floor slip       ⟨|c|⟩, c = v − u − R ω × ẑ
+//   axis correlation Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
+//                    where neighbours roll alike
+//   contact rolling  the same of h = ω_x n_y − ω_y n_x, the rolling along the line of centres: −1
+//                    for two that roll on each other without rubbing, 1 where both roll the same
+//                    way and rub with the sum of their speeds. Spheres that roll together over a
+//                    floor have 1. That is the frustration: the floor asks for 1, the contact for
+//                    −1, and both cannot be had
+//
+// Collision by collision, between spheres and at the wall:
+//
+//   vertical share   Σ J_z² / Σ (J_t² + J_z²): of friction's impulses, how much is vertical
+//   vertical friction  Σ |J_z| / Σ J_n: at most μ
+//   vertical power   what friction takes by the vertical components alone, per sphere and time,
+//                    −J_z (s_z + s'_z)/2, with the energy that lifts one of them
+//
+// Touching: gap below 0.1 of the mean radius. Units as stated; errors from blocks of periods.
+// Limits: NaN for discs, which do not roll; without a floor everybody slips, and c says nothing.
+// Recorded frames tell all but what is seen collision by collision.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/touching_pairs.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/snapshot.hpp"
+#include "swirl/statistics/block_average.hpp"
+
+namespace swirl {
+
+class Rolling {
+  public:
+    explicit Rolling(double gap = 0.1, int every = 7) : gap_(gap), every_(every) {}
+
+    void sample_in_lab(const Snapshot& lab);
+    void sample(const Event& event, const Snapshot& after);
+    /// Of the samples.
+    void close_block();
+    /// Of the collisions; `duration`: the time since the last call, in which there were so many
+    /// spheres.
+    void close_block(double duration, std::size_t spheres);
+
+    Estimate rolling_share() const { return rolls_.estimate(); }
+    Estimate wall_rolling_share() const { return rolls_at_wall_.estimate(); }
+    Estimate floor_slip() const { return slip_.estimate(); }
+    Estimate axis_correlation() const { return axes_.estimate(); }
+    Estimate contact_correlation() const { return contacts_.estimate(); }
+    Estimate vertical_share() const { return between_.share.estimate(); }
+    Estimate vertical_share_at_wall() const { return at_wall_.share.estimate(); }
+    Estimate vertical_friction() const { return between_.friction.estimate(); }
+    Estimate vertical_friction_at_wall() const { return at_wall_.friction.estimate(); }
+    Estimate vertical_power() const { return between_.power.estimate(); }
+    Estimate vertical_power_at_wall() const { return at_wall_.power.estimate(); }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"rolling_share", "1", "share of the spheres that roll on the floor",
+                        rolling_share()});
+        visit(ReportRow{"wall_rolling_share", "1", "share of those at the wall that roll",
+                        wall_rolling_share()});
+        visit(ReportRow{"floor_slip", "v", "size of the slip on the floor", floor_slip()});
+        visit(ReportRow{"axis_correlation", "1",
+                        "of touching spheres' horizontal spins: 1 where they roll alike",
+                        axis_correlation()});
+        visit(ReportRow{"contact_correlation", "1",
+                        "of their rolling along the line of centres: −1 where they do not rub, 1 "
+                        "where they rub with both speeds",
+                        contact_correlation()});
+        visit(ReportRow{"vertical_share", "1", "vertical part of friction between spheres",
+                        vertical_share()});
+        visit(ReportRow{"vertical_share_at_wall", "1", "the same at the wall",
+                        vertical_share_at_wall()});
+        visit(ReportRow{"vertical_friction", "1",
+                        "vertical over normal impulse between spheres, at most μ",
+                        vertical_friction()});
+        visit(ReportRow{"vertical_friction_at_wall", "1", "the same at the wall",
+                        vertical_friction_at_wall()});
+        visit(ReportRow{"vertical_power", "m v³/r",
+                        "lost by a sphere to vertical rubbing between spheres", vertical_power()});
+        visit(ReportRow{"vertical_power_at_wall", "m v³/r", "the same at the wall",
+                        vertical_power_at_wall()});
+    }
+    void merge(const Rolling& other);
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(samples_);
+        for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_}) visit(*mean);
+        visit(between_);
+        visit(at_wall_);
+    }
+
+  private:
+    /// Of all collisions of one kind.
+    struct Rubbing {
+        double vertical_square = 0.0, square = 0.0, vertical = 0.0, normal = 0.0, loss = 0.0;
+        BlockSeries share, friction, power;
+
+        void add(const Impulse& J, double vertical_loss);
+        void close_block(double weight);
+        void merge(const Rubbing& other);
+        template <class Visitor>
+        void fields(Visitor&& visit) {
+            for (double* sum : {&vertical_square, &square, &vertical, &normal, &loss}) visit(*sum);
+            visit(share);
+            visit(friction);
+            visit(power);
+        }
+    };
+
+    double gap_;
+    int every_;
+    std::int64_t samples_ = 0;
+    BlockMean rolls_, rolls_at_wall_, slip_, axes_, contacts_;
+    Rubbing between_, at_wall_;
+    MFrameView view_;
+    TouchingPairs touching_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,112 @@
+// How hard the discs press on the wall and how they drag it, along the wall, in the M-frame.
+//
+//   pressure(θ)   Σ J_n / (R Δθ t)     force on the wall per length, outwards
+//   traction(θ)   Σ J_t / (R Δθ t)     force on the wall per length, along it, counter-clockwise
+//
+// over the disc–wall collisions whose contact lies in the slice Δθ of θ within the time t, J the
+// impulse on the wall. In the M-frame the wall runs clockwise; where it drags the discs along they
+// drag it back, so the traction is positive there. |traction| ≤ μ_w · pressure, everywhere.
+//
+// Units: force/length, in disc mass × speed² / length². Error from blocks of periods. Limits: no
+// time: NaN; slices where nobody hit: 0.
+#pragma once
+
+#include <algorithm>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/statistics/block_average.hpp"
+
+namespace swirl {
+
+class WallStress {
+  public:
+    explicit WallStress(double container_radius, std::size_t slices = 72)
+        : container_radius_(container_radius), normal_(slices), along_(slices) {}
+
+    /// Every event, with the state after it.
+    void sample(const Event& event, const Snapshot& after) {
+        if (event.kind != EventKind::disc_wall) return;
+        const double u = turns_of(m_frame(after).turn(event.normal));
+        const std::size_t slice = std::min(
+            static_cast<std::size_t>(u * static_cast<double>(normal_.size())), normal_.size() - 1);
+        normal_.add(slice, event.impulse.normal);
+        // The law's tangent (n_y, −n_x) points clockwise.
+        along_.add(slice, -event.impulse.tangential);
+        open_normal_ += event.impulse.normal;
+        open_along_ -= event.impulse.tangential;
+    }
+    /// `duration`: the time the events since the last call took.
+    void close_block(double duration) {
+        normal_.add_weight(duration);
+        along_.add_weight(duration);
+        normal_.close_block();
+        along_.close_block();
+        all_normal_.add(open_normal_, duration);
+        all_along_.add(open_along_, duration);
+        open_normal_ = open_along_ = 0.0;
+    }
+
+    std::size_t slices() const { return normal_.size(); }
+    double theta(std::size_t slice) const {
+        return 2.0 * pi * (static_cast<double>(slice) + 0.5) / static_cast<double>(slices());
+    }
+    Estimate pressure(std::size_t slice) const {
+        return scaled(normal_.estimate(slice), per_length());
+    }
+    Estimate traction(std::size_t slice) const {
+        return scaled(along_.estimate(slice), per_length());
+    }
+    /// Averaged along the whole wall.
+    Estimate mean_pressure() const { return scaled(all_normal_.estimate(), per_circumference()); }
+    Estimate mean_traction() const { return scaled(all_along_.estimate(), per_circumference()); }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"pressure", "m v²/r²", "on the wall, averaged along it", mean_pressure()});
+        visit(ReportRow{"traction", "m v²/r²", "along the wall, averaged, counter-clockwise",
+                        mean_traction()});
+        ReportTable table{"profile",
+                          "pressure and traction in slices of θ",
+                          {{"theta", "°"},
+                           {"pressure", "m v²/r²"},
+                           {"pressure_error", "m v²/r²"},
+                           {"traction", "m v²/r²"},
+                           {"traction_error", "m v²/r²"}}};
+        for (std::size_t s = 0; s < slices(); ++s) {
+            const Estimate p = pressure(s), t = traction(s);
+            table.add({theta(s) * degrees_per_radian, p.mean, p.error, t.mean, t.error});
+        }
+        visit(std::move(table));
+    }
+    void merge(const WallStress& other) {
+        normal_.merge(other.normal_);
+        along_.merge(other.along_);
+        all_normal_.merge(other.all_normal_);
+        all_along_.merge(other.all_along_);
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(normal_);
+        visit(along_);
+        visit(open_normal_);
+        visit(open_along_);
+        visit(all_normal_);
+        visit(all_along_);
+    }
+
+  private:
+    double per_length() const {
+        return static_cast<double>(slices()) / (2.0 * pi * container_radius_);
+    }
+    double per_circumference() const { return 1.0 / (2.0 * pi * container_radius_); }
+
+    double container_radius_;
+    CellRates normal_, along_;
+    double open_normal_ = 0.0, open_along_ = 0.0;
+    BlockSeries all_normal_, all_along_;
+};
+
+}  // namespace swirl

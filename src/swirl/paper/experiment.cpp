@@ -1,0 +1,537 @@
+#include "swirl/paper/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/paper/parts.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/paper/python_script.hpp"
+#include "swirl/paper/several_seeds.hpp"
+#include "swirl/run/camera_sampled_run.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/statistics/replicates.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Dishes of one set-up: their sizes agree to this share.
+constexpr double same_dish = 0.02;
+/// Below this many whole swirls an error says little of itself.
+constexpr std::size_t few_blocks = 5;
+
+const std::vector<std::string>& numbers_against_n() {
+    static const std::vector<std::string> names{"slip.cluster_perimeter",
+                                                "slip.pancake",
+                                                "slip.cluster",
+                                                "slip.pinned_region",
+                                                "slip.stays=slip_stays",
+                                                "frustration.wall_spin",
+                                                "frustration.pinned_wall_spin",
+                                                "frustration.stay_spin",
+                                                "frustration.spin_correlation",
+                                                "frustration.triangles",
+                                                "centre.distance=centre_distance",
+                                                "centre.theta=centre_theta",
+                                                "order.all=psi6",
+                                                "temperature.granular",
+                                                "pinned.share=pinned_share",
+                                                "stays.share=stay_share"};
+    return names;
+}
+
+double of_camera(const FilmedDish& film, const char* name) {
+    return number(at(film.found, {"camera", name}));
+}
+std::int64_t discs_of(const FilmedDish& film) {
+    const Json& discs = at(film.found, {"discs"});
+    return discs.is_number_integer() ? discs.get<std::int64_t>() : 0;
+}
+double frames_per_swirl(const FilmedDish& film) {
+    return 2.0 * pi / of_camera(film, "omega") * of_camera(film, "camera-fps");
+}
+double position_error(const FilmedDish& film) {
+    const double error = number(at(film.found, {"quality", "position_error"}));
+    return std::isfinite(error) ? error : 0.0;
+}
+const char* kind_of(bool smooth) { return smooth ? "smooth" : "rough"; }
+
+/// A simulation that belongs to one or several films.
+struct Counterpart {
+    bool smooth;
+    RunConfig config;
+    SeenAs seen;
+    std::vector<PaperTask> runs;
+    Json result = nullptr;
+};
+
+class Experiment {
+  public:
+    Experiment(const std::vector<FilmedDish>& films, const ExperimentSettings& settings)
+        : films_(films), settings_(settings) {
+        radius_ = median_of("container-radius");
+        amplitude_ = median_of("amplitude");
+        if (settings.simulate)
+            for (std::size_t k = 0; k < films.size(); ++k)
+                if (films[k].good()) add_counterpart(k);
+    }
+
+    void simulate(const PaperControl& control, ExperimentResult& result);
+    std::vector<fs::path> write_tables() const;
+    std::vector<std::string> findings() const;
+    Json json() const;
+
+  private:
+    double median_of(const char* name) const {
+        std::vector<double> values;
+        for (const FilmedDish& film : films_)
+            if (film.good()) values.push_back(of_camera(film, name));
+        if (values.empty()) return not_known;
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    }
+    /// The films of one set-up share what all of them say of the dish.
+    double shared(const FilmedDish& film, const char* name, double median) const {
+        const double own = of_camera(film, name);
+        return std::abs(own - median) <= same_dish * median ? median : own;
+    }
+    void add_counterpart(std::size_t film);
+    const Json& simulated(std::size_t film) const {
+        static const Json nothing;
+        const auto found = counterpart_of_.find(film);
+        return found == counterpart_of_.end() ? nothing : counterparts_[found->second].result;
+    }
+    template <class Visit>
+    void each_side(Visit&& visit) const;
+    std::vector<NamedCurve> curves() const;
+
+    fs::path write_films() const;
+    fs::path write_points() const;
+    fs::path write_profiles() const;
+    fs::path write_maps(std::size_t film) const;
+    void add_film_findings(const FilmedDish& film, const Json& simulated,
+                           std::vector<std::string>& findings) const;
+
+    const std::vector<FilmedDish>& films_;
+    const ExperimentSettings& settings_;
+    double radius_, amplitude_;
+    std::vector<Counterpart> counterparts_;
+    std::map<std::size_t, std::size_t> counterpart_of_;
+};
+
+/// Everything of the film but what was given by hand.
+RunConfig config_of(const FilmedDish& film, const ExperimentSettings& settings, double radius,
+                    double amplitude) {
+    ParameterTexts texts{{"events", "5e5"}, {"path", "circle"}};
+    texts = overridden(texts, settings.parameters);
+    texts["discs"] = std::to_string(discs_of(film));
+    if (!texts.contains("container_radius"))
+        texts["container_radius"] = fmt::format("{:.4f}", radius);
+    if (!texts.contains("amplitude")) texts["amplitude"] = fmt::format("{:.4f}", amplitude);
+    if (!texts.contains("period") && !texts.contains("speed")) texts["speed"] = "1";
+    if (const Json& kinds = at(film.found, {"kinds"}); kinds.is_array() && kinds.size() == 2) {
+        // The commoner size is the unit of length.
+        const bool first = number(kinds[0]["number"]) >= number(kinds[1]["number"]);
+        const Json &unit = kinds[first ? 0 : 1], &other = kinds[first ? 1 : 0];
+        texts["mixture"] = fmt::format("{}:{:.4f}", other["number"].get<std::int64_t>(),
+                                       number(other["radius"]) / number(unit["radius"]));
+    }
+    if (film.smooth) {
+        texts.erase("mu_disc");
+        texts.erase("mu_wall");
+        texts["mu"] = settings.smooth_mu;
+    }
+    return resolve(texts);
+}
+
+void Experiment::add_counterpart(std::size_t k) {
+    const FilmedDish& film = films_[k];
+    Counterpart made{film.smooth,
+                     config_of(film, settings_, shared(film, "container-radius", radius_),
+                               shared(film, "amplitude", amplitude_)),
+                     {},
+                     {}};
+    made.seen.frames_per_swirl = std::max(4, int(std::lround(frames_per_swirl(film))));
+    made.seen.position_error =
+        std::round(1e4 * position_error(film) / of_camera(film, "scale")) * 1e-4;
+    const std::string what = fmt::format("{} {} {}", config_text(made.config),
+                                         made.seen.frames_per_swirl, made.seen.position_error);
+    const std::string key =
+        fmt::format("seen_{}_N{}_{:016x}", kind_of(film.smooth), made.config.discs, checksum(what));
+    for (std::size_t c = 0; c < counterparts_.size(); ++c)
+        if (counterparts_[c].runs.front().key.starts_with(key)) {
+            counterpart_of_[k] = c;
+            return;
+        }
+    for (int seed = 0; seed < settings_.seeds; ++seed) {
+        RunConfig config = made.config;
+        config.seed += static_cast<std::uint64_t>(seed);
+        made.runs.push_back({fmt::format("{}_seed{}", key, config.seed), double(config.events),
+                             [config, seen = made.seen](const RunControl& control) {
+                                 return seen_run(config, seen, measurements_of_a_film(), control);
+                             }});
+    }
+    counterpart_of_[k] = counterparts_.size();
+    counterparts_.push_back(std::move(made));
+}
+
+void Experiment::simulate(const PaperControl& control, ExperimentResult& result) {
+    const PaperParts parts(settings_.out);
+    std::vector<const PaperTask*> left;
+    std::map<std::string, Json> done;
+    for (const Counterpart& c : counterparts_)
+        for (const PaperTask& task : c.runs) {
+            ++result.runs;
+            if (auto part = parts.recall(task.key)) {
+                done[task.key] = (*part)["result"];
+                ++result.remembered;
+            } else {
+                left.push_back(&task);
+            }
+        }
+    std::mutex mutex;
+    std::vector<double> shares(left.size(), 0.0);
+    on_all_cores(
+        left.size(),
+        [&](std::size_t k) {
+            RunControl inner;
+            inner.stop = control.stop;
+            inner.progress = [&](const RunProgress& p) {
+                const std::lock_guard lock(mutex);
+                shares[k] = p.fraction;
+                double sum = 0.0;
+                for (const double share : shares) sum += share;
+                if (control.progress) control.progress(sum / double(shares.size()), 0.0);
+            };
+            Json found;
+            const auto begin = std::chrono::steady_clock::now();
+            try {
+                found = left[k]->work(inner);
+                const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+                parts.remember(left[k]->key, found, took.count());
+            } catch (const Failure& failure) {
+                found = {{"failed", failure.what()}};
+            }
+            const std::lock_guard lock(mutex);
+            shares[k] = 1.0;
+            done[left[k]->key] = std::move(found);
+        },
+        control.threads);
+    for (Counterpart& c : counterparts_) {
+        std::vector<Json> seeds;
+        for (const PaperTask& task : c.runs) seeds.push_back(done.at(task.key));
+        c.result = several_seeds(seeds);
+    }
+}
+
+/// visit(source, kind, name, film, result) for every film and every simulation that there is.
+template <class Visit>
+void Experiment::each_side(Visit&& visit) const {
+    for (const FilmedDish& film : films_)
+        if (film.good())
+            visit("film", kind_of(film.smooth), film.name, discs_of(film), film.result);
+    for (const Counterpart& c : counterparts_)
+        if (!c.result.is_null() && !failed(c.result))
+            visit("simulation", kind_of(c.smooth), std::string(), c.config.discs, c.result);
+}
+
+/// ϖ(N) of films and of simulation. Films of one N and kind are put together.
+std::vector<NamedCurve> Experiment::curves() const {
+    std::map<std::string, std::map<std::int64_t, std::vector<const Json*>>> points;
+    each_side([&](const char* source, const char* kind, const std::string&, std::int64_t discs,
+                  const Json& result) {
+        points[fmt::format("{} {}", source, kind)][discs].push_back(&result);
+    });
+    std::vector<NamedCurve> all;
+    for (const auto& [name, by_number] : points) {
+        all.push_back({name});
+        for (const auto& [discs, results] : by_number)
+            for (std::size_t k = 0; k < rotation_rates.size(); ++k) {
+                std::vector<Estimate> estimates;
+                for (const Json* r : results) {
+                    const RotationPoint p =
+                        rotation_point(double(discs), *r, rotation_rates[k].name);
+                    estimates.push_back({.mean = p.mean, .error = p.error});
+                }
+                const Estimate e =
+                    estimates.size() == 1
+                        ? estimates.front()
+                        : several_runs(estimates, std::span<const double>()).estimate;
+                all.back().curves[k].push_back({double(discs), e.mean, e.error});
+            }
+    }
+    return all;
+}
+
+fs::path Experiment::write_films() const {
+    Table table({"film",
+                 "kind",
+                 "discs",
+                 "pictures",
+                 "swirls",
+                 "pictures_per_swirl",
+                 "radius",
+                 "container_radius",
+                 "amplitude",
+                 "omega",
+                 "omega_error",
+                 "all_seen",
+                 "position_error",
+                 "by_time",
+                 "by_time_error",
+                 "rigid_by_time",
+                 "rigid_by_time_error",
+                 "simulated",
+                 "simulated_error",
+                 "failed"});
+    for (std::size_t k = 0; k < films_.size(); ++k) {
+        const FilmedDish& film = films_[k];
+        const auto found = [&](std::initializer_list<std::string_view> path) {
+            return number(at(film.found, path));
+        };
+        const auto mean = [&](const Json& result, const char* which, const char* what) {
+            return number(at(result, {"rotation", which, what}));
+        };
+        table.add({film.name,
+                   std::string(kind_of(film.smooth)),
+                   whole(at(film.found, {"discs"})),
+                   whole(at(film.found, {"pictures"})),
+                   number(at(film.result, {"periods"})),
+                   frames_per_swirl(film),
+                   of_camera(film, "scale"),
+                   of_camera(film, "container-radius"),
+                   of_camera(film, "amplitude"),
+                   found({"path", "omega"}),
+                   found({"path", "omega_error"}),
+                   found({"quality", "pictures_with_all_discs"}),
+                   found({"quality", "position_error"}),
+                   mean(film.result, "by_time", "mean"),
+                   mean(film.result, "by_time", "error"),
+                   mean(film.result, "rigid_by_time", "mean"),
+                   mean(film.result, "rigid_by_time", "error"),
+                   mean(simulated(k), "by_time", "mean"),
+                   mean(simulated(k), "by_time", "error"),
+                   film.good() ? std::string() : film.result["failed"].get<std::string>()});
+    }
+    const fs::path file = settings_.out / "films.csv";
+    table.write(file);
+    return file;
+}
+
+fs::path Experiment::write_points() const {
+    Table table(joined(joined({"source", "kind", "film", "discs", "by_time", "by_time_error",
+                               "rigid_by_time", "rigid_by_time_error"},
+                              number_columns(numbers_against_n())),
+                       {"steady_state"}));
+    each_side([&](const char* source, const char* kind, const std::string& name, std::int64_t discs,
+                  const Json& result) {
+        std::vector<Table::Cell> row{std::string(source), std::string(kind), name, discs};
+        for (const char* which : {"by_time", "rigid_by_time"})
+            for (const char* what : {"mean", "error"})
+                row.emplace_back(number(at(result, {"rotation", which, what})));
+        add_numbers(row, numbers_against_n(), result);
+        // Whether a film's dish was steady is for who took it to know.
+        row.emplace_back(source == std::string("film") ? "steady" : steadiness(result));
+        table.add(std::move(row));
+    });
+    const fs::path file = settings_.out / "points.csv";
+    table.write(file);
+    return file;
+}
+
+fs::path Experiment::write_profiles() const {
+    const std::vector<std::string> columns{
+        "theta",      "visits",           "varpi_m", "varpi_m_error", "wall",
+        "normalised", "normalised_error", "speed",   "speed_error"};
+    Table table(joined({"source", "kind", "film", "discs"}, columns));
+    each_side([&](const char* source, const char* kind, const std::string& name, std::int64_t discs,
+                  const Json& result) {
+        const Json& profile = at(result, {"measured", "profile"});
+        if (!profile.is_object()) return;
+        for (std::size_t r = 0; r < profile["theta"].size(); ++r) {
+            std::vector<Table::Cell> row{std::string(source), std::string(kind), name, discs};
+            for (const std::string& column : columns)
+                row.emplace_back(number(at(profile, {column})[r]));
+            table.add(std::move(row));
+        }
+    });
+    const fs::path file = settings_.out / "profiles.csv";
+    table.write(file);
+    return file;
+}
+
+fs::path Experiment::write_maps(std::size_t k) const {
+    Table table({"source", "map", "discs", "x", "y", "density", "u_x", "u_y", "visits"});
+    const auto add = [&](const char* source, std::int64_t discs, const Json& result) {
+        const Json &density = at(result, {"measured", "density"}),
+                   &flow = at(result, {"measured", "flow"});
+        if (!density.is_object() || !flow.is_object()) return;
+        for (std::size_t r = 0; r < density["x"].size(); ++r)
+            table.add({std::string(source), std::string("density"), discs, number(density["x"][r]),
+                       number(density["y"][r]), number(density["by_time"][r]), not_known, not_known,
+                       not_known});
+        for (std::size_t r = 0; r < flow["x"].size(); ++r)
+            table.add({std::string(source), std::string("flow"), discs, number(flow["x"][r]),
+                       number(flow["y"][r]), not_known, number(flow["u_x"][r]),
+                       number(flow["u_y"][r]), number(flow["visits"][r])});
+    };
+    add("film", discs_of(films_[k]), films_[k].result);
+    add("simulation", discs_of(films_[k]), simulated(k));
+    const fs::path file = settings_.out / fmt::format("maps_{}.csv", films_[k].name);
+    table.write(file);
+    return file;
+}
+
+std::vector<fs::path> Experiment::write_tables() const {
+    std::vector<fs::path> files{write_films(), write_points(), write_profiles()};
+    for (std::size_t k = 0; k < films_.size(); ++k)
+        if (films_[k].good()) files.push_back(write_maps(k));
+    files.push_back(settings_.out / "crossings.csv");
+    write_crossings(curves(), files.back());
+    return files;
+}
+
+void Experiment::add_film_findings(const FilmedDish& film, const Json& simulation,
+                                   std::vector<std::string>& findings) const {
+    if (!film.good()) {
+        findings.push_back(fmt::format("{} could not be used: {}", film.name,
+                                       film.result["failed"].get<std::string>()));
+        return;
+    }
+    const RotationPoint seen = rotation_point(double(discs_of(film)), film.result, "by_time");
+    std::string text = fmt::format("{}: {} discs, ϖ/Ω = {} by time", film.name, discs_of(film),
+                                   with_error(seen.mean, seen.error));
+    if (failed(simulation)) {
+        text += fmt::format("; its simulation failed: {}", simulation["failed"].get<std::string>());
+    } else if (simulation.is_object()) {
+        const RotationPoint run = rotation_point(0.0, simulation, "by_time");
+        text += fmt::format("; simulated {}", with_error(run.mean, run.error));
+        const double error = std::hypot(seen.error, run.error);
+        if (error > 0.0)
+            text += fmt::format(", {:.1f} standard errors apart",
+                                std::abs(seen.mean - run.mean) / error);
+    }
+    findings.push_back(text + ".");
+    const Json& blocks = at(film.result, {"rotation", "by_time", "blocks"});
+    if (blocks.is_number_integer() && blocks.get<std::size_t>() < few_blocks)
+        findings.push_back(fmt::format(
+            "{} shows {:.1f} swirls: an error from {} blocks is a guess; twenty swirls would make "
+            "it one to rely on.",
+            film.name, number(at(film.result, {"periods"})), blocks.get<std::size_t>()));
+    for (const char* name : {"container-radius", "amplitude"}) {
+        const double median = name[0] == 'c' ? radius_ : amplitude_;
+        const double own = of_camera(film, name);
+        if (std::abs(own - median) > same_dish * median)
+            findings.push_back(fmt::format(
+                "The {} of {} is {:.3f} disc radii, where that of the films is {:.3f} in the "
+                "median: another dish, or other discs; its simulation has its own.",
+                name[0] == 'c' ? "dish" : "amplitude", film.name, own, median));
+    }
+}
+
+std::vector<std::string> Experiment::findings() const {
+    std::vector<std::string> findings;
+    for (const NamedCurve& curve : curves()) {
+        if (curve.points().size() < 2) {
+            findings.push_back(fmt::format(
+                "{}: there is one number of discs; where rotation turns into counterrotation takes "
+                "films of several.",
+                curve.name));
+            continue;
+        }
+        const bool crosses = find_crossing(curve.points()).verdict == Crossing::Verdict::crosses;
+        findings.push_back(
+            fmt::format("{}: {}ϖ by time {}", curve.name,
+                        crosses ? "" : "these numbers of discs and errors show no crossing: ",
+                        crossing_sentence(curve)));
+    }
+    for (std::size_t k = 0; k < films_.size(); ++k)
+        add_film_findings(films_[k], simulated(k), findings);
+    const bool spins = std::any_of(films_.begin(), films_.end(), [](const FilmedDish& film) {
+        return std::isfinite(
+            number(at(film.result, {"measured", "frustration", "wall_spin", "mean"})));
+    });
+    if (!spins)
+        findings.push_back(
+            "No film tells the spins of its discs, so Figure 4b has the simulation alone; --spin "
+            "measures them where discs have a texture.");
+    if (std::none_of(films_.begin(), films_.end(), [](const FilmedDish& f) { return f.smooth; }))
+        findings.push_back(
+            "All films are of one kind of disc, so there is no Figure 4c; --smooth takes films of "
+            "a second, smoother kind.");
+    findings.push_back(
+        "What is made of the collisions themselves (rates, impulses, sticking, energy) no film "
+        "tells: discs collide more often than they are seen.");
+    return findings;
+}
+
+Json Experiment::json() const {
+    Json films = Json::array();
+    for (std::size_t k = 0; k < films_.size(); ++k) {
+        const FilmedDish& film = films_[k];
+        Json pictures = Json::array();
+        for (const fs::path& picture : film.pictures) pictures.push_back(picture.string());
+        films.push_back({{"name", film.name},
+                         {"kind", kind_of(film.smooth)},
+                         {"film", film.film},
+                         {"result", film.result},
+                         {"simulation", simulated(k)},
+                         {"found", film.found},
+                         {"remarks", film.remarks},
+                         {"pictures", pictures}});
+    }
+    return {{"command", settings_.command}, {"version", version()},
+            {"build", build_description()}, {"seeds", settings_.seeds},
+            {"findings", findings()},       {"films", films}};
+}
+
+}  // namespace
+
+const std::vector<std::string>& measurements_of_a_film() {
+    static const std::vector<std::string> names{"density",     "flow",   "profile", "pinned",
+                                                "stays",       "centre", "slip",    "frustration",
+                                                "temperature", "order"};
+    return names;
+}
+
+void check(const ExperimentSettings& settings) {
+    if (settings.seeds < 1)
+        throw WrongCall(fmt::format("--seeds is {}, but it must be at least 1.", settings.seeds));
+    resolve(settings.parameters);
+    resolve({{"mu", settings.smooth_mu}});
+}
+
+ExperimentResult make_experiment(const std::vector<FilmedDish>& films,
+                                 const ExperimentSettings& settings, const PaperControl& control) {
+    ExperimentResult result;
+    Experiment experiment(films, settings);
+    if (settings.simulate) experiment.simulate(control, result);
+    result.files = experiment.write_tables();
+    result.findings = experiment.findings();
+    result.json = experiment.json();
+    result.json["runs"] = result.runs;
+    const fs::path about = settings.out / "experiment.json";
+    write_whole_file(about, result.json.dump(2) + "\n");
+    result.files.push_back(about);
+    run_python_script("experiment.py", {settings.out.string()}, control.stop);
+    for (const fs::directory_entry& entry : fs::directory_iterator(settings.out))
+        if (entry.path().filename().string().starts_with("figure_"))
+            result.files.push_back(entry.path());
+    result.files.push_back(settings.out / "report.html");
+    return result;
+}
+
+}  // namespace swirl

@@ -1,0 +1,180 @@
+#include "swirl/render/label.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace swirl {
+
+namespace {
+
+/// A stretch of text in one face at one size and height.
+struct Run {
+    std::string text;
+    bool italic = false;
+    int level = 0;  // −1 lowered, +1 raised
+};
+
+bool is_symbol(unsigned char c) {
+    // Letters, and every byte of a multi-byte character (Greek).
+    return c >= 0x80 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+void append(std::vector<Run>& runs, char c, bool italic, int level) {
+    if (runs.empty() || runs.back().italic != italic || runs.back().level != level)
+        runs.push_back({"", italic, level});
+    runs.back().text += c;
+}
+
+std::vector<Run> parse(std::string_view text) {
+    std::vector<Run> runs;
+    bool math = false;
+    int level = 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        const bool has_next = k + 1 < text.size();
+        if (c == '\\' && has_next) {
+            append(runs, text[++k], false, level);
+        } else if (c == '$') {
+            math = !math;
+        } else if (math && (c == '_' || c == '^') && has_next && text[k + 1] == '{') {
+            level = c == '_' ? -1 : 1;
+            ++k;
+        } else if (math && c == '}') {
+            level = 0;
+        } else {
+            append(runs, c, math && is_symbol(static_cast<unsigned char>(c)), level);
+        }
+    }
+    return runs;
+}
+
+constexpr const char* text_face = "Inter";
+constexpr const char* symbol_face = "STIX";
+constexpr const char* complete_face = "DejaVu Sans";
+
+/// Whether the face now selected has a glyph for every character.
+bool has_all_glyphs(cairo_t* cairo, const std::string& text) {
+    cairo_glyph_t* glyphs = nullptr;
+    int count = 0;
+    const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
+        cairo_get_scaled_font(cairo), 0.0, 0.0, text.c_str(), static_cast<int>(text.size()),
+        &glyphs, &count, nullptr, nullptr, nullptr);
+    if (status != CAIRO_STATUS_SUCCESS) return false;
+    const bool all =
+        std::all_of(glyphs, glyphs + count, [](const cairo_glyph_t& g) { return g.index != 0; });
+    cairo_glyph_free(glyphs);
+    return all;
+}
+
+void select_face(cairo_t* cairo, const Run& run, const LabelStyle& style) {
+    const auto slant = run.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL;
+    const auto weight = style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
+    // Times-like symbols look small beside a sans-serif of the same size.
+    const double size = style.size * (run.italic ? 1.12 : 1.0) * (run.level != 0 ? 0.72 : 1.0);
+    cairo_select_font_face(cairo, run.italic ? symbol_face : text_face, slant, weight);
+    cairo_set_font_size(cairo, size);
+    if (!has_all_glyphs(cairo, run.text))
+        cairo_select_font_face(cairo, complete_face, slant, weight);
+}
+
+bool is_digit(const Run& run) {
+    return run.text.size() == 1 && run.text[0] >= '0' && run.text[0] <= '9';
+}
+
+double advance_of(cairo_t* cairo, const Run& run, const LabelStyle& style) {
+    select_face(cairo, run, style);
+    cairo_text_extents_t extents;
+    const bool even = style.even_digits && is_digit(run);
+    cairo_text_extents(cairo, even ? "0" : run.text.c_str(), &extents);
+    return extents.x_advance;
+}
+
+std::vector<Run> runs_of(std::string_view text, const LabelStyle& style) {
+    const std::vector<Run> runs = parse(text);
+    if (!style.even_digits) return runs;
+    std::vector<Run> single;
+    for (const Run& run : runs) {
+        for (char c : run.text) {
+            const bool digit = c >= '0' && c <= '9';
+            if (digit || single.empty() || is_digit(single.back()) ||
+                single.back().italic != run.italic || single.back().level != run.level)
+                single.push_back({"", run.italic, run.level});
+            single.back().text += c;
+        }
+    }
+    return single;
+}
+
+/// Runs `visit(run, x)` for each run with its face selected, from `x` on.
+template <class Visit>
+void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle& style, double x,
+                  Visit&& visit) {
+    for (const Run& run : runs) {
+        const double advance = advance_of(cairo, run, style);
+        double left = x;
+        if (style.even_digits && is_digit(run)) {
+            // Narrow digits in the middle of their place.
+            cairo_text_extents_t own;
+            cairo_text_extents(cairo, run.text.c_str(), &own);
+            left += 0.5 * (advance - own.x_advance);
+        }
+        visit(run, left);
+        x += advance;
+    }
+}
+
+}  // namespace
+
+double label_width(const Canvas& canvas, std::string_view text, const LabelStyle& style) {
+    double width = 0.0;
+    for (const Run& run : runs_of(text, style)) width += advance_of(canvas.cairo(), run, style);
+    return width;
+}
+
+double draw_label(const Canvas& canvas, std::string_view text, Vec2 place,
+                  const LabelStyle& style) {
+    cairo_t* cairo = canvas.cairo();
+    const std::vector<Run> runs = runs_of(text, style);
+    const double width = label_width(canvas, text, style);
+    double left = place.x;
+    if (style.align == Align::center) left -= 0.5 * width;
+    if (style.align == Align::right) left -= width;
+    const auto move_to_run = [&](const Run& run, double x) {
+        const double lift = run.level * (run.level > 0 ? 0.38 : 0.22) * style.size;
+        cairo_move_to(cairo, x, place.y - lift);
+    };
+    if (style.halo) {
+        for_each_run(cairo, runs, style, left, [&](const Run& run, double x) {
+            move_to_run(run, x);
+            cairo_text_path(cairo, run.text.c_str());
+        });
+        canvas.set(*style.halo, 0.85 * style.opacity);
+        cairo_set_line_width(cairo, 0.17 * style.size);
+        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+        cairo_stroke(cairo);
+    }
+    canvas.set(style.color, style.opacity);
+    for_each_run(cairo, runs, style, left, [&](const Run& run, double x) {
+        move_to_run(run, x);
+        cairo_show_text(cairo, run.text.c_str());
+    });
+    cairo_new_path(cairo);
+    return width;
+}
+
+double fitting_size(const Canvas& canvas, std::string_view text, const LabelStyle& style,
+                    double width) {
+    const double full = label_width(canvas, text, style);
+    return full <= width ? style.size : style.size * width / full;
+}
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (char c : text) {
+        if (c == '$' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result;
+}
+
+}  // namespace swirl

@@ -1,0 +1,68 @@
+// What things look like: one set of colours for dark rooms and projectors, one for paper.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "swirl/render/color.hpp"
+
+namespace swirl {
+
+struct Theme {
+    Color page;             // behind everything
+    Color floor;            // inside the dish
+    Color wall, wall_mark;  // the ring, and the marks that show whether it turns
+    Color ink, faint_ink;   // text; captions, axes
+    Color path;             // of the container's centre
+    Color disc;             // without a meaning
+    Color pinned, loose;    // the paper's red and blue, for every kind of colour vision
+    Color neutral;          // middle of the diverging scale
+    Color centrifugal, coriolis, velocity;
+    Color accent;  // the point M, the present moment
+    Color curve;   // of the running plot
+};
+
+/// For projectors and screens.
+constexpr Theme dark_theme() {
+    return {.page = color_from_hex(0x11151C),
+            .floor = color_from_hex(0x1B212B),
+            .wall = color_from_hex(0x5B6675),
+            .wall_mark = color_from_hex(0xDDE3EA),
+            .ink = color_from_hex(0xEDF1F5),
+            .faint_ink = color_from_hex(0x97A3B2),
+            .path = color_from_hex(0x6C7A8C),
+            .disc = color_from_hex(0x7FA6CC),
+            .pinned = color_from_hex(0xE8743B),
+            .loose = color_from_hex(0x56B4E9),
+            .neutral = color_from_hex(0xD9DEE4),
+            .centrifugal = color_from_hex(0xE69F00),
+            .coriolis = color_from_hex(0xE07BB4),
+            .velocity = color_from_hex(0x8CD0F5),
+            .accent = color_from_hex(0xF0E442),
+            .curve = color_from_hex(0x56B4E9)};
+}
+
+/// For paper and bright rooms.
+constexpr Theme light_theme() {
+    return {.page = color_from_hex(0xFFFFFF),
+            .floor = color_from_hex(0xF3F5F7),
+            .wall = color_from_hex(0xAEB7C1),
+            .wall_mark = color_from_hex(0x2B333D),
+            .ink = color_from_hex(0x161B22),
+            .faint_ink = color_from_hex(0x5E6A77),
+            .path = color_from_hex(0x8A95A1),
+            .disc = color_from_hex(0x8DB4D6),
+            .pinned = color_from_hex(0xD55E00),
+            .loose = color_from_hex(0x3E9BD6),
+            .neutral = color_from_hex(0xD3D8DE),
+            .centrifugal = color_from_hex(0xB87400),
+            .coriolis = color_from_hex(0xC2548F),
+            .velocity = color_from_hex(0x0072B2),
+            .accent = color_from_hex(0xB0007A),
+            .curve = color_from_hex(0x0072B2)};
+}
+
+/// "dark" or "light"; nothing for any other name.
+std::optional<Theme> theme_named(std::string_view name);
+
+}  // namespace swirl

@@ -1,0 +1,81 @@
+#include "swirl/run/camera_sampled_run.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "swirl/io/tracks.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measured_series.hpp"
+#include "swirl/run/track_fit.hpp"
+
+namespace swirl {
+namespace {
+
+/// Box and Muller's pair of normal numbers.
+Vec2 normal_pair(Random& random) {
+    const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return size * unit_circle(random.uniform());
+}
+
+TrackFrame picture_of(const Snapshot& s, std::int64_t number, double error, Random& random) {
+    TrackFrame frame;
+    frame.number = number;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        frame.id.push_back(static_cast<std::int64_t>(i));
+        frame.position.push_back(s.position(i) + error * normal_pair(random));
+        frame.radius.push_back(s.radius[i]);
+        frame.spin.push_back(s.spin[i]);
+    }
+    return frame;
+}
+
+}  // namespace
+
+nlohmann::ordered_json seen_run(const RunConfig& config, const SeenAs& seen,
+                                const std::vector<std::string>& measurements,
+                                const RunControl& control) {
+    Run run(config, control);
+    SampleTimes times = run.sample_times(seen.frames_per_swirl);
+    Random random(config.seed);
+    Tracks tracks;
+    TrackScale scale;
+    std::int64_t number = 0;
+    while (run.next_event()) {
+        while (run.next_sample(times)) {
+            ++number;
+            if (!run.is_warm()) continue;
+            const Snapshot& s = run.snapshot();
+            if (tracks.frames.empty())
+                scale.phase = std::atan2(s.container_centre.y, s.container_centre.x);
+            tracks.frames.push_back(picture_of(s, number, seen.position_error, random));
+        }
+        run.pass_event();
+    }
+    if (!run.complete()) throw Interrupted("Stopped.");
+    const auto wanted = static_cast<std::size_t>(seen.frames_per_swirl);
+    if (tracks.frames.size() < wanted)
+        throw Failure("No swirl was left after the warm-up; more events are needed.");
+    const std::int64_t first = tracks.frames.front().number;
+    for (TrackFrame& frame : tracks.frames) frame.number -= first;
+    scale.period = config.period;
+    scale.frames_per_time = seen.frames_per_swirl / config.period;
+    scale.amplitude = config.amplitude;
+    scale.container_radius = config.container_radius;
+    TrackSmoothing smoothing;
+    const SnapshotSeries series = smoothed_series(std::move(tracks), scale, smoothing);
+    MeasuringControl measuring;
+    measuring.stop = control.stop;
+    const MeasuredSeries found =
+        measure_series(series, measurable(measurements, true), 0.0, measuring);
+
+    nlohmann::ordered_json json = result_json(run.result());
+    json["rotation"]["by_time"] = estimate_json(found.rotation.by_time);
+    json["rotation"]["rigid_by_time"] = estimate_json(found.rotation.rigid_by_time);
+    json["measured"] = measured_json(found.reports);
+    return json;
+}
+
+}  // namespace swirl

@@ -1,0 +1,242 @@
+#include "swirl/run/measurements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "swirl/io/table.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+const MeasurementKind& kind_called(std::string_view name) {
+    if (const MeasurementKind* kind = find_measurement(name)) return *kind;
+    std::string known;
+    for (const MeasurementKind& kind : measurement_kinds())
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
+    throw WrongCall(
+        fmt::format("--measure has '{}' in its list, but each must be one of: {}; or "
+                    "the list is 'all'.",
+                    name, known));
+}
+
+/// Rows and tables as they are before anything has been seen: names, units, descriptions.
+MeasurementReports empty_reports() {
+    return Observation(1.0, 1.0, read_measurement_list("all")).report();
+}
+
+/// "slip.cluster"; "density" for a table without a name, "energy" for a row without a group.
+std::string full_name(const std::string& measurement, std::string_view name) {
+    if (measurement.empty() || name.empty()) return measurement + std::string(name);
+    return fmt::format("{}.{}", measurement, name);
+}
+
+std::string in_unit(std::string_view value, std::string_view unit) {
+    return unit == "1" ? std::string(value) : fmt::format("{} {}", value, unit);
+}
+
+/// "theta (°), pressure (m v²/r²), …". The error of a column goes without saying.
+std::string columns_text(const ReportTable& table) {
+    std::string text;
+    for (const ReportColumn& column : table.columns) {
+        const std::string_view name = column.name;
+        if (name.ends_with("_error")) continue;
+        if (!text.empty()) text += ", ";
+        text += std::string_view(column.unit) == "1" ? std::string(name)
+                                                     : fmt::format("{} ({})", name, column.unit);
+    }
+    return text;
+}
+
+Json table_json(const ReportTable& table) {
+    Json json = Json::object();
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        Json& column = json[table.columns[c].name] = Json::array();
+        for (std::size_t r = 0; r < table.rows(); ++r) column.push_back(table.at(r, c));
+    }
+    return json;
+}
+
+/// NaN, which JSON cannot hold, was written as null.
+double number(const Json& json) { return json.is_number() ? json.get<double>() : not_known; }
+
+bool is_table(const Json& json) {
+    return json.is_object() && !json.empty() && json.begin()->is_array();
+}
+
+Estimate estimate_in(const Json& value) {
+    if (!value.is_object()) return {.mean = number(value)};
+    return {.mean = number(value.value("mean", Json())),
+            .error = number(value.value("error", Json())),
+            .effective_samples = number(value.value("effective_samples", Json())),
+            .blocks = value.value("blocks", std::size_t{0})};
+}
+
+fs::path write_table(const ReportTable& table, const fs::path& file) {
+    std::vector<std::string> heads;
+    for (const ReportColumn& column : table.columns) heads.emplace_back(column.name);
+    Table csv(heads);
+    for (std::size_t r = 0; r < table.rows(); ++r) {
+        std::vector<Table::Cell> cells;
+        for (std::size_t c = 0; c < heads.size(); ++c) cells.emplace_back(table.at(r, c));
+        csv.add(std::move(cells));
+    }
+    csv.write(file);
+    return file;
+}
+
+}  // namespace
+
+std::vector<std::string> read_measurement_list(std::string_view list) {
+    std::vector<std::string> names;
+    if (list == "all") {
+        for (const MeasurementKind& kind : measurement_kinds()) names.emplace_back(kind.name);
+        return names;
+    }
+    while (true) {
+        const std::size_t comma = list.find(',');
+        const std::string name(kind_called(list.substr(0, comma)).name);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (comma == list.npos) return names;
+        list.remove_prefix(comma + 1);
+    }
+}
+
+std::string measurement_list_text() {
+    std::string text;
+    for (const MeasurementKind& kind : measurement_kinds())
+        text += fmt::format("  {:<14}{}\n", kind.name, kind.description);
+    return text;
+}
+
+std::string measurement_help_text() {
+    std::string text = "every run:\n";
+    const auto line = [&](const std::string& name, const ReportRow& row) {
+        text +=
+            fmt::format("  {:<38}{:<9}{}\n", full_name(name, row.name), row.unit, row.description);
+    };
+    RunResult().report(line);
+    for (const auto& [name, report] : empty_reports()) {
+        text += fmt::format("{}: {}\n", name, kind_called(name).description);
+        for (const ReportRow& row : report.rows) line(name, row);
+        for (const ReportTable& table : report.tables)
+            text += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
+                                columns_text(table));
+    }
+    return text;
+}
+
+std::string measurement_markdown() {
+    std::string kinds = "| name | what it is | definition |\n|---|---|---|\n";
+    for (const MeasurementKind& kind : measurement_kinds())
+        kinds += fmt::format("| {} | {} | [{}](../src/swirl/measure/{}) |\n", kind.name,
+                             kind.description, kind.header, kind.header);
+    std::string rows = "| number | unit | what it is |\n|---|---|---|\n";
+    const auto line = [&](const std::string& name, const ReportRow& row) {
+        rows +=
+            fmt::format("| {} | {} | {} |\n", full_name(name, row.name), row.unit, row.description);
+    };
+    RunResult().report(line);
+    std::string tables = "| table | columns (unit) | what it is |\n|---|---|---|\n";
+    for (const auto& [name, report] : empty_reports()) {
+        for (const ReportRow& row : report.rows) line(name, row);
+        for (const ReportTable& table : report.tables)
+            tables += fmt::format("| {} | {} | {} |\n", full_name(name, table.name),
+                                  columns_text(table), table.description);
+    }
+    return kinds + "\n" + rows + "\n" + tables;
+}
+
+Observation observation_of(const RunConfig& config, std::vector<std::string> names) {
+    return Observation(config.container_radius, config.period, std::move(names));
+}
+
+MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
+                         const RunControl& control) {
+    Observation observation = observation_of(config, names);
+    RunControl observed = control;
+    if (!names.empty()) observed.observation = &observation;
+    const RunResult result = run(config, observed);
+    return {result, measured_json(observation.report())};
+}
+
+Json measured_json(const MeasurementReports& reports) {
+    Json measured = Json::object();
+    for (const auto& [name, report] : reports) {
+        Json& json = measured[name] = Json::object();
+        for (const ReportRow& row : report.rows) json[row.name] = row_json(row);
+        for (const ReportTable& table : report.tables)
+            (*table.name == '\0' ? json : json[table.name]) = table_json(table);
+    }
+    return measured;
+}
+
+// Directions are what says how well its angles agree (circular_mean.hpp).
+bool is_direction(const Json& row) { return row.is_object() && row.contains("concentration"); }
+
+std::vector<MeasuredNumber> measured_numbers(const Json& measured) {
+    std::vector<MeasuredNumber> numbers;
+    for (const auto& [name, result] : measured.items()) {
+        if (is_table(result)) continue;
+        for (const auto& [quantity, value] : result.items())
+            if (!is_table(value))
+                numbers.push_back({name + "." + quantity, estimate_in(value), is_direction(value)});
+    }
+    return numbers;
+}
+
+std::string measured_text(const MeasurementReports& reports) {
+    std::string numbers, tables;
+    for (const auto& [name, report] : reports) {
+        for (const ReportRow& row : report.rows)
+            numbers +=
+                fmt::format("  {:<38}{}\n", full_name(name, row.name),
+                            in_unit(with_error(row.estimate.mean, row.estimate.error), row.unit));
+        for (const ReportTable& table : report.tables)
+            tables += fmt::format("  {:<38}table of {} rows\n", full_name(name, table.name),
+                                  table.rows());
+    }
+    return numbers + tables;
+}
+
+std::vector<fs::path> measured_table_files(const std::vector<std::string>& names,
+                                           const fs::path& folder) {
+    std::vector<fs::path> files;
+    bool has_rows = false;
+    for (const auto& [name, report] : Observation(1.0, 1.0, names).report()) {
+        for (const ReportTable& table : report.tables)
+            files.push_back(folder / (full_name(name, table.name) + ".csv"));
+        has_rows |= !report.rows.empty();
+    }
+    if (has_rows) files.push_back(folder / "numbers.csv");
+    return files;
+}
+
+std::vector<fs::path> write_measured_tables(const MeasurementReports& reports,
+                                            const fs::path& folder) {
+    std::vector<fs::path> files;
+    Table numbers({"quantity", "unit", "mean", "error", "effective_samples", "blocks"});
+    bool has_rows = false;
+    for (const auto& [name, report] : reports) {
+        for (const ReportTable& table : report.tables)
+            files.push_back(write_table(table, folder / (full_name(name, table.name) + ".csv")));
+        for (const ReportRow& row : report.rows) {
+            const Estimate& e = row.estimate;
+            numbers.add({full_name(name, row.name), std::string(row.unit), e.mean, e.error,
+                         e.effective_samples, static_cast<std::int64_t>(e.blocks)});
+        }
+        has_rows |= !report.rows.empty();
+    }
+    if (!has_rows) return files;
+    files.push_back(folder / "numbers.csv");
+    numbers.write(files.back());
+    return files;
+}
+
+}  // namespace swirl

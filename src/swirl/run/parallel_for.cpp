@@ -1,0 +1,51 @@
+#include "swirl/run/parallel_for.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace swirl {
+
+unsigned available_cores() {
+    // Not hardware_concurrency(): a batch system may have given us fewer than the machine has.
+    cpu_set_t ours;
+    CPU_ZERO(&ours);
+    if (sched_getaffinity(0, sizeof ours, &ours) == 0)
+        return static_cast<unsigned>(std::max(1, CPU_COUNT(&ours)));
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
+                  unsigned threads) {
+    std::atomic<std::size_t> next = 0;
+    std::exception_ptr failure;
+    std::mutex failure_mutex;
+    const auto loop = [&] {
+        for (std::size_t k; (k = next.fetch_add(1)) < count;) {
+            try {
+                work(k);
+            } catch (...) {
+                const std::lock_guard lock(failure_mutex);
+                if (!failure) failure = std::current_exception();
+                next = count;
+            }
+        }
+    };
+    const std::size_t wanted = threads > 0 ? threads : available_cores();
+    std::vector<std::thread> team;
+    try {
+        for (std::size_t t = 1; t < std::min(wanted, count); ++t) team.emplace_back(loop);
+    } catch (const std::exception&) {
+        // No memory or no right for more threads: those that there are do it.
+    }
+    loop();
+    for (std::thread& thread : team) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace swirl

@@ -1,0 +1,326 @@
+#include "swirl/run/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checkpoint.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/event_log.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/recording.hpp"
+#include "swirl/io/state_archive.hpp"
+#include "swirl/measure/observation.hpp"
+#include "swirl/run/config.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/simd.hpp"
+#include "swirl/run/version.hpp"
+
+namespace swirl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+Json frames_json(const RunFiles& files) {
+    if (files.trajectory.empty()) return nullptr;
+    if (files.frames.events) return Json{{"events", *files.frames.events}};
+    if (files.frames.interval) return Json{{"interval", *files.frames.interval}};
+    return Json{{"per_swirl", files.frames.per_swirl}};
+}
+
+/// What must agree for a run to be resumed.
+Json identity(const RunConfig& config, const RunFiles& files, const Observation* observation) {
+    Json measured = Json::array();
+    if (observation && !observation->empty())
+        measured.push_back(fmt::format("{}", fmt::join(observation->names(), ",")));
+    return {{"parameters", config_json(config)},
+            {"frames", frames_json(files)},
+            {"event_log", !files.event_log.empty()},
+            {"measured", measured}};
+}
+
+/// What a checkpoint says about its run.
+Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
+    Json about = Json::parse(kept.about, nullptr, false);
+    const auto says_which = [&] {
+        if (!about.is_object()) return false;
+        const Json identity = about.value("identity", Json()),
+                   call = about.value("call", Json::object());
+        return identity.is_object() && identity.value("parameters", Json()).is_object() &&
+               identity.contains("frames") && about.value("run", Json("")).is_string() &&
+               about.value("overwrites", Json(false)).is_boolean() && call.is_object() &&
+               std::all_of(call.begin(), call.end(), [](const Json& v) { return v.is_string(); });
+    };
+    if (!says_which())
+        throw FileError(fmt::format(
+            "The checkpoint '{}' does not say which run it is of; remove it.", file.string()));
+    return about;
+}
+
+/// The shape of the bodies whose state a checkpoint holds.
+Shape shape_in(const Json& parameters) {
+    if (parameters.value("body", Json()) == Json("sphere")) return Shape::sphere;
+    return parameters.value("floor", Json()).is_string() ? Shape::coin : Shape::disc;
+}
+
+/// A state is continued by the law that led to it, or the run would be that of neither program.
+void require_own_law(const std::filesystem::path& file, const Json& about) {
+    const Shape shape = shape_in(about.at("identity").at("parameters"));
+    const Json law = about.value("law", Json(1));  // what was written before laws had numbers
+    if (law == law_of(shape)) return;
+    throw FileError(fmt::format(
+        "The checkpoint '{}' is of swirl {}, in which such bodies moved by another law ({} there, "
+        "{} here). Resume it with the program that wrote it, or start again.",
+        file.string(), about.value("version", std::string("?")), law.dump(), law_of(shape)));
+}
+
+std::string difference(const Json& there, const Json& here) {
+    for (const auto& [name, value] : here.at("parameters").items())
+        if (there.at("parameters").value(name, Json()) != value)
+            return fmt::format("{} is {} there and {} here", name,
+                               there["parameters"].value(name, Json()).dump(), value.dump());
+    if (there.at("frames") != here.at("frames"))
+        return fmt::format("the frames of its trajectory are {} there and {} here",
+                           there["frames"].dump(), here["frames"].dump());
+    if (there.value("event_log", Json(false)) != here.at("event_log"))
+        return "one of the two writes an event log and the other does not";
+    return fmt::format("it measures {} there and {} here",
+                       there.value("measured", Json::array()).dump(), here.at("measured").dump());
+}
+
+Json take_length(Json& identity) {
+    Json length;
+    for (const char* name : {"events", "periods"}) {
+        length[name] = identity["parameters"].value(name, Json());
+        identity["parameters"].erase(name);
+    }
+    return length;
+}
+
+/// The same run, but that it is to go on for longer; what was recorded of it may be left behind.
+bool is_of_another_length(Json there, Json here) {
+    if (take_length(there) == take_length(here)) return false;
+    for (const char* recording : {"frames", "event_log"})
+        if (here[recording] == Json() || here[recording] == Json(false))
+            there[recording] = here[recording];
+    return there == here;
+}
+
+/// What names the run in its recordings: the same name, the same frames and events.
+std::string run_name(const Json& identity) {
+    return fmt::format("{:016x}", checksum(identity.dump() + version()));
+}
+
+/// An earlier state stays at hand when a run begins anew over it.
+void set_aside(const std::filesystem::path& checkpoint) {
+    std::error_code ignored;
+    if (!checkpoint.empty() && std::filesystem::exists(checkpoint, ignored))
+        give_final_name(checkpoint, backup_name(checkpoint));
+}
+
+class Recorder {
+  public:
+    Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
+             const Observation* observation, const std::atomic<bool>* stop)
+        : config_(config),
+          files_(files),
+          observation_(observation),
+          run_name_(run_name(identity(config, files, observation))),
+          overwrites_(files.overwrite),
+          frame_times_(files.frames.per_swirl, config.period, files.frames.interval.value_or(0.0)),
+          last_kept_(Clock::now()) {
+        if (files.resume && std::filesystem::exists(files.checkpoint))
+            resume();
+        else
+            start(provenance, stop);
+    }
+
+    RunResult operator()(RunControl control) {
+        control.resume = std::move(resumed_);
+        control.orientations = !files_.trajectory.empty() && config_.shape() != Shape::disc;
+        Run run(config_, std::move(control));
+        if (shorter_)
+            if (const auto trouble = run.trouble_with_length(*shorter_))
+                throw WrongCall(
+                    fmt::format("The run of the checkpoint '{}' cannot be continued to another "
+                                "length: {}.",
+                                files_.checkpoint.string(), *trouble));
+        while (run.next_event()) {
+            record(run);
+            if (is_due() && !run.complete()) keep(run);
+        }
+        if (!run.complete() || files_.keep_checkpoint) keep(run);
+        const RunResult result = run.result();
+        if (!result.complete) {
+            if (trajectory_) trajectory_->flush();
+            if (event_log_) event_log_->flush();
+            return result;
+        }
+        if (trajectory_) trajectory_->finish();
+        if (event_log_) event_log_->finish();
+        return result;
+    }
+
+  private:
+    void start(Provenance provenance, const std::atomic<bool>* stop) {
+        if (files_.overwrite) set_aside(files_.checkpoint);
+        provenance.emplace_back(run_entry, run_name_);
+        provenance.emplace_back("frames", frames_entry(files_));
+        for (const auto& file : {files_.trajectory, files_.event_log})
+            if (!file.empty() && !files_.overwrite) refuse_foreign_recording(file, run_name_);
+        if (files_.trajectory.empty() && files_.event_log.empty()) return;
+        const InitialState scene = make_initial_state(config_, stop);
+        const Snapshot first = Simulation(scene, {}, asked_tuning(stop)).snapshot();
+        if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
+        if (!files_.trajectory.empty())
+            trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
+        if (!files_.event_log.empty())
+            event_log_.emplace(files_.event_log, first, scene.path.legs.back().end, provenance,
+                               files_.compression, moving_floor(scene.floor, scene.path));
+    }
+
+    void resume() {
+        const Checkpoint kept = read_checkpoint(files_.checkpoint);
+        const Json about = about_in(files_.checkpoint, kept),
+                   here = identity(config_, files_, observation_);
+        require_own_law(files_.checkpoint, about);
+        if (is_of_another_length(about.at("identity"), here)) {
+            if (!files_.trajectory.empty() || !files_.event_log.empty())
+                throw WrongCall(fmt::format(
+                    "The checkpoint '{}' is of a run of another length, and a recording knows how "
+                    "long its run is; begin anew with --overwrite, or give the whole call again "
+                    "without --trajectory and --log-events.",
+                    files_.checkpoint.string()));
+            shorter_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
+        } else if (about.at("identity") != here)
+            throw WrongCall(fmt::format(
+                "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
+                "or choose another checkpoint with --checkpoint.",
+                files_.checkpoint.string(), difference(about.at("identity"), here)));
+        StateReader state(kept.state);
+        std::uint64_t frames = 0, logged = 0;
+        resumed_.emplace();
+        state(frames, logged, events_, frame_times_, *resumed_);
+        state.expect_end();
+        if (!files_.event_log.empty() && logged != events_)
+            throw FileError(fmt::format(
+                "The checkpoint '{}' contradicts itself: it counts {} events and {} in its log.",
+                files_.checkpoint.string(), events_, logged));
+        run_name_ = about.value("run", std::string());
+        overwrites_ = about.value("overwrites", false);
+        if (!files_.trajectory.empty())
+            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, run_name_);
+        if (!files_.event_log.empty())
+            event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
+    }
+
+    /// Passes the event that comes next: the frames before it, its own line, the frame after it.
+    void record(Run& run) {
+        if (trajectory_ && !files_.frames.events)
+            while (run.next_sample(frame_times_)) trajectory_->write(run.snapshot(), events_);
+        run.pass_event();
+        ++events_;
+        if (event_log_) event_log_->write(run.event());
+        if (trajectory_ && files_.frames.events &&
+            events_ % std::uint64_t(*files_.frames.events) == 0)
+            trajectory_->write(run.snapshot(), events_);
+    }
+
+    /// Is it time to keep the state? The clock is looked at every few hundred events.
+    bool is_due() const {
+        return events_ % 256 == 0 && !files_.checkpoint.empty() &&
+               std::chrono::duration<double>(Clock::now() - last_kept_).count() >=
+                   files_.checkpoint_every;
+    }
+
+    void keep(Run& run) {
+        if (files_.checkpoint.empty() || given_up_) return;
+        try {
+            write(run);
+        } catch (const FileError& error) {
+            if (files_.checkpoint_needed) throw;
+            given_up_ = true;
+            if (files_.complain)
+                files_.complain(
+                    fmt::format("{} The run goes on without checkpoints.", error.what()));
+        }
+    }
+
+    /// What the checkpoint counts on must be on the disk before it.
+    void write(Run& run) {
+        if (trajectory_) trajectory_->flush();
+        if (event_log_) event_log_->flush();
+        StateWriter state;
+        std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
+        std::uint64_t logged = event_log_ ? event_log_->events() : 0;
+        state(frames, logged, events_, frame_times_);
+        state.as_text([&](StateWriter& kept) { run.write(kept); });
+        const Json about{{"version", version()},
+                         {"law", law_of(config_.shape())},
+                         {"identity", identity(config_, files_, observation_)},
+                         {"run", run_name_},
+                         {"call", files_.call},
+                         {"overwrites", overwrites_}};
+        write_checkpoint(files_.checkpoint, {about.dump(), std::move(state).bytes()});
+        last_kept_ = Clock::now();
+    }
+
+    const RunConfig& config_;
+    const RunFiles& files_;
+    const Observation* observation_;
+    std::string run_name_;
+    bool overwrites_;  // asked for when the run began, and still so when it is resumed
+    std::optional<TrajectoryWriter> trajectory_;
+    std::optional<EventLogWriter> event_log_;
+    std::optional<std::string> resumed_;
+    std::optional<RunConfig> shorter_;  // the run that was resumed, if it was to end sooner
+    SampleTimes frame_times_;
+    std::uint64_t events_ = 0;  // since the beginning of the run
+    bool given_up_ = false;
+    Clock::time_point last_kept_;
+};
+
+}  // namespace
+
+RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
+                       const Provenance& provenance) {
+    return Recorder(config, files, provenance, control.observation, control.stop)(control);
+}
+
+void forget_checkpoint(const RunFiles& files) {
+    std::error_code ignored;
+    if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
+}
+
+std::string frames_entry(const RunFiles& files) { return frames_json(files).dump(); }
+
+std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
+    return free_name(checkpoint.string() + ".backup");
+}
+
+KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
+    const Json about = about_in(checkpoint, read_checkpoint(checkpoint));
+    return {.configuration = about.at("identity").at("parameters").dump(),
+            .options = about.value("call", ParameterTexts()),
+            .overwrites = about.value("overwrites", false),
+            .run = about.value("run", std::string())};
+}
+
+Provenance provenance_of(const RunConfig& config, const std::string& command,
+                         const std::string& config_text) {
+    return {{"version", version()},
+            {"build", build_description()},
+            {"command", command},
+            {"config", config_text},
+            {"parameters", config_json(config).dump()},
+            {"seed", fmt::format("{}", config.seed)},
+            {"generator", random_generator}};
+}
+
+}  // namespace swirl

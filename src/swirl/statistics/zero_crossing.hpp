@@ -1,0 +1,86 @@
+// Where a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from rotation
+// to counterrotation.
+//
+// Signs. The sign of a point is certain if its mean is more than three errors from zero. Otherwise
+// it is undetermined; such points are listed (`undetermined`), because the curve may change sign
+// next to them. Between two points of certain and opposite signs, with no other certain point
+// between them, the curve does change sign. These two are the bracket of the change.
+//
+// N_c. N is a whole number, so the zero is that of the straight line between two neighbours, N and
+// N + 1. It depends on these two points alone, not on the range of the table. A bracket may hold
+// undetermined points; then the curve in it is the polyline through all its points. If this has
+// several zeros, N_c is the middle one.
+//
+// Interval. At x = N + f the polyline has the value and the variance
+//
+//     g(x) = (1 − f) m_N + f m_{N+1},   σ²(x) = (1 − f)² e_N² + f² e_{N+1}².
+//
+// The interval of 95 % reaches from the first to the last x at which g is compatible with zero,
+// |g(x)| ≤ z σ(x), z = 1.96. For one pair of points this is Fieller's interval (1954,
+// doi:10.1111/j.2517-6161.1954.tb00159.x), which is exact. It contains the zeros of its own
+// polyline. It lies within the bracket, since the signs at both ends are certain. The error is the
+// half width of the interval divided by z.
+//
+// Coarse tables. If two points of a bracket are more than one apart, nothing is known of the curve
+// between them. Then the bracket is all that is reported: N_c and its error are not known, and the
+// interval is the bracket.
+//
+// One sign throughout is claimed only if every point certainly has it. Units: those of N. Limits:
+// points without a finite mean and a finite, non-negative error are left out; an exact point (error
+// 0) has a certain sign unless its mean is 0. Errors count as those of normal deviates;
+// replicates.hpp widens those of few runs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "swirl/statistics/block_average.hpp"
+
+namespace swirl {
+
+struct RotationPoint {
+    double discs;        // N
+    double mean, error;  // ϖ/Ω
+};
+
+/// Errors that make a sign certain: of many points one or two are off by two.
+inline constexpr double certain_sign = 3.0;
+
+/// One change of sign, of a curve that need not be monotonic.
+struct SignChange {
+    double before, after;     // the bracket
+    bool to_counterrotation;  // else back to rotation
+    double discs = not_known, error = not_known;
+    double lower = not_known, upper = not_known;  // 95 %, or the bracket of a coarse table
+    std::vector<double> between = {};             // undetermined points in the bracket
+
+    /// Whether every N of the bracket has a point, so that N_c is known.
+    bool resolved() const { return discs == discs; }
+};
+
+struct Crossing {
+    enum class Verdict : std::uint8_t {
+        crosses,
+        always_rotates,         // every point is certainly positive
+        always_counterrotates,  // every point is certainly negative
+        undecided,              // the errors are too large, or there are too few points
+    };
+    Verdict verdict = Verdict::undecided;
+    std::size_t points = 0;  // with a mean and an error
+    /// Of the last change to counterrotation. N_c is not known if that is a bracket of a table.
+    double discs = not_known, error = not_known;
+    double lower = not_known, upper = not_known;
+    std::vector<SignChange> changes = {};   // all that are certain, in the order of N
+    std::vector<double> undetermined = {};  // N whose sign is not certain, in order
+
+    /// The last change to counterrotation; nullptr if there is none.
+    const SignChange* last() const;
+    /// Undetermined points beyond the last change to counterrotation: another change may follow.
+    std::vector<double> undetermined_after() const;
+};
+
+/// Points in any order.
+Crossing find_crossing(std::span<const RotationPoint> points);
+
+}  // namespace swirl

@@ -1,0 +1,305 @@
+#include "swirl/study/collected_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "swirl/statistics/replicates.hpp"
+#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/sweep_folder.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PointResult {
+    bool there = false, has_whole_swirl = true;
+    /// The four estimators of the rotation, then the numbers that were measured.
+    std::vector<MeasuredNumber> quantities;
+    double energy = 0.0, periods = 0.0;
+    std::string state_hash, steadiness, version;
+
+    /// The quantity of this name; nearly always it is the one in this place.
+    Estimate quantity(std::size_t place, const std::string& name) const {
+        if (place < quantities.size() && quantities[place].name == name)
+            return quantities[place].estimate;
+        for (const MeasuredNumber& other : quantities)
+            if (other.name == name) return other.estimate;
+        return {.mean = not_known, .error = not_known};
+    }
+};
+
+/// Keeps what a table needs of a result; building the rest would take most of the time.
+bool needed(int depth, Json::parse_event_t event, Json& parsed) {
+    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
+    static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
+                                                 "config",   "state_hash", "periods",     "energy",
+                                                 "rotation", "measured",   "steady_state"};
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (depth == 3) return key != "blocks";  // of a rotation
+    return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
+/// A result that was copied to another point, or into another sweep, would be believed otherwise.
+void refuse_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
+                                    std::size_t point) {
+    const bool ours = json.at("point") == point && json.at("replica") == plan.replica(point) &&
+                      json.at("config").at("seed") == plan.config(point).seed;
+    if (!ours)
+        throw FileError(fmt::format(
+            "'{}' is the result of another run than point {} of this sweep; remove it and call "
+            "`swirl sweep` again.",
+            file.string(), point));
+}
+
+PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const fs::path file = result_file(folder, plan, point);
+    const Json json = Json::parse(read_regular_file(file), needed, false);
+    if (json.is_discarded() || !json.is_object())
+        throw FileError(
+            fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
+    PointResult result;
+    result.there = true;
+    result.quantities.reserve(rotation_rates.size());
+    const auto number = [](const Json& value) {
+        return value.is_null() ? not_known : value.get<double>();  // throws for a text
+    };
+    try {
+        if (json.value("format", 0) != result_format)
+            throw FileError(fmt::format(
+                "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
+                "call `swirl sweep` again, or collect with the program that wrote it.",
+                file.string(), json.value("format", 0), json.value("version", std::string("?")),
+                result_format));
+        refuse_result_of_another_point(file, json, plan, point);
+        for (const auto& [name, words] : rotation_rates) {
+            const Json& found = json.at("rotation").at(name);
+            result.quantities.push_back(
+                {name, Estimate{.mean = number(found.at("mean")),
+                                .error = number(found.at("error")),
+                                .effective_samples = number(found.at("effective_samples"))}});
+        }
+        if (const auto measured = json.find("measured"); measured != json.end())
+            for (auto& quantity : measured_numbers(*measured))
+                result.quantities.push_back(std::move(quantity));
+        // A single disc never has a rotation.
+        result.has_whole_swirl = json.at("config").at("discs") == 1 ||
+                                 !std::isnan(result.quantities.front().estimate.mean);
+        result.energy = number(json.at("energy"));
+        result.periods = number(json.at("periods"));
+        result.state_hash = json.at("state_hash").get<std::string>();
+        result.version = json.at("version").get<std::string>();
+        result.steadiness = json.at("steady_state").at("verdict").get<std::string>();
+    } catch (const nlohmann::json::exception&) {
+        throw FileError(
+            fmt::format("'{}' lacks a part of a result, or holds a text where a number belongs; "
+                        "remove it and call `swirl sweep` again.",
+                        file.string()));
+    }
+    return result;
+}
+
+/// The places in the order of a table: that of the values as they were given, and where a plan has
+/// grown and an axis is of numbers, theirs.
+std::vector<std::size_t> rows_of(const SweepPlan& plan) {
+    std::vector<std::size_t> rows{0};
+    for (const SweepAxis& axis : plan.axes) {
+        std::vector<std::size_t> order(axis.values.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<double> numbers;
+        for (const std::string& value : axis.values)
+            if (const auto number = read_number(value)) numbers.push_back(*number);
+        if (!plan.before.empty() && numbers.size() == order.size())
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+        std::vector<std::size_t> longer;
+        longer.reserve(rows.size() * order.size());
+        for (const std::size_t row : rows)
+            for (const std::size_t k : order) longer.push_back(row * order.size() + k);
+        rows = std::move(longer);
+    }
+    return rows;
+}
+
+Table::Cell cell_of(const std::string& text) {
+    if (const auto whole = read_whole_number(text)) return *whole;
+    if (const auto number = read_number(text)) return *number;
+    return text;
+}
+
+/// Of all replicas together: steady if all are, otherwise the worst of them.
+std::string steadiness_of(const std::vector<const PointResult*>& replicas) {
+    for (const char* verdict : {"drifting", "jumping", "switching", "too short to tell"})
+        for (const PointResult* r : replicas)
+            if (r->steadiness == verdict) return verdict;
+    return replicas.front()->steadiness;
+}
+
+/// By their places in the product of the axes.
+std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& plan) {
+    const std::vector<bool> done =
+        numbered_files(part_of_sweep(folder, "results", plan), ".json", plan.points());
+    std::vector<PointResult> results(plan.points());
+    constexpr std::size_t batch = 256;
+    on_all_cores((results.size() + batch - 1) / batch, [&](std::size_t b) {
+        for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
+            if (done[p]) results[plan.place(p)] = read_result(folder, plan, p);
+    });
+    return results;
+}
+
+struct Quantity {
+    std::string name;
+    bool is_direction = false;
+};
+
+/// What every run found: that of the first that is there.
+std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
+    std::vector<Quantity> quantities;
+    const auto some =
+        std::find_if(results.begin(), results.end(), [](const PointResult& r) { return r.there; });
+    if (some == results.end()) {
+        for (const auto& [name, words] : rotation_rates) quantities.push_back({name});
+        return quantities;
+    }
+    for (const MeasuredNumber& number : some->quantities)
+        quantities.push_back({number.name, number.direction});
+    return quantities;
+}
+
+/// How long the runs are is known of runs that were given so many swirls.
+bool gives_periods(const SweepPlan& plan) {
+    return std::any_of(plan.axes.begin(), plan.axes.end(),
+                       [](const SweepAxis& axis) { return axis.name == "periods"; });
+}
+
+std::vector<std::string> columns_of(const SweepPlan& plan,
+                                    const std::vector<Quantity>& quantities) {
+    std::vector<std::string> columns;
+    for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
+    columns.emplace_back("replicas");
+    if (!gives_periods(plan)) columns.emplace_back("periods");
+    columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
+    for (const Quantity& quantity : quantities) {
+        columns.push_back(quantity.name);
+        columns.push_back(quantity.name + "_error");
+    }
+    columns.push_back("state_hash");
+    return columns;
+}
+
+/// Of one replica its own hash.
+std::string hash_of(const std::vector<const PointResult*>& replicas) {
+    std::string hashes;
+    for (const PointResult* r : replicas) hashes += r->state_hash;
+    return replicas.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes));
+}
+
+void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTexts& texts,
+             const std::vector<Quantity>& quantities,
+             const std::vector<const PointResult*>& replicas) {
+    std::vector<Table::Cell> row;
+    for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
+    const auto n = static_cast<double>(replicas.size());
+    double periods = 0.0, energy = 0.0;
+    for (const PointResult* r : replicas) {
+        periods += r->periods / n;
+        energy += r->energy / n;
+    }
+    const std::string steadiness = steadiness_of(replicas);
+    collected.not_steady += steadiness == "steady" ? 0 : 1;
+    row.emplace_back(std::int64_t(replicas.size()));
+    if (!gives_periods(plan)) row.emplace_back(periods);
+    row.emplace_back(energy);
+    row.emplace_back(steadiness);
+    const std::size_t place_of_scatter = row.size();
+    row.emplace_back(not_known);
+    collected.rows.push_back({texts});
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        const auto& [name, is_direction] = quantities[k];
+        std::vector<Estimate> found;
+        for (const PointResult* r : replicas) found.push_back(r->quantity(k, name));
+        const SeveralRuns together = is_direction ? several_directions(found) : several_runs(found);
+        row.emplace_back(together.estimate.mean);
+        row.emplace_back(together.estimate.error);
+        if (k < rotation_rates.size()) collected.rows.back().rotation[k] = together.estimate;
+        if (name != rotation_rates[default_rate].name) continue;
+        row[place_of_scatter] = together.scatter;
+        collected.disagreeing += together.disagree ? 1 : 0;
+    }
+    row.emplace_back(hash_of(replicas));
+    collected.table.add(std::move(row));
+}
+
+}  // namespace
+
+CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
+    const std::vector<PointResult> results = read_results(folder, plan);
+    const std::vector<Quantity> quantities = quantities_of(results);
+    CollectedSweep collected{.table = Table(columns_of(plan, quantities))};
+    for (const PointResult& result : results) {
+        if (!result.there) continue;
+        if (!result.has_whole_swirl) ++collected.without_swirl;
+        collected.versions.insert(result.version);
+    }
+    std::vector<std::size_t> points(results.size());  // by place
+    for (std::size_t p = 0; p < points.size(); ++p) points[plan.place(p)] = p;
+    const auto replicas = static_cast<std::size_t>(plan.replicas);
+    for (const std::size_t row : rows_of(plan)) {
+        const std::size_t first = row * replicas;
+        std::vector<const PointResult*> there;
+        for (std::size_t r = first; r < first + replicas; ++r)
+            if (results[r].there) there.push_back(&results[r]);
+        if (!there.empty())
+            add_row(collected, plan, plan.parameters(points[first]), quantities, there);
+    }
+    return collected;
+}
+
+Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
+    std::vector<std::string> others;
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.name != "discs") others.push_back(axis.name);
+    if (others.size() == plan.axes.size())
+        throw WrongCall(
+            "The rotation is to change its sign with the number of discs, but --discs is no "
+            "parameter of this sweep.");
+    std::vector<ParameterTexts> groups;  // in the order of the rows
+    std::map<ParameterTexts, RotationCurves> curves;
+    for (const CollectedRow& row : collected.rows) {
+        ParameterTexts group = row.parameters;
+        group.erase("discs");
+        RotationCurves& all = curves[group];
+        if (all.front().empty()) groups.push_back(group);
+        const double discs = read_number(row.parameters.at("discs")).value_or(not_known);
+        for (std::size_t r = 0; r < all.size(); ++r)
+            all[r].push_back({discs, row.rotation[r].mean, row.rotation[r].error});
+    }
+    std::vector<std::string> columns = others;
+    for (const std::string& name : crossing_columns()) columns.push_back(name);
+    columns.emplace_back("points");
+    Table table(columns);
+    for (const ParameterTexts& group : groups) {
+        std::vector<Table::Cell> row;
+        for (const std::string& name : others) row.push_back(cell_of(group.at(name)));
+        const RotationCurves& all = curves.at(group);
+        add_crossings(row, find_crossings(all), default_rate);
+        row.emplace_back(std::int64_t(all.front().size()));
+        table.add(std::move(row));
+    }
+    return table;
+}
+
+}  // namespace swirl

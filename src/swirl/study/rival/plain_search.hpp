@@ -1,0 +1,133 @@
+// Who touches first, of everybody: the search of engine/reference.hpp, as fast as a loop over
+// all pairs was made here. Discs stand in columns, eight pairs are looked at together, and √ and ÷
+// are taken only of the few that may come before the first so far: two discs at a distance with
+// c = s·s − σ² close it no sooner than straight towards each other, in c / (−2 s·v).
+//
+// Compiled once for each width of vectors (cmake/engine.cmake), like the engine's event loop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "swirl/engine/pending_event.hpp"
+#include "swirl/math/lanes.hpp"
+#include "swirl/physics/contact_time.hpp"
+
+namespace swirl {
+
+/// What contact times depend on: radii, and states that hold each at its time. Columns begin at a
+/// cache line and go on to a multiple of eight with discs that nobody meets: far away, at rest.
+struct FlightColumns {
+    const double *x, *y, *vx, *vy, *time, *radius;
+    std::size_t size;
+
+    SWIRL_INLINE Flight<double> flight(std::size_t k) const {
+        return {{x[k], y[k]}, {vx[k], vy[k]}, time[k]};
+    }
+};
+
+using Eight = Lanes<8>;
+
+SWIRL_INLINE Flight<Eight> eight_flights(const FlightColumns& discs, std::size_t begin) {
+    const auto column = [begin](const double* from) { return Eight::load(from + begin); };
+    return {{column(discs.x), column(discs.y)},
+            {column(discs.vx), column(discs.vy)},
+            column(discs.time)};
+}
+SWIRL_INLINE Flight<Eight> eight_times(const Flight<double>& flight) {
+    return {{Eight(flight.position.x), Eight(flight.position.y)},
+            {Eight(flight.velocity.x), Eight(flight.velocity.y)},
+            Eight(flight.time)};
+}
+
+SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const Leg& leg,
+                                             double container_radius, double* __restrict times) {
+    const double R = container_radius;
+    if (leg.turning != 0.0) {
+        for (std::size_t i = 0; i < discs.size; ++i)
+            times[i] = time_of_turning_wall_contact(discs.flight(i), leg, R - discs.radius[i]);
+        return;
+    }
+    const Flight<Eight> centre = eight_times({leg.start, leg.velocity, leg.begin});
+    for (std::size_t i = 0; i < discs.size; i += 8)
+        time_of_wall_contact(eight_flights(discs, i), centre,
+                             Eight(R) - Eight::load(discs.radius + i))
+            .store(times + i);
+}
+
+/// Bit k is set where disc i may meet disc begin + k before `first`.
+SWIRL_INLINE unsigned may_come_before(const FlightColumns& discs, std::size_t i, std::size_t begin,
+                                      double first) {
+    const Flight<Eight> mine = eight_times(discs.flight(i)), others = eight_flights(discs, begin);
+    const Eight sum_of_radii = Eight(discs.radius[i]) + Eight::load(discs.radius + begin);
+    const Eight now = larger(mine.time, others.time);
+    const BasicVec2<Eight> s = others.position_at(now) - mine.position_at(now);
+    const Eight b = dot(s, others.velocity - mine.velocity);
+    const Eight c = dot(s, s) - sum_of_radii * sum_of_radii;
+    constexpr double a_little_more = 1.0 + 1e-9;  // than rounding takes away
+    const Eight left = c + (b + b) * (Eight(a_little_more * first) - now);
+    alignas(64) double row[8];
+    left.store(row);
+    return lanes_below(row, 0x1p-1000);
+}
+
+/// A dozen discs have no pairs to fill vectors with: all times, and the smallest. Pairs come in
+/// their order at equal times (pending_event.hpp), so only what is earlier takes the lead.
+SWIRL_INLINE PendingEvent find_first_of_few(const FlightColumns& discs, const double* wall_times,
+                                            double* __restrict times) {
+    double time = never;
+    std::size_t disc = discs.size, partner = discs.size;
+    for (std::size_t i = 0; i < discs.size; ++i) {
+        const Flight<double> flight = discs.flight(i);
+        const double radius = discs.radius[i];
+        times[i] = wall_times[i];
+        for (std::size_t j = i + 1; j < discs.size; ++j)
+            times[j] = time_of_contact(flight, discs.flight(j), radius + discs.radius[j]);
+        for (std::size_t j = i; j < discs.size; ++j)
+            if (times[j] < time) time = times[j], disc = i, partner = j;
+    }
+    return {time, static_cast<std::uint32_t>(disc), static_cast<std::uint32_t>(partner)};
+}
+
+SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double end_of_leg,
+                                             const double* wall_times) {
+    const auto number = [](std::size_t k) { return static_cast<std::uint32_t>(k); };
+    PendingEvent first{never, number(discs.size), number(discs.size)};
+    for (std::size_t i = 0; i < discs.size; ++i)
+        if (wall_times[i] < first.time) first = {wall_times[i], number(i), number(i)};
+    for (std::size_t i = 0; i < discs.size; ++i) {
+        const Flight<double> flight = discs.flight(i);
+        for (std::size_t begin = (i + 1) / 8 * 8; begin < discs.size; begin += 8) {
+            unsigned near = may_come_before(discs, i, begin, smaller(first.time, end_of_leg));
+            if (begin <= i) near &= ~0u << (i + 1 - begin);
+            for (; near != 0; near &= near - 1) {
+                const std::size_t j = begin + static_cast<unsigned>(__builtin_ctz(near));
+                const PendingEvent meeting{
+                    time_of_contact(flight, discs.flight(j), discs.radius[i] + discs.radius[j]),
+                    number(i), number(j)};
+                if (precedes(meeting, first)) first = meeting;
+            }
+        }
+    }
+    return first;
+}
+
+/// Or the end of the leg. Both arrays are columns, too.
+SWIRL_INLINE PendingEvent find_first_of_all(const FlightColumns& discs, const Leg& leg,
+                                            double container_radius, double* __restrict wall_times,
+                                            double* __restrict times) {
+    find_times_of_wall_contact(discs, leg, container_radius, wall_times);
+    const PendingEvent first = discs.size <= 12 ? find_first_of_few(discs, wall_times, times)
+                                                : find_first_of_many(discs, leg.end, wall_times);
+    if (first.time < leg.end) return first;
+    const auto everybody = static_cast<std::uint32_t>(discs.size);
+    return {leg.end, everybody, everybody};
+}
+
+using PlainSearch = PendingEvent (*)(const FlightColumns& discs, const Leg& leg,
+                                     double container_radius, double* wall_times, double* times);
+PendingEvent plain_search_baseline(const FlightColumns&, const Leg&, double, double*, double*);
+PendingEvent plain_search_avx2(const FlightColumns&, const Leg&, double, double*, double*);
+PendingEvent plain_search_avx512(const FlightColumns&, const Leg&, double, double*, double*);
+
+}  // namespace swirl

@@ -1,0 +1,193 @@
+#include "swirl/study/sweep.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/result_writer.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "swirl/run/recorded_run.hpp"
+#include "swirl/run/shell_word.hpp"
+#include "swirl/study/sweep_folder.hpp"
+#include "swirl/study/sweep_locks.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The call that does one point by itself.
+std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
+    std::string command = "swirl run";
+    for (const auto& [name, value] : plan.parameters(point))
+        if (name != "seed") command += fmt::format(" {} {}", option_name(name), shell_word(value));
+    if (!plan.measure.empty())
+        command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
+    return command + fmt::format(" --seed {}", seed);
+}
+
+class SweepWork {
+  public:
+    SweepWork(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
+              const SweepControl& control)
+        : folder_(folder),
+          plan_(plan),
+          share_(share),
+          control_(control),
+          claims_(std::make_shared<SweepClaims>(folder)),
+          writer_(part_of_sweep(folder, "results", plan)) {}
+
+    SweepOutcome operator()() {
+        std::vector<std::size_t> mine, others;
+        const std::vector<bool> done =
+            numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
+        for (std::size_t point = 0; point < plan_.points(); ++point)
+            if (!done[point])
+                (point % share_.parts == share_.part - 1 ? mine : others).push_back(point);
+        all_ = double(mine.size() + (share_.rest ? others.size() : 0));
+        work_on(mine);
+        if (share_.rest) work_on(others);
+        writer_.finish();
+        outcome_.stopped = control_.stop && control_.stop->load();
+        return outcome_;
+    }
+
+  private:
+    void work_on(const std::vector<std::size_t>& points) {
+        on_all_cores(
+            points.size(), [&](std::size_t k) { try_point(points[k]); }, share_.threads);
+    }
+
+    void try_point(std::size_t point) {
+        if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
+        const std::shared_ptr<SweepClaim> claim = SweepClaim::on(claims_, point);
+        if (!claim) {
+            const std::lock_guard lock(mutex_);
+            ++outcome_.elsewhere;
+            return;
+        }
+        // Done by somebody else in the meantime?
+        if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) return count(0, 0);
+        std::string failure;
+        try {
+            if (!do_point(point, claim)) return;
+        } catch (const FileError& error) {
+            throw;  // the folder is in trouble, not the point
+        } catch (const Interrupted&) {
+            return;
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+        const fs::path note = folder_ / "failures" / (number_of_point(point) + ".txt");
+        if (failure.empty()) {
+            if (failed_before_[point]) ::unlink(note.c_str());
+            return;
+        }
+        write_whole_file(note, failure + "\n");
+        const std::lock_guard lock(mutex_);
+        if (outcome_.failed++ == 0)
+            outcome_.first_failure = fmt::format("point {}: {}", point, failure);
+    }
+
+    /// False if it was stopped before its end.
+    bool do_point(std::size_t point, const std::shared_ptr<SweepClaim>& claim) {
+        const RunConfig config = plan_.config(point);
+        RunFiles files;
+        files.checkpoint =
+            part_of_sweep(folder_, "checkpoints", plan_) / (number_of_point(point) + ".checkpoint");
+        files.resume = true;
+        files.overwrite = true;  // all that lies in there is of this very point
+        if (plan_.frames > 0)
+            files.trajectory = folder_ / "trajectories" / (number_of_point(point) + ".h5");
+        files.frames.per_swirl = std::max(plan_.frames, 1);
+        Observation observation = observation_of(config, plan_.measure);
+        RunControl run_control;
+        run_control.stop = control_.stop;
+        double counted = 0.0;
+        std::uint64_t counted_events = 0;
+        run_control.progress = [&](const RunProgress& p) {
+            count(p.fraction - counted, p.events - counted_events);
+            counted = p.fraction;
+            counted_events = p.events;
+        };
+        if (!observation.empty()) run_control.observation = &observation;
+        const std::string command = command_of(plan_, point, config.seed);
+        Provenance provenance;  // only recordings need it
+        if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
+        const RunResult result = run_recorded(config, files, run_control, provenance);
+        if (!result.complete) return false;
+        count(1.0 - counted, result.events.total() - counted_events);
+
+        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
+        Json found = result_json(result);
+        for (auto& [name, value] : found.items()) json[name] = std::move(value);
+        json["command"] = command;
+        if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
+        writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
+                      [files, claim] { forget_checkpoint(files); });
+        const std::lock_guard lock(mutex_);
+        ++outcome_.done;
+        return true;
+    }
+
+    void count(double points, std::uint64_t events) {
+        const std::lock_guard lock(mutex_);
+        done_ += points;
+        events_ += events;
+        if (control_.progress) control_.progress(done_, all_, events_);
+    }
+
+    const fs::path folder_;
+    const SweepPlan& plan_;
+    const std::string plan_text_ = plan_.text();
+    const SweepShare share_;
+    const SweepControl& control_;
+    const std::shared_ptr<SweepClaims> claims_;
+    const std::vector<bool> failed_before_ =
+        numbered_files(folder_ / "failures", ".txt", plan_.points());
+    ResultWriter writer_;
+    std::mutex mutex_;
+    SweepOutcome outcome_;
+    double done_ = 0.0, all_ = 0.0;
+    std::uint64_t events_ = 0;
+};
+
+}  // namespace
+
+SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
+    SweepStatus status;
+    status.points = plan.points();
+    const std::vector<bool> done =
+        numbered_files(part_of_sweep(folder, "results", plan), ".json", status.points);
+    const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", status.points);
+    const std::vector<bool> claimed = SweepClaims::taken(folder, status.points);
+    for (std::size_t point = 0; point < status.points; ++point) {
+        if (done[point])
+            ++status.done;
+        else if (claimed[point])
+            ++status.running;
+        else if (failed[point])
+            ++status.failed;
+    }
+    return status;
+}
+
+SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
+                       const SweepControl& control) {
+    for (const fs::path& part : {folder, part_of_sweep(folder, "results", plan),
+                                 folder / "failures", part_of_sweep(folder, "checkpoints", plan)})
+        remove_leftovers(part);
+    return SweepWork(folder, plan, share, control)();
+}
+
+}  // namespace swirl

@@ -1,0 +1,384 @@
+#include "swirl/study/sweep_plan.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/study/sweep_folder.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_points = 10'000'000;
+
+/// Calls visit(place) for the places in the whole plan of those points that a stage adds to the one
+/// before it, in order.
+template <class Visit>
+void each_new_place(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
+                    const Visit& visit) {
+    std::vector<std::size_t> at(stage.values.size(), 0);
+    for (;;) {
+        std::size_t place = 0;
+        bool was_there = before != nullptr;
+        for (std::size_t a = 0; a < at.size(); ++a) {
+            place = place * plan.axes[a].values.size() + at[a];
+            was_there = was_there && at[a] < before->values[a];
+        }
+        const auto replicas = static_cast<std::size_t>(plan.replicas);
+        for (std::size_t r = was_there ? std::size_t(before->replicas) : 0;
+             r < std::size_t(stage.replicas); ++r)
+            visit(place * replicas + r);
+        std::size_t a = at.size();
+        while (a > 0 && ++at[a - 1] == stage.values[a - 1]) at[--a] = 0;
+        if (a == 0) return;
+    }
+}
+
+SweepStage size_of(const SweepPlan& plan) {
+    SweepStage stage{{}, plan.replicas};
+    for (const SweepAxis& axis : plan.axes) stage.values.push_back(axis.values.size());
+    return stage;
+}
+
+std::vector<std::size_t> places_in(const SweepPlan& plan) {
+    std::vector<std::size_t> places;
+    if (plan.before.empty()) return places;
+    const SweepStage now = size_of(plan);
+    const SweepStage* before = nullptr;
+    const auto add = [&](const SweepStage& stage) {
+        each_new_place(plan, stage, before, [&](std::size_t place) { places.push_back(place); });
+        before = &stage;
+    };
+    for (const SweepStage& stage : plan.before) add(stage);
+    add(now);
+    return places;
+}
+
+std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
+
+std::vector<std::string> range(std::string_view name, std::string_view text) {
+    const auto refuse = [&](const char* why) {
+        throw WrongCall(fmt::format(
+            "{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
+            "0:0.25:1.",
+            option_name(name), text, why));
+    };
+    std::vector<double> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(':', begin), text.size());
+        const auto part = read_number(text.substr(begin, end - begin));
+        if (!part) refuse("a part of it is not a number");
+        parts.push_back(*part);
+        begin = end + 1;
+    }
+    if (parts.size() > 3) refuse("it has more than three parts");
+    const double from = parts.front(), to = parts.back();
+    const double step = parts.size() == 3 ? parts[1] : 1.0;
+    if (!(step > 0.0) || to < from) refuse("it does not lead upwards");
+    const double count = std::floor((to - from) / step + 1e-9) + 1.0;
+    if (count > 1e6) refuse("it has more than a million values");
+    std::vector<std::string> values;
+    for (double k = 0.0; k < count; k += 1.0) values.push_back(with_digits(from + k * step));
+    return values;
+}
+
+/// How many runs it is, however many: a plan from a file may hold anything.
+double product(const SweepPlan& plan) {
+    double count = double(plan.replicas);
+    for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
+    return count;
+}
+
+/// What a run with these parameters is. Without restitution and floor nobody asks for the contact
+/// duration.
+std::uint64_t run_of(const ParameterTexts& texts) {
+    RunConfig config = resolve(texts);
+    if (config.restitution == 1.0 && !config.floor)
+        config.contact_duration = RunConfig{}.contact_duration;
+    return checksum(config_text(config));
+}
+
+/// Whether two values of an axis make a difference where another axis has one of its other values.
+bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::string& one,
+                      const std::string& two) {
+    for (const SweepAxis& other : plan.axes) {
+        if (other.name == axis.name) continue;
+        for (const std::string& value : other.values) {
+            ParameterTexts a = plan.parameters(0), b = a;
+            a[other.name] = b[other.name] = value;
+            a[axis.name] = one;
+            b[axis.name] = two;
+            try {
+                if (run_of(a) != run_of(b)) return true;
+            } catch (const WrongCall&) {  // shows when its turn comes
+            }
+        }
+    }
+    return false;
+}
+
+/// Every value of an axis must make another run; a run that is wanted again is a replica.
+void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
+    ParameterTexts texts = plan.parameters(0);
+    std::map<std::uint64_t, std::string> seen;
+    for (const std::string& value : axis.values) {
+        texts[axis.name] = value;
+        const auto [before, is_new] = seen.emplace(run_of(texts), value);
+        if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
+            throw WrongCall(fmt::format(
+                "{0} {1} and {0} {2} are the same run here; leave one of them away, or the "
+                "parameter that takes its place (for several runs of each there is --seeds).",
+                option_name(axis.name), before->second, value));
+    }
+}
+
+/// A mistake in one value shows before anything is run; combinations show when their turn comes.
+void refuse_useless(const SweepPlan& plan) {
+    if (const double count = product(plan); count > double(most_points))
+        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
+                                    count, most_points));
+    for (const SweepAxis& axis : plan.axes) refuse_useless(plan, axis);
+}
+
+/// What a stage counts must be there in the next.
+void refuse_shrinking(const fs::path& file, const SweepPlan& plan) {
+    std::vector<SweepStage> stages = plan.before;
+    stages.push_back(size_of(plan));
+    for (std::size_t k = 0; k + 1 < stages.size(); ++k) {
+        const SweepStage &stage = stages[k], &next = stages[k + 1];
+        bool good = stage.values.size() == plan.axes.size() && stage.replicas >= 1 &&
+                    stage.replicas <= next.replicas;
+        for (std::size_t a = 0; good && a < stage.values.size(); ++a)
+            good =
+                stage.values[a] >= 1 && a < next.values.size() && stage.values[a] <= next.values[a];
+        if (!good)
+            throw FileError(
+                fmt::format("'{}' is damaged: what it was before it grew is no part of what it is.",
+                            file.string()));
+    }
+}
+
+Json plan_json(const SweepPlan& plan) {
+    Json axes = Json::object();
+    for (const SweepAxis& axis : plan.axes) axes[axis.name] = axis.values;
+    Json json{{"format", sweep_format}, {"axes", axes}, {"replicas", plan.replicas}};
+    if (!plan.measure.empty()) json["measure"] = plan.measure;
+    if (plan.frames > 0) json["frames"] = plan.frames;
+    if (plan.generation > 1) json["generation"] = plan.generation;
+    for (const SweepStage& stage : plan.before)
+        json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
+    return json;
+}
+
+}  // namespace
+
+std::size_t SweepPlan::points() const {
+    auto count = static_cast<std::size_t>(replicas);
+    for (const SweepAxis& axis : axes) count *= axis.values.size();
+    return count;
+}
+
+std::int64_t SweepPlan::replica(std::size_t point) const {
+    return static_cast<std::int64_t>(place(point) % static_cast<std::size_t>(replicas));
+}
+
+ParameterTexts SweepPlan::parameters(std::size_t point) const {
+    ParameterTexts texts;
+    std::size_t rest = place(point) / static_cast<std::size_t>(replicas);
+    for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
+        texts[axis->name] = axis->values[rest % axis->values.size()];
+        rest /= axis->values.size();
+    }
+    return texts;
+}
+
+RunConfig SweepPlan::config(std::size_t point) const {
+    RunConfig config = resolve(parameters(point));
+    const std::string identity = fmt::format("{} replica {}", config_text(config), replica(point));
+    config.seed = Random(checksum(identity)).bits() >> 11;  // exact in every JSON reader
+    return config;
+}
+
+std::string SweepPlan::text() const { return plan_json(*this).dump(); }
+
+std::vector<std::string> list_of_values(std::string_view name, std::string_view text) {
+    std::vector<std::string> values;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view part = text.substr(begin, end - begin);
+        if (part.empty())
+            throw WrongCall(fmt::format("{} is '{}', but a value in the list is empty.",
+                                        option_name(name), text));
+        if (part.find(':') != part.npos && name != "mixture") {
+            const auto more = range(name, part);
+            values.insert(values.end(), more.begin(), more.end());
+        } else {
+            values.emplace_back(part);
+        }
+        begin = end + 1;
+    }
+    return values;
+}
+
+SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
+    SweepPlan plan;
+    plan.replicas = replicas;
+    ParameterTexts texts;
+    for (const auto& [name, text] : given) texts[plain_name(name)] = text;
+    for (const Parameter& p : run_parameters)
+        if (const auto found = texts.find(p.name); found != texts.end() && p.can_be_given()) {
+            plan.axes.push_back({p.name, list_of_values(p.name, found->second)});
+            texts.erase(found);
+        }
+    if (!texts.empty()) resolve(texts);  // says which is not known
+    refuse_useless(plan);
+    return plan;
+}
+
+SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
+                const std::vector<std::string>& measure) {
+    SweepPlan larger = plan;
+    for (const auto& [given, text] : more) {
+        const std::string name = plain_name(given);
+        const auto axis = std::find_if(larger.axes.begin(), larger.axes.end(),
+                                       [&](const SweepAxis& a) { return a.name == name; });
+        if (axis == larger.axes.end()) {
+            resolve({{name, list_of_values(name, text).front()}});  // if it is none at all
+            throw WrongCall(
+                fmt::format("{} is no parameter of this sweep, whose points have its default; "
+                            "another folder is "
+                            "right for a sweep over it.",
+                            option_name(name)));
+        }
+        for (const std::string& value : list_of_values(name, text))
+            if (std::find(axis->values.begin(), axis->values.end(), value) == axis->values.end())
+                axis->values.push_back(value);
+    }
+    if (replicas > 0 && replicas < plan.replicas)
+        throw WrongCall(
+            fmt::format("--seeds is {}, but the sweep has {} already; it can only grow.", replicas,
+                        plan.replicas));
+    larger.replicas = std::max(replicas, plan.replicas);
+    for (const std::string& name : measure)
+        if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
+            larger.measure.push_back(name);
+    if (larger.measure != plan.measure) ++larger.generation;
+    refuse_useless(larger);
+    if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
+    larger.places = places_in(larger);
+    return larger;
+}
+
+SweepPlan read_plan(const fs::path& folder) {
+    const fs::path file = folder / "plan.json";
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+        throw FileError(fmt::format("'{}' is not the folder of a sweep: it holds no plan.json.",
+                                    folder.string()));
+    const Json json = Json::parse(read_whole_file(file), nullptr, false);
+    SweepPlan plan;
+    try {
+        if (json.at("format") != sweep_format)
+            throw FileError(fmt::format("'{}' is in format {}, but this program reads format {}.",
+                                        file.string(), json.at("format").dump(), sweep_format));
+        for (const auto& [name, values] : json.at("axes").items())
+            plan.axes.push_back({plain_name(name), values.get<std::vector<std::string>>()});
+        plan.replicas = json.at("replicas").get<std::int64_t>();
+        plan.measure = json.value("measure", std::vector<std::string>());
+        plan.frames = json.value("frames", 0);
+        plan.generation = json.value("generation", 1);
+        for (const Json& stage : json.value("before", Json::array()))
+            plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
+                                   stage.at("replicas").get<std::int64_t>()});
+    } catch (const nlohmann::json::exception&) {
+        throw FileError(fmt::format("'{}' is damaged: it is no plan of a sweep.", file.string()));
+    }
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.values.empty())
+            throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
+                                        file.string(), axis.name));
+    if (const double count = product(plan); !(count >= 1.0 && count <= double(most_points)))
+        throw FileError(
+            fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
+                        "each point, but from 1 to {} runs are possible.",
+                        file.string(), count, plan.replicas, most_points));
+    refuse_shrinking(file, plan);
+    plan.places = places_in(plan);
+    return plan;
+}
+
+namespace {
+
+std::string plan_file_text(const SweepPlan& plan) { return plan_json(plan).dump(1) + "\n"; }
+
+/// Held by who replaces a plan; a kill gives it back.
+class PlanLock {
+  public:
+    explicit PlanLock(const fs::path& folder)
+        : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        while (handle_ >= 0 && ::flock(handle_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    ~PlanLock() {
+        if (handle_ >= 0) ::close(handle_);
+    }
+    PlanLock(const PlanLock&) = delete;
+    PlanLock& operator=(const PlanLock&) = delete;
+
+  private:
+    int handle_;
+};
+
+/// Two calls may let a sweep grow at the same instant, and their points would have the same
+/// numbers.
+void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan& grown_from) {
+    const PlanLock lock(folder);
+    if (read_plan(folder) != grown_from)
+        throw Failure(
+            fmt::format("Another call has let the sweep in '{}' grow meanwhile; the same call once "
+                        "more adds to "
+                        "what it is now.",
+                        folder.string()));
+    write_whole_file(folder / "plan.json", plan_file_text(plan));
+}
+
+}  // namespace
+
+void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* grown_from) {
+    std::error_code error;
+    std::vector<fs::path> parts{part_of_sweep(folder, "results", plan), folder / "failures",
+                                part_of_sweep(folder, "checkpoints", plan)};
+    if (plan.frames > 0) parts.push_back(folder / "trajectories");
+    for (const fs::path& part : parts)
+        if (fs::create_directories(part, error); error)
+            throw Failure(
+                fmt::format("The folder '{}' cannot be made: {}.", part.string(), error.message()));
+    if (grown_from != nullptr) return replace_plan(folder, plan, *grown_from);
+    // Another sweep may begin in this folder at the same instant: the first to come has it.
+    const fs::path file = folder / "plan.json";
+    if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
+    if (read_plan(folder) != plan)
+        throw Failure(
+            fmt::format("'{}' holds another sweep (its plan.json says which); choose another "
+                        "folder, go on with "
+                        "that one by giving nothing but --out, or add to it with --grow.",
+                        folder.string()));
+}
+
+}  // namespace swirl

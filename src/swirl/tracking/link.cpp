@@ -1,0 +1,379 @@
+#include "swirl/tracking/link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace swirl {
+
+namespace {
+
+double square(const Vec2& v) { return dot(v, v); }
+
+Vec2 turned_by(const Vec2& v, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+constexpr int ways = 6;  // straight on in three frames, at rest in two of them, with the flow
+constexpr double unsure_costs = 0.25;  // of the squared gate
+
+/// Whether a pair of this cost may be assigned. The bound keeps sums of costs finite.
+bool is_allowed(double cost) { return std::abs(cost) <= 1e100; }
+
+struct Track {
+    std::size_t kind = 0;
+    Vec2 place{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
+    double time = 0.0, time_before = 0.0;
+    int seen = 0;     // at how many times, up to 2
+    int missed = 0;   // pictures in a row
+    int doubted = 0;  // the same, or seen only as something that is not sure
+    std::array<double, ways> misses{1.0, 1.0, 1.0,
+                                    1.0, 1.0, 1.0};  // mean squared error of each way, in radii
+    std::array<Vec2, ways> expected{};
+};
+
+class Linker {
+  public:
+    Linker(const DishPath& path, const LinkSettings& settings) : path_(path), settings_(settings) {}
+
+    /// A place as the three observers have it, and back.
+    Vec2 seen_by(int way, const Vec2& place, double time) const {
+        if (way == 0) return place;
+        const Vec2 d = place - path_.at(time);
+        // Angles count counter-clockwise with y up; in pixels, y down, a turn has the other sign.
+        return way == 1 ? d : turned_by(d, path_.angle(time));
+    }
+    Vec2 in_lab(int way, const Vec2& p, double time) const {
+        if (way == 0) return p;
+        return path_.at(time) + (way == 1 ? p : turned_by(p, -path_.angle(time)));
+    }
+
+    std::vector<int> step(const std::vector<SeenDisc>& discs, double time);
+    std::vector<Track> tracks;
+    std::uint64_t refused = 0;
+
+  private:
+    Vec2 flow_at(const Vec2& place, double time_from, double time_to) const;
+    Vec2 expect(Track& track, double time) const;
+    double first_turn(const std::vector<SeenDisc>& discs, double time) const;
+    void assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                const std::vector<Vec2>& expected, std::vector<int>& of) const;
+    void take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
+                      std::vector<int>& of);
+    /// Where as many are sure as there are, nothing else is one.
+    bool all_are_sure(const std::vector<SeenDisc>& discs, std::size_t kind) const {
+        if (settings_.numbers.empty()) return false;
+        const auto sure = static_cast<std::size_t>(
+            std::count_if(discs.begin(), discs.end(),
+                          [&](const SeenDisc& d) { return d.sure && d.kind == kind; }));
+        return sure >= settings_.numbers[kind];
+    }
+    bool may_be_born(std::size_t kind) const {
+        if (settings_.numbers.empty()) return true;
+        const auto there = static_cast<std::size_t>(std::count_if(
+            tracks.begin(), tracks.end(), [&](const Track& t) { return t.kind == kind; }));
+        return there < settings_.numbers[kind];
+    }
+
+    const DishPath& path_;
+    const LinkSettings& settings_;
+    double last_time_ = 0.0;
+    int steps_ = 0;
+    double turn_ = 0.0;  // of all discs about C in the first step
+};
+
+/// How the discs nearby moved relative to the dish in the last step that is known, as a place at
+/// `time_to` of somebody who was at `place`.
+Vec2 Linker::flow_at(const Vec2& place, double time_from, double time_to) const {
+    Vec2 sum{0.0, 0.0};
+    double weights = 0.0;
+    const double near = 3.0 * settings_.radii.front();
+    for (const Track& t : tracks) {
+        if (t.seen < 2 || t.missed > 0) continue;
+        const Vec2 move = seen_by(1, t.place, t.time) - seen_by(1, t.before, t.time_before);
+        const double w = std::exp(-square(t.place - place) / (2.0 * near * near)) + 1e-9;
+        sum = sum + (w / (t.time - t.time_before)) * move;
+        weights += w;
+    }
+    Vec2 at_dish = seen_by(1, place, time_from);
+    if (weights > 0.0) at_dish = at_dish + ((time_to - time_from) / weights) * sum;
+    return in_lab(1, at_dish, time_to);
+}
+
+Vec2 Linker::expect(Track& track, double time) const {
+    if (track.seen < 2 || track.missed > 0) {
+        const Vec2 there = flow_at(track.place, track.time, time);
+        track.expected.fill(there);
+        return there;
+    }
+    const double ahead = (time - track.time) / (track.time - track.time_before);
+    Vec2 sum{0.0, 0.0};
+    double weights = 0.0;
+    for (int way = 0; way < ways; ++way) {
+        const auto k = static_cast<std::size_t>(way);
+        if (way == ways - 1) {
+            track.expected[k] = flow_at(track.place, track.time, time);
+        } else {
+            const int frame = way < 3 ? way : way - 2;
+            const Vec2 last = seen_by(frame, track.place, track.time),
+                       before = seen_by(frame, track.before, track.time_before);
+            const double forward = way < 3 ? ahead : 0.0;
+            track.expected[k] = in_lab(frame, last + forward * (last - before), time);
+        }
+        const double w = 1.0 / std::pow(track.misses[k] + 1e-4, 2.0);
+        sum = sum + w * track.expected[k];
+        weights += w;
+    }
+    return (1.0 / weights) * sum;
+}
+
+/// By which angle about C, in the dish's frame, the first picture's discs come to lie on the
+/// second's.
+double Linker::first_turn(const std::vector<SeenDisc>& discs, double time) const {
+    const double step = path_.omega * (time - last_time_);
+    double best = std::numeric_limits<double>::infinity(), turn = 0.0;
+    for (int k = -40; k <= 80; ++k) {
+        const double angle = (path_.clockwise ? 1.0 : -1.0) * step * k / 50.0;
+        double sum = 0.0;
+        for (const Track& t : tracks) {
+            const Vec2 p = in_lab(1, turned_by(seen_by(1, t.place, t.time), angle), time);
+            const double gate = 0.6 * settings_.radii[t.kind];
+            double nearest = gate * gate;
+            for (const SeenDisc& d : discs)
+                if (d.sure && d.kind == t.kind) nearest = std::min(nearest, square(d.place - p));
+            sum += nearest;
+        }
+        if (sum < best) best = sum, turn = angle;
+    }
+    return turn;
+}
+
+/// Of one kind, so that the sum is least. Where as many are sure as there are, each is somebody: no
+/// gate, and who leapt farther than that did not leap at the cost of two others. Otherwise squares
+/// within a gate.
+void Linker::assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+                    const std::vector<Vec2>& expected, std::vector<int>& of) const {
+    const bool complete = all_are_sure(discs, kind);
+    std::vector<std::size_t> rows, columns;
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+        if (tracks[t].kind == kind) rows.push_back(t);
+    for (std::size_t d = 0; d < discs.size(); ++d)
+        if (discs[d].kind == kind && (discs[d].sure || !complete)) columns.push_back(d);
+    if (rows.empty() || columns.empty()) return;
+    const double nobody = complete ? 1e6 : 1.0;
+    std::vector<std::vector<double>> cost(rows.size(), std::vector<double>(columns.size(), nobody));
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const Track& t = tracks[rows[r]];
+        const double gate = settings_.radii[kind] *
+                            std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const SeenDisc& disc = discs[columns[c]];
+            const double q = square(disc.place - expected[rows[r]]) / (gate * gate);
+            if (complete)
+                cost[r][c] = q < 1.0 ? q : 2.0 * std::sqrt(q) - 1.0;
+            else if (q < 1.0)
+                cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_costs));
+        }
+    }
+    const std::vector<int> column = best_assignment(cost, settings_.listen);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < nobody)
+            of[columns[static_cast<std::size_t>(column[r])]] = static_cast<int>(rows[r]);
+}
+
+/// Circles that nobody explains are those who were lost, or who went astray to something that is no
+/// disc: again such that the sum of squares is least, within a reach that grows with the time.
+void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
+                          std::vector<int>& of) {
+    std::vector<std::size_t> free_discs, free_tracks;
+    std::vector<int> disc_of(tracks.size(), -1);
+    for (std::size_t d = 0; d < discs.size(); ++d)
+        if (of[d] >= 0)
+            disc_of[static_cast<std::size_t>(of[d])] = static_cast<int>(d);
+        else if (discs[d].sure)
+            free_discs.push_back(d);
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+        if (disc_of[t] < 0
+                ? tracks[t].missed > 0
+                : !discs[static_cast<std::size_t>(disc_of[t])].sure && tracks[t].doubted > 0)
+            free_tracks.push_back(t);
+    if (free_discs.empty() || free_tracks.empty()) return;
+    constexpr double out_of_reach = 1e6;
+    std::vector<std::vector<double>> cost(free_tracks.size(),
+                                          std::vector<double>(free_discs.size(), out_of_reach));
+    for (std::size_t r = 0; r < free_tracks.size(); ++r) {
+        const Track& t = tracks[free_tracks[r]];
+        for (std::size_t c = 0; c < free_discs.size(); ++c) {
+            const SeenDisc& disc = discs[free_discs[c]];
+            const double radius = settings_.radii[t.kind];
+            const double reach = radius * (1.0 + 0.4 * t.doubted);
+            const double q = square(disc.place - expected[free_tracks[r]]);
+            if (disc.kind == t.kind && q < reach * reach) cost[r][c] = q / (radius * radius);
+        }
+    }
+    const std::vector<int> column = best_assignment(cost, settings_.listen);
+    for (std::size_t r = 0; r < free_tracks.size(); ++r) {
+        if (column[r] < 0 || cost[r][static_cast<std::size_t>(column[r])] >= out_of_reach) continue;
+        const std::size_t t = free_tracks[r];
+        if (disc_of[t] >= 0) of[static_cast<std::size_t>(disc_of[t])] = -1;
+        of[free_discs[static_cast<std::size_t>(column[r])]] = static_cast<int>(t);
+        tracks[t].seen = 0;  // its velocity is not known any more
+    }
+}
+
+std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
+    std::vector<int> of(discs.size(), -1);
+    const bool second = steps_ == 1;
+    if (second) turn_ = first_turn(discs, time);
+    // Where everybody is expected.
+    std::vector<Vec2> expected(tracks.size());
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+        expected[t] = expect(tracks[t], time);
+        if (second) {
+            expected[t] =
+                in_lab(1, turned_by(seen_by(1, tracks[t].place, tracks[t].time), turn_), time);
+            tracks[t].expected.fill(expected[t]);
+        }
+    }
+    for (std::size_t kind = 0; kind < settings_.radii.size(); ++kind)
+        assign(kind, discs, expected, of);
+    take_up_lost(discs, expected, of);
+    // What is known now.
+    std::vector<char> found(tracks.size(), 0);
+    for (std::size_t d = 0; d < discs.size(); ++d) {
+        if (of[d] < 0) continue;
+        Track& t = tracks[static_cast<std::size_t>(of[d])];
+        found[static_cast<std::size_t>(of[d])] = 1;
+        if (t.seen == 2)
+            for (std::size_t k = 0; k < ways; ++k) {
+                const double radius = settings_.radii[t.kind];
+                t.misses[k] = 0.75 * t.misses[k] +
+                              0.25 * square(discs[d].place - t.expected[k]) / (radius * radius);
+            }
+        t.before = t.place;
+        t.time_before = t.time;
+        t.place = discs[d].place;
+        t.time = time;
+        t.seen = std::min(t.seen + 1, 2);
+        t.missed = 0;
+        t.doubted = discs[d].sure ? 0 : t.doubted + 1;
+    }
+    for (std::size_t t = 0; t < found.size(); ++t) {
+        if (found[t]) continue;
+        // It goes on where it is expected; two such places still tell which way it goes.
+        ++tracks[t].missed;
+        ++tracks[t].doubted;
+        tracks[t].place = expected[t];
+        tracks[t].time = time;
+    }
+    for (std::size_t d = 0; d < discs.size(); ++d) {
+        if (of[d] >= 0 || !discs[d].sure) continue;
+        if (!may_be_born(discs[d].kind)) {
+            ++refused;
+            continue;
+        }
+        of[d] = static_cast<int>(tracks.size());
+        Track born;
+        born.kind = discs[d].kind;
+        born.place = discs[d].place;
+        born.time = time;
+        born.seen = 1;
+        tracks.push_back(born);
+    }
+    last_time_ = time;
+    ++steps_;
+    return of;
+}
+
+}  // namespace
+
+std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
+                                 const std::function<void()>& listen) {
+    const std::size_t rows = cost.size();
+    if (rows == 0) return {};
+    const std::size_t columns = cost.front().size();
+    double most = 0.0, least_cost = 0.0;
+    for (const auto& row : cost)
+        for (const double c : row)
+            if (is_allowed(c)) most = std::max(most, c), least_cost = std::min(least_cost, c);
+    // Shortest augmenting paths need at least as many columns as rows; the missing ones cost more
+    // than any other. One forbidden pair costs more than all others can differ by together, so as
+    // few as possible are taken, and these are removed at the end. All costs of the search are
+    // finite, so every pass of its inner loop adds a column, and it ends.
+    const std::size_t width = std::max(rows, columns);
+    const double forbidden = (most - least_cost + 1.0) * static_cast<double>(width + 1);
+    const auto at = [&](std::size_t r, std::size_t c) {
+        if (c >= columns) return most + 1.0;
+        return is_allowed(cost[r][c]) ? cost[r][c] : forbidden;
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::vector<double> u(rows + 1, 0.0), v(width + 1, 0.0);
+    std::vector<std::size_t> row_of(width + 1, 0), way(width + 1, 0);
+    for (std::size_t r = 1; r <= rows; ++r) {
+        if (listen) listen();
+        row_of[0] = r;
+        std::size_t c0 = 0;
+        std::vector<double> least(width + 1, infinite);
+        std::vector<char> used(width + 1, 0);
+        do {
+            used[c0] = 1;
+            const std::size_t r0 = row_of[c0];
+            double delta = infinite;
+            std::size_t c1 = 0;
+            for (std::size_t c = 1; c <= width; ++c) {
+                if (used[c]) continue;
+                const double reduced = at(r0 - 1, c - 1) - u[r0] - v[c];
+                if (reduced < least[c]) least[c] = reduced, way[c] = c0;
+                if (least[c] < delta) delta = least[c], c1 = c;
+            }
+            for (std::size_t c = 0; c <= width; ++c) {
+                if (used[c]) {
+                    u[row_of[c]] += delta;
+                    v[c] -= delta;
+                } else {
+                    least[c] -= delta;
+                }
+            }
+            c0 = c1;
+        } while (row_of[c0] != 0);
+        do {
+            const std::size_t c1 = way[c0];
+            row_of[c0] = row_of[c1];
+            c0 = c1;
+        } while (c0 != 0);
+    }
+    std::vector<int> column(rows, -1);
+    for (std::size_t c = 1; c <= columns; ++c)
+        if (row_of[c] != 0 && is_allowed(cost[row_of[c] - 1][c - 1]))
+            column[row_of[c] - 1] = static_cast<int>(c - 1);
+    return column;
+}
+
+Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
+                 const std::vector<double>& times, const DishPath& path,
+                 const LinkSettings& settings) {
+    if (times.size() != pictures.size()) throw std::invalid_argument("Every frame needs a time.");
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
+            throw std::invalid_argument(
+                fmt::format("The times of frames must be finite and ascend, but frame {} has {}.",
+                            k, times[k]));
+    Linker linker(path, settings);
+    Links links;
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+        if (settings.listen) settings.listen();
+        const std::uint64_t refused = linker.refused;
+        links.track.push_back(linker.step(pictures[k], times[k]));
+        if (linker.refused > refused) ++links.crowded;
+    }
+    for (const Track& t : linker.tracks) links.kind.push_back(t.kind);
+    links.refused = linker.refused;
+    return links;
+}
+
+}  // namespace swirl

@@ -1,0 +1,235 @@
+#include "swirl/tracking/video.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "swirl/io/file_error.hpp"
+#include "swirl/render/numbered_frames.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+namespace {
+
+bool is_device(const std::string& film) { return film.starts_with("/dev/video"); }
+bool is_numbered(const std::string& film) { return film.find('%') != film.npos; }
+
+/// The least number for which there is a picture.
+std::int64_t first_number(const std::string& pattern) {
+    const std::filesystem::path path = pattern;
+    const std::string name = path.filename().string();
+    const std::size_t begin = name.find('%'), end = name.find('d', begin);
+    const std::string before = name.substr(0, begin), after = name.substr(end + 1);
+    const std::filesystem::path folder =
+        path.parent_path().empty() ? std::filesystem::path(".") : path.parent_path();
+    std::optional<std::int64_t> least;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string file = entry.path().filename().string();
+        if (!file.starts_with(before) || !file.ends_with(after) ||
+            file.size() <= before.size() + after.size())
+            continue;
+        const std::string digits =
+            file.substr(before.size(), file.size() - before.size() - after.size());
+        if (digits.size() > 15 || digits.find_first_not_of("0123456789") != digits.npos) continue;
+        const std::int64_t number = std::stoll(digits);
+        least = std::min(least.value_or(number), number);
+    }
+    if (!least) throw Failure(fmt::format("There are no pictures named '{}'.", pattern));
+    return *least;
+}
+
+std::vector<std::string> input_of(const std::string& film) {
+    std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
+    const auto add = [&](std::initializer_list<std::string> more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+    };
+    if (is_device(film)) {
+        add({"-f", "v4l2", "-i", film});
+        return arguments;
+    }
+    if (is_numbered(film)) {
+        if (const auto wrong = film_problem(film)) throw WrongCall(*wrong);
+        add({"-f", "image2", "-start_number", std::to_string(first_number(film))});
+    } else if (!std::filesystem::exists(film)) {
+        throw Failure(fmt::format("There is no film '{}'.", film));
+    } else if (!std::filesystem::is_regular_file(film)) {
+        throw Failure(fmt::format(
+            "'{}' is not a regular file, but a film must be one: it is read more than once.",
+            film));
+    }
+    add({"-i", "file:" + film, "-map", "0:v:0"});
+    return arguments;
+}
+
+constexpr const char* missing =
+    "Films are read by the program ffmpeg, which was not found: install it (apt-get install "
+    "ffmpeg).";
+
+constexpr const char* no_times =
+    "The times of the video's frames do not ascend. If the frames are equally spaced in time, give "
+    "--fps.";
+
+std::string no_film(const std::string& film, const std::string& words) {
+    std::string cause;
+    if (words.find("moov atom not found") != words.npos)
+        cause = " The file was cut off before its end, where this format keeps its index.";
+    return fmt::format("'{}' holds no pictures that can be read{}{}", film,
+                       words.empty() ? "." : ": " + words + ".", cause);
+}
+
+}  // namespace
+
+FilmTimes film_times(const std::string& film) {
+    FilmTimes times;
+    if (is_device(film)) return times;
+    if (is_numbered(film)) {
+        if (const auto wrong = film_problem(film)) throw WrongCall(*wrong);
+        const Film names(film);
+        const std::int64_t first = first_number(film);
+        while (names.may_have(first + times.pictures)) ++times.pictures;
+        return times;
+    }
+    std::vector<std::string> arguments = input_of(film);
+    for (const char* more : {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"})
+        arguments.push_back(more);
+    Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing);
+    std::string text;
+    std::array<char, 65536> part{};
+    for (;;) {
+        const ssize_t got = ::recv(ffmpeg.socket(), part.data(), part.size(), 0);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        text.append(part.data(), static_cast<std::size_t>(got));
+    }
+    double unit = 0.0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        at = end + 1;
+        double above = 0.0, below = 0.0, dts = 0.0, pts = 0.0;
+        if (std::sscanf(line.c_str(), "#tb 0: %lf/%lf", &above, &below) == 2 && below > 0.0)
+            unit = above / below;
+        else if (std::sscanf(line.c_str(), "0, %lf, %lf", &dts, &pts) == 2)
+            times.seconds.push_back(unit * pts);
+    }
+    ffmpeg.end();
+    if (times.seconds.empty()) throw Failure(no_film(film, ffmpeg.complaint()));
+    times.pictures = static_cast<std::int64_t>(times.seconds.size());
+    std::sort(times.seconds.begin(), times.seconds.end());
+    const std::size_t n = times.seconds.size();
+    const double length = times.seconds.back() - times.seconds.front();
+    if (n < 2 || !(length > 0.0)) return times;
+    const double step = length / double(n - 1);
+    times.fps = 1.0 / step;
+    for (std::size_t k = 1; k < n; ++k)
+        times.jitter = std::max(times.jitter,
+                                std::abs((times.seconds[k] - times.seconds[k - 1]) / step - 1.0));
+    return times;
+}
+
+AscendingTimes ascending_times(const std::vector<double>& seconds) {
+    constexpr double least = 0.01;  // of the usual step
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < seconds.size(); ++k)
+        if (const double step = seconds[k] - seconds[k - 1]; std::isfinite(step) && step > 0.0)
+            steps.push_back(step);
+    if (steps.empty()) throw Failure(no_times);
+    std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+    const double usual = steps[steps.size() / 2];
+    // Later than all frames before it, and earlier than all behind it.
+    std::vector<char> timed(seconds.size(), 1);
+    double latest = -std::numeric_limits<double>::infinity(), earliest = -latest;
+    for (std::size_t k = 0; k < seconds.size(); ++k) {
+        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > least * usual)) timed[k] = 0;
+        if (std::isfinite(seconds[k])) latest = std::max(latest, seconds[k]);
+    }
+    for (std::size_t k = seconds.size(); k-- > 0;) {
+        if (!(earliest - seconds[k] > least * usual)) timed[k] = 0;
+        if (std::isfinite(seconds[k])) earliest = std::min(earliest, seconds[k]);
+    }
+    AscendingTimes found{seconds, {}};
+    std::optional<std::size_t> last;  // that has a time
+    for (std::size_t k = 0; k <= seconds.size(); ++k) {
+        if (k < seconds.size() && !timed[k]) found.untimed.push_back(k);
+        if (k < seconds.size() && !timed[k]) continue;
+        // The frames between two that have a time; the first and the last ones, by the usual step.
+        const std::size_t begin = last ? *last + 1 : 0;
+        const bool at_end = k == seconds.size();
+        const double step =
+            last && !at_end ? (seconds[k] - seconds[*last]) / double(k - *last) : usual;
+        for (std::size_t j = begin; j < k; ++j)
+            found.seconds[j] = last ? seconds[*last] + step * double(j - *last)
+                                    : seconds[k] - step * double(k - j);
+        last = k;
+    }
+    if (found.untimed.size() + 2 > seconds.size() ||
+        !std::is_sorted(found.seconds.begin(), found.seconds.end(), std::less_equal<>()))
+        throw Failure(no_times);
+    return found;
+}
+
+Video::Video(std::string film, std::int64_t every) : film_(std::move(film)) {
+    std::vector<std::string> arguments = input_of(film_);
+    const auto add = [&](std::initializer_list<std::string> more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+    };
+    add({"-an", "-fps_mode", "passthrough"});
+    // Frames are numbered anew: ffmpeg would complain about times that do not advance.
+    const std::string select = every > 1 ? fmt::format("select=not(mod(n\\,{})),", every) : "";
+    add({"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
+    add({"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
+    ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing);
+}
+
+bool Video::read(std::uint8_t* into, std::size_t bytes) {
+    std::size_t got = 0;
+    while (got < bytes) {
+        const ssize_t more = ::recv(ffmpeg_->socket(), into + got, bytes - got, 0);
+        if (more < 0 && errno == EINTR) continue;
+        if (more <= 0) return false;
+        got += static_cast<std::size_t>(more);
+    }
+    return true;
+}
+
+/// A PGM picture: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
+bool Video::read_picture(cv::Mat& grey) {
+    std::string head;
+    for (int lines = 0; lines < 3;) {
+        std::uint8_t c = 0;
+        if (!read(&c, 1) || head.size() > 60) return false;
+        head += static_cast<char>(c);
+        if (c == '\n') ++lines;
+    }
+    int width = 0, height = 0;
+    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return false;
+    if (width < 1 || height < 1 || width > 20000 || height > 20000) return false;
+    grey.create(height, width, CV_8UC1);
+    return read(grey.ptr(), static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
+
+bool Video::next(cv::Mat& grey) {
+    if (!ffmpeg_) return false;
+    if (read_picture(grey)) {
+        ++count_;
+        return true;
+    }
+    ffmpeg_->end();
+    complaint_ = ffmpeg_->complaint();
+    ffmpeg_.reset();
+    if (count_ == 0) throw Failure(no_film(film_, complaint_));
+    return false;
+}
+
+}  // namespace swirl

@@ -1,0 +1,285 @@
+"""The front door ./swirl, on a small house of one file: it builds when something changed, never
+runs a stale program, adds next to nothing when all is ready, and becomes the program."""
+
+import os
+import shutil
+import signal
+import stat
+import subprocess
+import unittest
+
+from program import SOURCE, InFolder
+
+CMAKE = """cmake_minimum_required(VERSION 3.25)
+project(small LANGUAGES CXX)
+file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
+add_executable(swirl ${sources})
+option(SWIRL_CAMERA "" ON)
+target_compile_definitions(swirl PRIVATE CAMERA="${SWIRL_CAMERA}")
+"""
+PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
+ "binaryDir": "${sourceDir}/build/release"}]}"""
+PROGRAM = """#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <unistd.h>
+int main(int argc, char** argv) {
+    if (argc > 2 && std::strcmp(argv[2], "camera") == 0) std::puts(CAMERA);
+    std::printf("%s %d\\n", "WORD", int(getpid()));
+    std::fflush(stdout);
+    if (argc > 2 && std::strcmp(argv[2], "wait") == 0) pause();
+    return argc > 1 ? std::atoi(argv[1]) : 0;
+}
+"""
+
+
+class FrontDoor(InFolder):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("src"))
+        os.makedirs(self.path("cmake"))
+        shutil.copy(os.path.join(SOURCE, "swirl"), self.path("swirl"))
+        shutil.copy(os.path.join(SOURCE, "cmake", "launcher.sh"), self.path("cmake"))
+        self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\n")
+        self.write("CMakeLists.txt", CMAKE)
+        self.write("CMakePresets.json", PRESETS)
+        self.write_program("first")
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def write_program(self, word):
+        self.write("src/main.cpp", PROGRAM.replace("WORD", word))
+
+    def call(self, *arguments):
+        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
+                              timeout=100, cwd="/")
+
+    def word(self):
+        done = self.call()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()[0]
+
+    def test_builds_once_and_then_adds_next_to_nothing(self):
+        done = self.call()
+        self.assertEqual(done.stdout.split()[0], "first")
+        self.assertIn("building", done.stderr)
+        # Then it starts nothing that builds, installs, or asks for packages.
+        for name in ("cmake", "ninja", "make", "c++", "g++", "cc", "gcc", "ld", "ccache", "dpkg-query",
+                     "apt-get", "git", "python3"):
+            self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
+        done = self.call_with_stand_ins()
+        self.assertEqual((done.stdout.split()[:1], done.stderr), (["first"], ""))
+        self.assertFalse(os.path.exists(self.path("started")))
+        self.write_program("second")  # the stand-ins are in the way of a build
+        self.assertNotEqual(self.call_with_stand_ins().returncode, 0)
+        self.assertTrue(os.path.exists(self.path("started")))
+
+    def test_variables_of_the_environment_change_nothing(self):
+        names = ("settings", "me", "long", "home", "stamp", "section", "sections", "camera", "door",
+                 "folder", "changed", "log", "missing", "wanted", "installed", "git_folder", "built")
+        leaks = dict(os.environ, **{name: "-DLEAKED=ON" for name in names})
+        os.makedirs(self.path("bindings/python"))
+        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
+                    self.path("bindings/python"))
+        self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
+  COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
+""")
+        self.write("bindings/python/swirl.py", "word = 'module'\n")
+        for call, word in (([], "first"), (["python", "-c", "import swirl; print(swirl.word)"], "module")):
+            with self.subTest(call):
+                done = subprocess.run([self.path("swirl"), *call], capture_output=True, text=True,
+                                      timeout=100, env=leaks, cwd="/")
+                self.assertEqual(done.stdout.split()[:1], [word], done.stderr)
+                self.assertNotIn("LEAKED", done.stderr)
+                with open(self.path("build/release/CMakeCache.txt"), encoding="utf-8") as cache:
+                    self.assertFalse("LEAKED" in cache.read())
+
+    def test_an_empty_entry_of_pythonpath_is_not_the_current_folder(self):
+        os.makedirs(self.path("bindings/python"))
+        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
+                    self.path("bindings/python"))
+        self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
+        for given, others in (("", []), (":", []), (":/x::/y:", ["/x", "/y"])):
+            with self.subTest(given):
+                done = subprocess.run(
+                    [self.path("swirl"), "python", "-P", "-S", "-c", "import sys; print(*sys.path)"],
+                    capture_output=True, text=True, timeout=100, cwd="/tmp",
+                    env=dict(os.environ, PYTHONPATH=given))
+                path = done.stdout.split()
+                self.assertEqual(path[:1 + len(others)],
+                                 [self.path("build/release/python"), *others], done.stderr)
+                self.assertNotIn("/tmp", path)
+
+    def test_a_stale_build_that_belongs_to_somebody_else_is_an_error_with_a_hint(self):
+        self.assertEqual(self.word(), "first")
+        as_other = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
+        os.chmod(self.folder, 0o755)
+        if not as_other:
+            os.chmod(self.path("build/release"), 0o555)
+            self.addCleanup(os.chmod, self.path("build/release"), 0o755)
+        def call():
+            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
+                                  cwd="/", **as_other)
+        done = call()
+        self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)  # it is up to date
+        self.write_program("second")
+        done = call()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        said = done.stderr.splitlines()
+        self.assertEqual(len(said), 2, done.stderr)
+        self.assertRegex(said[0], rf"^swirl: cannot build: '{self.folder}/build.*' cannot be written")
+        self.assertRegex(said[1], rf"^swirl: hint: sudo chown -R \d+ {self.folder}/build$")
+
+    def test_never_runs_a_stale_program(self):
+        self.assertEqual(self.word(), "first")
+        self.write_program("second")
+        self.assertEqual(self.word(), "second")
+        # A file with an old date, put in place of the new one, as by `mv` or `tar`.
+        self.write_program("third")
+        os.utime(self.path("src/main.cpp"), (1e9, 1e9))
+        self.assertEqual(self.word(), "third")
+        # A new file, and then one less.
+        self.write("src/more.cpp", "int more() { return 1; }\n")
+        self.assertEqual(self.word(), "third")
+        os.remove(self.path("src/more.cpp"))
+        self.assertEqual(self.word(), "third")
+
+    def test_what_cannot_be_built_is_said_and_not_run(self):
+        self.assertEqual(self.word(), "first")
+        self.write("src/main.cpp", "int main() { return missing_name; }\n")
+        done = self.call()
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout, "")
+        self.assertIn("missing_name", done.stderr)
+        self.assertIn("the build failed", done.stderr)
+        self.write_program("mended")
+        self.assertEqual(self.word(), "mended")
+
+    def test_a_tree_that_moved_is_built_anew(self):
+        self.assertEqual(self.word(), "first")
+        new = self.path("moved")
+        os.makedirs(new)
+        for name in ("src", "cmake", "build", "swirl", "packages", "CMakeLists.txt",
+                     "CMakePresets.json"):
+            shutil.move(self.path(name), new)
+        with open(os.path.join(new, "src", "main.cpp"), "w") as file:
+            file.write(PROGRAM.replace("WORD", "elsewhere"))
+        done = subprocess.run([os.path.join(new, "swirl")], capture_output=True, text=True,
+                              timeout=100)
+        self.assertEqual(done.stdout.split()[:1], ["elsewhere"], done.stderr)
+
+    def test_becomes_the_program_with_its_exit_code_and_signals(self):
+        self.assertEqual(self.word(), "first")
+        self.assertEqual(self.call("7").returncode, 7)
+        process = subprocess.Popen([self.path("swirl"), "0", "wait"], stdout=subprocess.PIPE,
+                                   text=True)
+        self.assertEqual(process.stdout.readline().split(), ["first", str(process.pid)])
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+
+    def test_the_camera_is_built_when_first_asked_for_and_stays(self):
+        def camera(subcommand):
+            done = self.call(subcommand, "camera")
+            return done.stdout.split()[0], "building" in done.stderr
+        # (What the small program makes of the words "run" and "track" is an exit code of 0.)
+        self.assertEqual(camera("run"), ("OFF", True))
+        self.assertEqual(camera("run"), ("OFF", False))
+        self.assertEqual(camera("track"), ("ON", True))
+        self.assertEqual(camera("track"), ("ON", False))
+        self.assertEqual(camera("run"), ("ON", False))
+        self.write_program("second")
+        self.assertEqual(camera("run")[0], "ON")
+        self.assertEqual(self.word(), "second")
+
+    def test_through_a_link(self):
+        os.symlink(self.path("swirl"), self.path("link"))
+        done = subprocess.run([self.path("link")], capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.stdout.split()[0], "first")
+
+    def test_two_at_once_build_once(self):
+        both = [subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        said = [process.communicate(timeout=100) for process in both]
+        self.assertEqual([out.split()[0] for out, _ in said], ["first", "first"])
+        self.assertEqual(sum("building" in complaint for _, complaint in said), 1)
+
+    def stand_in(self, name, script):
+        """A program of that name, first on the PATH of call_with_stand_ins()."""
+        os.makedirs(self.path("bin"), exist_ok=True)
+        self.write("bin/" + name, "#!/bin/sh\n" + script)
+        os.chmod(self.path("bin/" + name), 0o755)
+
+    def call_with_stand_ins(self, *arguments):
+        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
+                              timeout=100,
+                              env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
+
+    def test_without_root_a_missing_package_is_named_with_the_command(self):
+        self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
+        self.stand_in("id", "echo 1000\n")
+        done = self.call_with_stand_ins()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
+                      done.stderr)
+
+    def test_a_subcommand_gets_its_packages_once(self):
+        self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
+                               "[pictures]\ng++\n")
+        self.stand_in("id", "echo 0\n")
+        self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
+        for call, wanted in ((["run"], None), (["picture"], None), (["movie", "--help"], None),
+                             (["picture", "--", "--movies"], None),
+                             (["movie"], "no-camera"), (["movie"], None), (["paper"], "no-painter"),
+                             (["paper", "--movies"], "no-camera no-painter"),
+                             (["picture", "--over", "p.jpg"], "no-camera")):
+            with self.subTest(call):
+                done = self.call_with_stand_ins(*call)
+                self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
+                asked = []
+                if os.path.exists(self.path("asked")):
+                    with open(self.path("asked")) as file:
+                        asked = file.read().splitlines()
+                    os.remove(self.path("asked"))
+                self.assertEqual([line.split("--no-install-recommends ")[1] for line in asked],
+                                 [wanted] if wanted else [])
+
+    def test_a_subcommand_without_its_packages_says_so_and_does_what_it_can(self):
+        self.write("packages", "[build]\ng++\n[movies]\nno-camera\n")
+        self.stand_in("id", "echo 1000\n")
+        done = self.call_with_stand_ins("movie")
+        self.assertIn("sudo apt-get install --no-install-recommends no-camera\n", done.stderr)
+        self.assertEqual(done.stdout.split()[:1], ["first"])
+
+    def test_python_has_the_module_on_its_path(self):
+        os.makedirs(self.path("bindings/python"))
+        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
+                    self.path("bindings/python"))
+        self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
+  COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
+""")
+        for word in ("first", "second"):
+            self.write("bindings/python/swirl.py", f"word = {word!r}\n")
+            for _ in range(2):
+                done = self.call("python", "-c",
+                                 "import swirl, sys; print(swirl.word, sys.executable, sys.argv[1:])",
+                                 "a b")
+                self.assertEqual(done.stdout, f"{word} /usr/bin/python3 ['a b']\n", done.stderr)
+        # The module's build is not the program's.
+        self.assertFalse(os.path.exists(self.path("build/release/swirl")))
+        self.assertEqual(self.word(), "first")
+
+    def test_a_long_build_says_how_far_it_is(self):
+        self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
+  COMMAND sleep 1 COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
+add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM
+  COMMAND sleep 11 COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
+add_custom_target(slow ALL DEPENDS slower.txt)
+""")
+        self.assertRegex(self.call().stderr, r"building: [1-9] of \d, \d\d %\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,183 @@
+"""Files of earlier versions: each is read, and gives what it gave then, or is rejected by a sentence
+that names its version or format. tests/io/version_1/make.sh made them."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import tarfile
+import unittest
+
+from program import SOURCE, InFolder, swirl
+
+BODIES = ("discs", "spheres")
+
+
+class FilesOfThen(InFolder):
+    def setUp(self):
+        super().setUp()
+        with tarfile.open(os.path.join(SOURCE, "tests/io/version_1/files.tar.xz")) as archive:
+            # The filter is the default of newer versions of Python, and unknown to Debian 12's.
+            archive.extractall(self.folder, **(
+                {"filter": "data"} if hasattr(tarfile, "data_filter") else {}))
+
+    def json(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return json.load(file)
+
+    def run_here(self, *arguments):
+        return swirl(*arguments, cwd=self.folder)
+
+    def succeed(self, *arguments):
+        done = self.run_here(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+
+class Version1(FilesOfThen):
+    """The files of version 1."""
+
+    def assert_resumed(self, done, result, expected):
+        """The same end, bit for bit; or, where the law of these bodies has changed, a sentence."""
+        if done.returncode == 0:
+            self.assertEqual(self.json(result)["state_hash"], self.json(expected)["state_hash"])
+            for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
+                self.assertEqual(self.json(result)["rotation"][average],
+                                 self.json(expected)["rotation"][average])
+            return
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law \(1 there")
+        self.assertFalse(os.path.exists(self.path(result)))
+
+    def test_results_are_verified(self):
+        for body in BODIES:
+            done = self.run_here("verify", f"{body}.json")
+            if done.returncode != 0:
+                self.assertRegex(done.stderr, "differs: .* was made by swirl 0.1.0")
+                self.assertNotEqual(body, "discs")
+
+    def test_a_checkpoint_of_a_finished_run_is_extended_to_the_same_end(self):
+        for body in BODIES:
+            done = self.run_here("run", "--checkpoint", f"{body}.checkpoint", "--resume", "--periods", 40,
+                                 "--json", f"{body}_longer.json", "--quiet")
+            self.assert_resumed(done, f"{body}_longer.json", f"{body}.40.json")
+
+    def test_a_stopped_run_is_resumed_with_its_recording_to_the_same_end(self):
+        for body in BODIES:
+            result = f"{body}_stopped.json"
+            done = self.run_here("run", "--checkpoint", f"{body}_stopped.checkpoint", "--resume", "--quiet")
+            self.assert_resumed(done, result, f"{body}_whole.json")
+            if done.returncode == 0:
+                self.assertNotIn(f"{body}_stopped.h5.partial", self.left_behind())
+                self.succeed("verify", f"{body}_stopped.h5")
+
+    def test_recordings_are_read_measured_and_exported(self):
+        for body in BODIES:
+            self.succeed("measure", f"{body}.h5", "--json", "measured.json", "--quiet")
+            measured = self.json("measured.json")
+            self.assertEqual((measured["frames"], measured["discs"]), (20, 8))
+            self.succeed("export", f"{body}.h5", "--to", "csv", "--out", f"{body}.csv")
+            with open(self.path(f"{body}.csv"), encoding="utf-8") as file:
+                self.assertEqual(len(file.readlines()), 1 + 20 * 8)
+
+    def test_recordings_and_event_logs_are_verified(self):
+        for body in BODIES:
+            for file in (f"{body}.h5", f"{body}_events.h5"):
+                done = self.run_here("verify", file)
+                if done.returncode != 0:
+                    self.assertIn("made by swirl 0.1.0", done.stderr)
+                    self.assertNotEqual(body, "discs")
+
+    def test_tracks_are_read_with_what_is_known_of_the_camera(self):
+        then = self.json("tracks.json")
+        for file in ("tracks.h5", "tracks.csv"):
+            self.succeed("measure", file, "--json", "now.json", "--quiet")
+            now = self.json("now.json")
+            self.assertEqual((now["frames"], now["discs"]), (then["frames"], then["discs"]))
+            # A table has its numbers with fewer digits; measurements may become better.
+            self.assertAlmostEqual(now["rotation"]["by_time"]["mean"],
+                                   then["rotation"]["by_time"]["mean"], 3)
+
+    def test_a_sweep_is_completed_and_collected_to_the_same_table(self):
+        os.remove(self.path("sweep/results/000002.json"))
+        self.succeed("sweep", "--out", "sweep", "--discs", "5,8", "--seeds", 2, "--periods", 12,
+                     "--warmup", 2, "--quiet")
+        self.succeed("collect", "sweep", "--csv", "again.csv")
+        tables = []
+        for table in ("sweep.csv", "again.csv"):
+            with open(self.path(table), encoding="utf-8") as file:
+                tables.append(file.read())
+        self.assertEqual(tables[0], tables[1])
+
+    def test_a_configuration_file_is_the_run_of_then(self):
+        self.succeed("run", "run.toml", "--json", "again.json", "--quiet")
+        self.assertEqual(self.json("again.json")["state_hash"], self.json("discs.json")["state_hash"])
+
+
+class OtherFormats(FilesOfThen):
+    """The same files in a format that this program does not know."""
+
+    def rewrite(self, name, change):
+        content = self.json(name)
+        change(content)
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            json.dump(content, file)
+
+    def rejected(self, *arguments):
+        before = self.left_behind()
+        done = self.run_here(*arguments)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, r"format 2\b.* (but )?this program reads format 1\b")
+        self.assertEqual(self.left_behind(), before)
+
+    def test_a_result(self):
+        self.rewrite("discs.json", lambda result: result.update(format=2))
+        self.rejected("verify", "discs.json")
+
+    def test_a_camera(self):
+        self.rewrite("tracks.camera.json", lambda camera: camera.update(format=2))
+        self.rejected("measure", "tracks.csv")
+
+    def test_a_sweep(self):
+        self.rewrite("sweep/results/000001.json", lambda result: result.update(format=2))
+        self.rejected("collect", "sweep", "--csv", "again.csv")
+        self.rewrite("sweep/plan.json", lambda plan: plan.update(format=2))
+        self.rejected("collect", "sweep", "--csv", "again.csv")
+
+    def test_a_checkpoint(self):
+        with open(self.path("discs.checkpoint"), "rb") as file:
+            content = file.read()
+        number = int(re.match(rb"swirl checkpoint (\d+)\n", content).group(1))
+        with open(self.path("discs.checkpoint"), "wb") as file:
+            file.write(content.replace(b"checkpoint %d\n" % number, b"checkpoint %d\n" % (number + 1), 1))
+        done = self.run_here("run", "--checkpoint", "discs.checkpoint", "--resume", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, rf"format {number + 1}, but this program reads format {number}")
+
+    @unittest.skipUnless(shutil.which("python3") and subprocess.run(
+        ["/usr/bin/python3", "-c", "import h5py"], capture_output=True).returncode == 0, "needs h5py")
+    def test_recordings(self):
+        for file, command in (("discs.h5", ("measure", "discs.h5")),
+                              ("discs_events.h5", ("verify", "discs_events.h5")),
+                              ("tracks.h5", ("measure", "tracks.h5")),
+                              ("discs_stopped.h5.partial",
+                               ("run", "--checkpoint", "discs_stopped.checkpoint", "--resume", "--quiet"))):
+            with self.subTest(file=file):
+                subprocess.run(["/usr/bin/python3", "-c", "import h5py, sys\n"
+                                "h5py.File(sys.argv[1], 'r+')['parameters'].attrs['format'] = 2",
+                                self.path(file)], check=True)
+                self.rejected(*command)
+
+    def test_recordings_that_are_made_now_say_their_format(self):
+        made = self.run_here("run", "run.toml", "--periods", 6, "--trajectory", "t.h5", "--log-events",
+                             "e.h5", "--json", "now.json", "--quiet")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(self.json("now.json")["format"], 1)
+        for file in ("t.h5", "e.h5"):
+            with open(self.path(file), "rb") as opened:
+                self.assertIn(b"format\0", opened.read())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+
+#include "engine/golden_runs.hpp"
+
+namespace swirl {
+namespace {
+
+void expect_golden(Width width) {
+    if (!has_width(width)) GTEST_SKIP() << "this processor has no such vectors";
+    for (const GoldenRun& golden : golden_runs()) {
+        Simulation simulation(golden.scene, {}, {0, width});
+        simulation.run(golden.events);
+        EXPECT_EQ(simulation.state_hash(), golden.hash) << golden.name;
+    }
+}
+
+TEST(GoldenHash, OfTheBaseline) { expect_golden(Width::baseline); }
+TEST(GoldenHash, OfAvx2) { expect_golden(Width::avx2); }
+TEST(GoldenHash, OfAvx512) { expect_golden(Width::avx512); }
+
+TEST(GoldenHash, EveryTrajectoryHasItsOwn) {
+    const auto runs = golden_runs();
+    for (std::size_t a = 0; a < runs.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) EXPECT_NE(runs[a].hash, runs[b].hash);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,45 @@
+// A few trajectories and where they end, to the bit. Whoever changes a number here has changed the
+// physics, the order of its roundings, or what the hash is made of, and says so in the CHANGELOG.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/scenes.hpp"
+
+namespace swirl {
+
+struct GoldenRun {
+    const char* name;
+    InitialState scene;
+    std::uint64_t events;
+    std::uint64_t hash;  // Simulation::state_hash() after so many events
+};
+
+inline InitialState golden_circle() {
+    InitialState scene = paper_dish(28);
+    scene.path = circular_path(paper_amplitude, paper_period);
+    return scene;
+}
+inline InitialState golden_walton() {
+    InitialState scene = paper_dish(36);
+    scene.disc_surface = {0.5, 0.97, 0.4};
+    scene.wall_surface = {0.8, 0.95, 0.2};
+    return scene;
+}
+
+inline std::vector<GoldenRun> golden_runs() {
+    return {
+        {"48 discs, mu = 1", paper_dish(48), 50000, 0xfa8f17a6b78853c0u},
+        {"28 discs, mu = 1", paper_dish(28), 50000, 0x6eb38e0dd0a3178bu},
+        {"mixture", mixture_dish(), 50000, 0x54d636010ea73d68u},
+        {"exact circle", golden_circle(), 5000, 0xf40e59448fab6240u},
+        {"restitution", golden_walton(), 20000, 0xb89cac39392593cfu},
+        {"gas of 2000", gas_at_rest(2000, 0.7), 50000, 0x802cf8bbd151c318u},
+        {"48 spheres on a floor", sphere_dish(48), 20000, 0x267ebf43bc3a9349u},
+        {"spheres of three kinds", sphere_mixture(), 20000, 0xc3d231d32b19022bu},
+        {"coins", coin_dish(36), 20000, 0xb9396db00e95ef24u},
+    };
+}
+
+}  // namespace swirl

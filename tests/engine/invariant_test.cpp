@@ -1,0 +1,160 @@
+// The engine's promises (invariant.hpp) can be broken: each of these is, and the program stops
+// in the function of that name. What they say of healthy runs is told by all other tests of this
+// floor, which make the same calls in the build that checks.
+#include "swirl/engine/invariant.hpp"
+
+#include <gtest/gtest.h>
+
+#include "engine/scenes.hpp"
+#include "swirl/engine/neighbors/engine_state_checks.hpp"
+
+#if defined(SWIRL_INTERNAL_CHECKS)
+
+// The sanitizer's stack trace tells the name of the promise. Its library must be able to see this.
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options() {
+    return "handle_sigill=1";
+}
+
+namespace swirl {
+namespace {
+
+class BrokenPromise : public ::testing::Test {
+  protected:
+    BrokenPromise() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+void run(const InitialState& initial, const Progress& progress = {}) {
+    for (const Width width : {Width::baseline, Width::avx2, Width::avx512})
+        if (has_width(width)) Simulation(initial, progress, {0, width}).run(1000);
+}
+
+TEST_F(BrokenPromise, HealthyRunsKeepThem) { run(paper_dish(28)); }
+
+TEST_F(BrokenPromise, ACollisionThatGivesEnergyIsFound) {
+    InitialState initial = paper_dish(28);
+    initial.disc_surface.restitution = 1.5;
+    EXPECT_DEATH(run(initial), "energy_never_grows");
+    initial = paper_dish(5);
+    initial.wall_surface.restitution = 1.5;
+    EXPECT_DEATH(run(initial), "energy_never_grows");
+}
+
+TEST_F(BrokenPromise, FrictionThatPullsIsFound) {
+    InitialState initial = paper_dish(28);
+    initial.disc_surface.mu = -0.5;
+    EXPECT_DEATH(run(initial), "friction_obeys_coulombs_law");
+}
+
+TEST_F(BrokenPromise, EventsBeforeTheClockAreFound) {
+    Progress late;
+    late.clock = 9.0;
+    EXPECT_DEATH(run(gas_at_rest(60, 0.3), late), "time_never_goes_back");
+}
+
+/// Two discs on lists, the smallest state that can be corrupted.
+struct TwoDiscs {
+    alignas(64) double times[8], top_times[8];
+    std::uint32_t winners[8];
+    HotDisc discs[3];
+    struct {
+        ColdDisc cold;
+        std::uint32_t neighbours[4];
+    } cold[3];
+    Skin skins[2];
+    Leg leg{0.0, 10.0, {0.0, 0.0}, {0.0, 0.0}, 0.0};
+    EngineState state{};
+
+    TwoDiscs() {
+        for (std::uint32_t i = 0; i < 8; ++i) times[i] = top_times[i] = never, winners[i] = 0;
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            discs[i] = {{3.0 * i, 0.0}, {0.0, 0.0}, 0.0, 1.0, 0.0, 0, 0, 1, 0};
+            cold[i] = {{no_event, 0, 0.0}, {1 - i, 2, 2, 2}};
+            skins[i] = {static_cast<float>(3.0 * i), 0.0f, 0.6f, {2}};
+            times[i] = 1.0 + i;
+        }
+        top_times[0] = 1.0;
+        state.size = 2;
+        state.capacity = 4;
+        state.cold_bytes = sizeof cold[0];
+        state.discs = discs;
+        state.cold_discs = reinterpret_cast<unsigned char*>(cold);
+        state.skins = skins;
+        state.levels = 2;
+        state.top_rows = 1;
+        state.first_time = 1.0;
+        state.level_times[0] = times;
+        state.level_times[1] = top_times;
+        state.level_winners[1] = winners;
+        state.legs = &leg;
+        state.leg_count = 1;
+        state.container_radius = 10.0;
+    }
+    void check() const {
+        check_lists(state, 0.0);
+        check_tournament(state);
+        check_discs(state, 0.0);
+    }
+};
+
+TEST_F(BrokenPromise, AHealthyStateIsAccepted) { TwoDiscs().check(); }
+
+TEST_F(BrokenPromise, AListWithoutItsCounterpartIsFound) {
+    TwoDiscs two;
+    two.discs[1].neighbours = 0;
+    EXPECT_DEATH(two.check(), "neighbour_lists_are_symmetric");
+}
+TEST_F(BrokenPromise, AMissingNeighbourIsFound) {
+    TwoDiscs two;
+    two.discs[0].neighbours = two.discs[1].neighbours = 0;
+    EXPECT_DEATH(two.check(), "neighbour_lists_are_complete");
+}
+TEST_F(BrokenPromise, ADiscThatHasLeftItsSkinIsFound) {
+    TwoDiscs two;
+    two.discs[1].position.y = 0.7;
+    EXPECT_DEATH(two.check(), "discs_are_within_their_skins");
+}
+TEST_F(BrokenPromise, AWinnerThatIsNotTheFirstIsFound) {
+    TwoDiscs two;
+    two.winners[0] = 1;
+    EXPECT_DEATH(two.check(), "winners_are_the_first_of_their_rows");
+}
+TEST_F(BrokenPromise, AFirstOfAllThatIsNotIsFound) {
+    TwoDiscs two;
+    two.state.first_disc = 1;
+    EXPECT_DEATH(two.check(), "the_first_of_all_is_noted");
+}
+TEST_F(BrokenPromise, AnOverlapIsFound) {
+    TwoDiscs two;
+    two.discs[0].position.x = 0.5;
+    two.discs[1].position.x = 2.49;
+    EXPECT_DEATH(two.check(), "no_two_discs_overlap");
+}
+TEST_F(BrokenPromise, ADiscOutsideIsFound) {
+    TwoDiscs two;
+    two.state.container_radius = 3.9;
+    EXPECT_DEATH(two.check(), "no_disc_is_outside_the_container");
+}
+TEST_F(BrokenPromise, ACollisionAtADistanceIsFound) {
+    const Body before{{0.0, 0.0}, 0.0, 1.0, 1.0, 1.0};
+    const Collided still{before, before, {0.0, 0.0}};
+    EXPECT_DEATH(check_disc_collision(still, still, {2.1, 0.0}, {}, {}, 0.0, false),
+                 "discs_touch_at_contact");
+}
+TEST_F(BrokenPromise, MomentumFromNowhereIsFound) {
+    const Body before{{1.0, 0.0}, 0.0, 1.0, 1.0, 1.0}, after{{0.5, 0.0}, 0.0, 1.0, 1.0, 1.0};
+    // A force on one of two: energy as if its work had been done.
+    EXPECT_DEATH(check_disc_collision({before, after, {0.0, 0.0}}, {before, before, {0.0, 0.0}},
+                                      {2.0, 0.0}, {}, {}, 0.0, false),
+                 "energy_changes_by_the_work_of_the_impulses");
+}
+
+}  // namespace
+}  // namespace swirl
+
+#else
+
+namespace swirl {
+TEST(InternalChecks, AreNotCompiledIntoTheReleaseBuild) { EXPECT_FALSE(internal_checks); }
+}  // namespace swirl
+
+#endif

@@ -1,0 +1,195 @@
+// What a trajectory must keep, whatever the discs do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "engine/scenes.hpp"
+
+namespace swirl {
+namespace {
+
+double energy(const Snapshot& s) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) sum += kinetic_energy(s.disc(i));
+    return sum;
+}
+double energy_of_translation(const Snapshot& s) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        sum += 0.5 * s.mass[i] * dot(s.velocity(i), s.velocity(i));
+    return sum;
+}
+/// About the swirl centre S, spins included.
+double angular_momentum(const Snapshot& s) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        sum += s.mass[i] * cross(s.position(i), s.velocity(i)) + s.inertia[i] * s.spin[i];
+    return sum;
+}
+/// Σ m r·v about the origin.
+double virial(const Snapshot& s) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) sum += s.mass[i] * dot(s.position(i), s.velocity(i));
+    return sum;
+}
+
+InitialState circle_dish(std::size_t n, double mu_disc, double mu_wall) {
+    InitialState scene = paper_dish(n, mu_disc, mu_wall);
+    scene.path = circular_path(paper_amplitude, paper_period);
+    const Leg& leg = scene.path.legs.front();
+    for (Disc& d : scene.discs) d.velocity = d.velocity - paper_dish(1).path.legs[0].velocity;
+    for (Disc& d : scene.discs) d.velocity = d.velocity + leg.velocity;
+    return scene;
+}
+
+// In the frame that turns with the swirl centre the dish stands still, and K − ΩL is the energy
+// there. A smooth wall and smooth discs conserve it.
+TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction) {
+    const InitialState scene = circle_dish(48, 0.0, 0.0);
+    const double omega = scene.path.omega();
+    Simulation simulation(scene);
+    const auto invariant = [&] {
+        const Snapshot s = simulation.snapshot();
+        return energy(s) - omega * angular_momentum(s);
+    };
+    const double before = invariant();
+    const int blocks = sanitized ? 2 : 100;
+    for (int block = 0; block < blocks; ++block) {
+        simulation.run(10000);
+        // K and ΩL are of order 100; 10⁶ events with errors of 10⁻¹⁶ of that each, in random order,
+        // make 10⁻¹¹.
+        ASSERT_NEAR(invariant(), before, 1e-10) << "after " << simulation.events().total();
+    }
+}
+
+// The discs' friction is a loss in every frame, so there K − ΩL can only fall.
+TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionOnly) {
+    const InitialState scene = circle_dish(40, 1.0, 0.0);
+    const double omega = scene.path.omega();
+    Simulation simulation(scene);
+    Snapshot s = simulation.snapshot();
+    const double first = energy(s) - omega * angular_momentum(s);
+    double before = first;
+    for (int k = 0; k < 50000; ++k) {
+        simulation.refresh(s, simulation.step());
+        const double after = energy(s) - omega * angular_momentum(s);
+        ASSERT_LE(after, before + 1e-12) << "event " << k;  // rounding of a sum of order 100
+        before = after;
+    }
+    EXPECT_LT(before, first - 1.0);
+}
+
+// With friction at the wall, each hit changes it by −ΩR J_t − loss: the test of the wall's part in
+// the budget. The loss in the frame of the wall follows from the disc's velocities there.
+TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
+    const InitialState scene = circle_dish(20, 0.0, 1.0);
+    const double omega = scene.path.omega();
+    Simulation simulation(scene);
+    Snapshot s = simulation.snapshot();
+    int hits = 0;
+    for (int k = 0; k < 20000; ++k) {
+        const double before = energy(s) - omega * angular_momentum(s);
+        const Snapshot old = s;
+        const Event event = simulation.step();
+        simulation.refresh(s, event);
+        const double change = energy(s) - omega * angular_momentum(s) - before;
+        if (event.kind != EventKind::disc_wall) {
+            ASSERT_NEAR(change, 0.0, 1e-11);
+            continue;
+        }
+        ++hits;
+        Disc then = old.disc(event.i), now = s.disc(event.i);
+        then.velocity = then.velocity - s.container_velocity;
+        now.velocity = now.velocity - s.container_velocity;
+        const double loss = kinetic_energy(then) - kinetic_energy(now);
+        ASSERT_GE(loss, -1e-12);
+        // Friction acts on the disc by −J_t r at the wall, where r = −θ̂: the torque about C is
+        // +R J_t, as orbital and spin part together.
+        ASSERT_NEAR(change, -omega * scene.container_radius * event.impulse.tangential - loss,
+                    1e-11);
+    }
+    EXPECT_GT(hits, 1000);
+}
+
+TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
+    InitialState scene = gas_at_rest(1, 0.02);
+    scene.discs[0].position = {1.3, -2.1};
+    scene.discs[0].velocity = {0.83, 0.41};
+    scene.discs[0].spin = 0.7;
+    Simulation simulation(scene);
+    const auto next_hit = [&] {
+        for (;;) {
+            const Event e = simulation.step();
+            if (e.kind == EventKind::disc_wall) return e;
+        }
+    };
+    Event before = next_hit(), now = next_hit();
+    const double impulse = before.impulse.normal;
+    const double turn_cos = dot(before.normal, now.normal);
+    const double turn_sin = cross(before.normal, now.normal);
+    for (int hit = 0; hit < 100000; ++hit) {
+        before = now;
+        now = next_hit();
+        // Each hit adds rounding errors of 10⁻¹⁵; 10⁵ in random order make 3·10⁻¹³.
+        ASSERT_NEAR(now.impulse.normal, impulse, 1e-11) << "hit " << hit;
+        ASSERT_NEAR(dot(before.normal, now.normal), turn_cos, 1e-11);
+        ASSERT_NEAR(cross(before.normal, now.normal), turn_sin, 1e-11);
+    }
+    EXPECT_EQ(simulation.disc(0).spin, 0.7);
+}
+
+TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
+    InitialState scene = paper_dish(48, 0.0, 0.0);
+    scene.path = still_path(10.0);
+    Random random(4);
+    for (Disc& d : scene.discs) {
+        d.position = d.position - Vec2{paper_amplitude, 0.0};
+        d.velocity = random.in_disc(1.0);
+    }
+    Simulation simulation(scene);
+    const double before = energy(simulation.snapshot());
+    simulation.run(sanitized ? 20000 : 1000000);
+    // 10⁶ events, each with an error of 10⁻¹⁶ of the energy.
+    EXPECT_NEAR(energy(simulation.snapshot()) / before, 1.0, 1e-11);
+}
+
+TEST(StillDish, SmoothDiscsKeepTheirAngularMomentum) {
+    Simulation simulation(gas_at_rest(200, 0.5));
+    const double before = angular_momentum(simulation.snapshot());
+    simulation.run(200000);
+    EXPECT_NEAR(angular_momentum(simulation.snapshot()), before, 1e-9);  // Σ|r × v| = 10³
+}
+
+// Clausius: d/dt Σ m r·v = 2K + Σ over collisions of (impulse on j) · (r_j − r_i), so over any time
+//     G(t) − G(0) = ∫ 2K dt + Σ σ J_n (pairs) − Σ (R − r) J_n (wall);
+// friction acts across the line of centres and does not enter.
+TEST(StillDish, TheVirialIdentityHoldsWithAndWithoutFriction) {
+    for (const double mu : {0.0, 0.8}) {
+        InitialState scene = gas_at_rest(60, 0.6);
+        scene.disc_surface.mu = scene.wall_surface.mu = mu;
+        for (std::size_t i = 0; i < scene.discs.size(); i += 3) {
+            scene.discs[i].radius = 0.7;
+            scene.discs[i].mass = 0.4;
+        }
+        Simulation simulation(scene);
+        Snapshot s = simulation.snapshot();
+        const double before = virial(s);
+        double expected = 0.0;
+        for (int k = 0; k < 20000; ++k) {
+            const double from = s.time(), twice_energy = 2.0 * energy_of_translation(s);
+            const Event event = simulation.step();
+            simulation.refresh(s, event);
+            expected += twice_energy * (s.time() - from);
+            if (event.kind == EventKind::disc_disc)
+                expected += (s.radius[event.i] + s.radius[event.j]) * event.impulse.normal;
+            if (event.kind == EventKind::disc_wall)
+                expected -= (scene.container_radius - s.radius[event.i]) * event.impulse.normal;
+        }
+        // The sums of positive and of negative terms are of order 10⁵.
+        EXPECT_NEAR(virial(s) - before, expected, 1e-7) << "mu = " << mu;
+    }
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,67 @@
+// Hard discs and spheres do not overlap: over 10⁷ events, at each collision and in looks at
+// everybody.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/scenes.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double allowed = 1e-12;  // of a disc's radius
+
+double deepest_overlap(const Snapshot& s) {
+    double deepest = -1.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 p = s.position(i), from_centre = p - s.container_centre;
+        deepest = std::max(
+            deepest, std::hypot(from_centre.x, from_centre.y) - (s.container_radius - s.radius[i]));
+        for (std::size_t j = i + 1; j < s.size(); ++j) {
+            const Vec2 apart = s.position(j) - p;
+            deepest = std::max(deepest, s.radius[i] + s.radius[j] - std::hypot(apart.x, apart.y));
+        }
+    }
+    return deepest;
+}
+
+void expect_no_overlap(const InitialState& scene, int events) {
+    if (sanitized) events /= 50;
+    Simulation simulation(scene);
+    double deepest = -1.0;
+    for (int k = 1; k <= events; ++k) {
+        const Event event = simulation.step();
+        if (event.kind != EventKind::path_vertex) deepest = std::max(deepest, event.overlap);
+        if (k % 10007 == 0) deepest = std::max(deepest, deepest_overlap(simulation.snapshot()));
+    }
+    EXPECT_LT(deepest, allowed);
+    EXPECT_GT(deepest, -1e-12);  // the contacts were looked at
+}
+
+TEST(Overlap, NoneInSixMillionEventsOfTheFullDish) { expect_no_overlap(paper_dish(48), 6000000); }
+TEST(Overlap, NoneInTwoMillionEventsOfTheHalfFullDish) {
+    expect_no_overlap(paper_dish(28), 2000000);
+}
+TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_dish(), 1000000); }
+TEST(Overlap, NoneInAMillionEventsAfterTheEnergyHasGrown) {
+    expect_no_overlap(paper_dish(40, 0.0, 0.0), 1000000);
+}
+TEST(Overlap, NoneInAMillionEventsOfSpheresThatRoll) {
+    expect_no_overlap(sphere_dish(48), 1000000);
+}
+TEST(Overlap, SlowNoneInTenMillionEventsOfSpheresAndCoins) {
+    for (const std::size_t n : {5u, 28u, 48u}) expect_no_overlap(sphere_dish(n), 10'000'000);
+    expect_no_overlap(sphere_dish(48, 0.0), 10'000'000);
+    expect_no_overlap(sphere_mixture(), 10'000'000);
+    expect_no_overlap(coin_dish(48), 10'000'000);
+}
+TEST(Overlap, NoneOnTheTrueCircle) {
+    InitialState scene = paper_dish(28);
+    scene.path = circular_path(paper_amplitude, paper_period);
+    expect_no_overlap(scene, 100000);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,134 @@
+// Scenes the tests share.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "swirl/engine/placement.hpp"
+#include "swirl/engine/simulation.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/physics/container_path.hpp"
+
+namespace swirl {
+
+/// Under the sanitizers, which look at every access and take twenty times as long, the statistics
+/// are left to the release build.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+inline InitialState state_of(const std::vector<Disc>& kinds, std::size_t n, double container_radius,
+                             ContainerPath path, double mu_disc, double mu_wall, double speed = 0.1,
+                             std::uint64_t seed = 1) {
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < n; ++i) radii.push_back(kinds[i % kinds.size()].radius);
+    const auto centres = place_discs(radii, container_radius, seed);
+    if (!centres) throw std::runtime_error("the test's discs do not fit");
+    InitialState scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
+    Random random(seed + 1);
+    const Leg& leg = scene.path.legs.front();
+    for (std::size_t i = 0; i < n; ++i) {
+        Disc d = kinds[i % kinds.size()];
+        d.position = leg.start + (*centres)[i];
+        d.velocity = leg.velocity + random.in_disc(speed);
+        scene.discs.push_back(d);
+    }
+    return scene;
+}
+
+inline Disc unit_disc(double inertia = paper_inertia) {
+    return {{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, inertia};
+}
+
+/// The paper's dish.
+inline InitialState paper_dish(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
+                               std::uint64_t seed = 1) {
+    return state_of({unit_disc()}, n, paper_container_radius,
+                    polygon_path(paper_amplitude, paper_period, paper_sides), mu_disc, mu_wall, 0.1,
+                    seed);
+}
+
+/// Three kinds of disc, in the paper's dish.
+inline InitialState mixture_dish(std::size_t n = 40) {
+    return state_of({{{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, 10.0},
+                     {{0, 0}, {0, 0}, 0, 0, 0, 0.6, 0.36, 0.0648},
+                     {{0, 0}, {0, 0}, 0, 0, 0, 1.4, 2.0, 3.92}},
+                    n, 10.0, polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
+}
+
+/// Large discs in a sea of small ones of the same material, in a dish that swirls. The small ones
+/// come first.
+inline InitialState large_among_small(std::size_t large, std::size_t small, double small_radius,
+                                      double container_radius) {
+    const double r = small_radius;
+    std::vector<double> radii(small, r);
+    radii.resize(small + large, 1.0);
+    const auto centres = place_discs(radii, container_radius, 1);
+    if (!centres) throw std::runtime_error("the test's discs do not fit");
+    const double scale = container_radius / paper_container_radius;
+    InitialState scene{{},
+                       polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides),
+                       container_radius,
+                       {0.7},
+                       {0.4}};
+    Random random(2);
+    const Leg& leg = scene.path.legs.front();
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double m = radii[i] * radii[i], inertia = paper_inertia * m * m;
+        scene.discs.push_back({leg.start + (*centres)[i], leg.velocity + random.in_disc(0.1), 0.0,
+                               0.0, 0.0, radii[i], m, inertia});
+    }
+    return scene;
+}
+
+/// An elastic gas of smooth discs in a dish that stands still.
+inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double speed = 1.0) {
+    return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),
+                    still_path(10.0), 0.0, 0.0, speed, 3);
+}
+
+/// Solid spheres on a floor, in the paper's dish.
+inline InitialState sphere_dish(std::size_t n, double deceleration = 1.92, double mu = 0.2,
+                                double restitution = 0.9) {
+    InitialState scene =
+        state_of({unit_disc(solid_sphere_inertia(1.0, 1.0))}, n, paper_container_radius,
+                 polygon_path(paper_amplitude, paper_period, paper_sides), mu, mu);
+    scene.disc_surface = scene.wall_surface = {mu, restitution, 0.0, 1e-3};
+    scene.shape = Shape::sphere;
+    scene.floor.deceleration = deceleration;
+    return scene;
+}
+/// The same with a rolling resistance, μ_r g; this one brings many to rest on the floor.
+inline InitialState resisting_dish(std::size_t n, double resistance = 1.5) {
+    InitialState scene = sphere_dish(n);
+    scene.floor.rolling_resistance = resistance;
+    return scene;
+}
+/// The same of discs that lie flat on the floor.
+inline InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
+    InitialState scene = sphere_dish(n, deceleration);
+    for (Disc& d : scene.discs) d.inertia = solid_inertia(d.mass, d.radius);
+    scene.shape = Shape::coin;
+    scene.floor.bodies_lie_flat = true;
+    return scene;
+}
+/// Three kinds of sphere, solid and hollow.
+inline InitialState sphere_mixture() {
+    InitialState scene = mixture_dish(30);
+    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+        Disc& d = scene.discs[i];
+        d.inertia =
+            i % 2 ? shell_inertia(d.mass, d.radius) : solid_sphere_inertia(d.mass, d.radius);
+        d.rolling_spin = {0.1 * d.velocity.y, 0.3};
+    }
+    scene.disc_surface = {0.3, 0.8, 0.3, 2e-3};
+    scene.wall_surface = {0.2, 0.7, 0.1, 2e-3};
+    scene.shape = Shape::sphere;
+    scene.floor.deceleration = 0.8;
+    return scene;
+}
+
+}  // namespace swirl

@@ -1,0 +1,69 @@
+"""The objects compiled for wide vectors define nothing but what the program picks at run time.
+
+Whatever else they left for the linker to share (an inline function that was not inlined is a weak
+symbol) could be taken for everybody: the program would then run AVX-512 instructions on a processor
+that has none."""
+
+import os
+import re
+import subprocess
+import unittest
+
+LIBRARIES = os.environ["SWIRL_LIBRARIES"]
+
+# Library, member: the symbols (demangled) that it may define.
+ALLOWED = {
+    ("libswirl_engine.a", "event_loop_avx2.cpp.o"): ["swirl::event_loops_avx2"],
+    ("libswirl_engine.a", "event_loop_avx512.cpp.o"): ["swirl::event_loops_avx512"],
+    ("libswirl_rival.a", "plain_search_avx2.cpp.o"): ["swirl::plain_search_avx2"],
+    ("libswirl_rival.a", "plain_search_avx512.cpp.o"): ["swirl::plain_search_avx512"],
+    ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::kernel"],
+    ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::kernel"],
+}
+
+
+def shared_symbols(library):
+    """What each member of the library defines for others: {member: [symbol]}."""
+    out = subprocess.run(["nm", "-C", "--defined-only", "--extern-only", library],
+                         check=True, capture_output=True, text=True).stdout
+    found, member = {}, None
+    for line in out.splitlines():
+        if line.endswith(":"):
+            member = line[:-1]
+            found[member] = []
+        elif line.strip():
+            found[member].append(line.split(None, 2)[2].split("(")[0])
+    return found
+
+
+@unittest.skipUnless(os.uname().machine == "x86_64", "wide vectors are of x86-64")
+class WideObjects(unittest.TestCase):
+    def test_define_only_their_own_table(self):
+        for (library, member), allowed in ALLOWED.items():
+            with self.subTest(member=member):
+                symbols = shared_symbols(os.path.join(LIBRARIES, library))
+                self.assertEqual(symbols[member], allowed)
+
+    def test_no_other_function_has_wide_instructions(self):
+        """The registers of AVX and AVX-512 appear in these objects only, and in functions that the
+        compiler made several versions of (their names end with .avx2 and the like)."""
+        for library in sorted({library for library, _ in ALLOWED}):
+            out = subprocess.run(["objdump", "-d", "--no-show-raw-insn",
+                                  os.path.join(LIBRARIES, library)],
+                                 check=True, capture_output=True, text=True).stdout
+            member, function, wide = "", "", set()
+            for line in out.splitlines():
+                if ".o:" in line:
+                    member = line.split(":")[0]
+                elif line.endswith(">:"):
+                    function = line.split("<", 1)[1][:-2]
+                elif "%ymm" in line or "%zmm" in line:
+                    wide.add((member, function))
+            self.assertTrue(wide, "the wide objects must have wide instructions")
+            stray = [(m, f) for m, f in wide if "_avx" not in m and
+                     not re.search(r"\.(avx|arch_)\w*", f)]
+            self.assertEqual(stray, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

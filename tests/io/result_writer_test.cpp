@@ -1,0 +1,91 @@
+#include "swirl/io/result_writer.hpp"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <csignal>
+
+#include "io/scratch.hpp"
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/journaled_file.hpp"
+
+namespace swirl {
+namespace {
+
+std::size_t files_in(const std::filesystem::path& folder) {
+    return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(ResultWriter, NeedsNoDescriptorForEachFileThatWaits) {
+    const Scratch scratch;
+    rlimit before;
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit few = before;
+    few.rlim_cur = 250;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+    int named = 0;
+    {
+        ResultWriter writer(scratch.folder());
+        for (int k = 0; k < 2000; ++k)
+            writer.write(std::to_string(k) + ".json", "{}", [&] { ++named; });
+        EXPECT_NO_THROW(writer.finish());
+    }
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_EQ(named, 2000);
+    EXPECT_EQ(files_in(scratch.folder()), 2000u);
+}
+
+TEST(ResultWriter, PassesOnWhateverGoesWrongOnItsThread) {
+    const Scratch scratch;
+    ResultWriter writer(scratch.folder());
+    writer.write("a", "a", [] { throw std::bad_alloc(); });
+    EXPECT_THROW(writer.finish(), std::bad_alloc);
+}
+
+TEST(WholeFile, WhatAKillLeftBehindIsRemovedAndWhatIsBeingWrittenIsNot) {
+    const Scratch scratch;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        WholeFile killed(scratch / "f");
+        killed.append("half");
+        killed.empty_buffer();
+        ::_exit(1);
+    }
+    ::waitpid(child, nullptr, 0);
+    ASSERT_EQ(files_in(scratch.folder()), 1u);
+    WholeFile alive(scratch / "f");
+    write_quickly(scratch / "f.my own.partial", "not ours");
+    remove_leftovers_of(scratch / "other");
+    EXPECT_EQ(files_in(scratch.folder()), 3u);
+    remove_leftovers_of(scratch / "f");
+    EXPECT_EQ(files_in(scratch.folder()), 2u);
+    alive.append("whole");
+    alive.finish();
+    EXPECT_EQ(read_whole_file(scratch / "f"), "whole");
+}
+
+TEST(StagedFile, OnceSomethingFailedNothingMoreIsCommitted) {
+    const Scratch scratch;
+    rlimit before;
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    ::signal(SIGXFSZ, SIG_IGN);
+    StagedFile file(scratch / "f", StagedFile::Mode::create);
+    file.write(0, "first", 5);
+    file.commit();
+    rlimit small = before;
+    small.rlim_cur = 8192;
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(file.write(100'000, "far", 3), FileError);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    // Whoever overlooked that cannot go on as if nothing had happened.
+    EXPECT_THROW(file.write(0, "SECOND", 6), FileError);
+    EXPECT_THROW(file.commit(), FileError);
+    EXPECT_THROW(file.rename_to(scratch / "final"), FileError);
+    file.abandon();
+    EXPECT_EQ(read_whole_file(scratch / "f"), "first");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "final"));
+}
+
+}  // namespace
+}  // namespace swirl

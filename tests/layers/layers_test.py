@@ -1,0 +1,188 @@
+"""Layers of src/swirl: each includes only the layers listed before it (docs/explanation/architecture.md).
+
+The test reads every #include. It also checks the rules of the engine's layers: standard library only,
+no input or output, no clock, no threads, no exceptions.
+"""
+
+import os
+import re
+import unittest
+
+SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__)))))
+
+# The lowest layer first.
+LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "render", "tracking",
+          "study", "paper", "cli")
+# Layers that use the standard library only, and compile for WebAssembly.
+ENGINE = ("math", "physics", "engine", "statistics", "measure")
+# Layers that do not include each other although one is listed before the other: a measurement cannot
+# know where its snapshots come from, statistics know no physics, and the program builds without the
+# camera support.
+FORBIDDEN_PAIRS = {("measure", "engine"), ("statistics", "engine"), ("statistics", "physics"),
+                   ("study", "tracking"), ("paper", "tracking"), ("study", "render")}
+
+FORBIDDEN_HEADERS = {
+    "iostream", "fstream", "sstream", "cstdio", "stdio.h", "filesystem", "chrono", "ctime", "time.h",
+    "thread", "mutex", "atomic", "future", "condition_variable", "random", "unistd.h", "print",
+    "unordered_map", "unordered_set", "iomanip", "ostream", "istream", "format",
+}
+FORBIDDEN_WORDS = {"virtual", "throw", "try", "catch", "thread_local", "getenv", "rand"}
+
+# docs/explanation/architecture.md: what the engine may ask of the system.
+EXCEPTIONS = {("src/swirl/engine/simulation.cpp", "sys/mman.h")}
+STANDARD = {
+    "algorithm", "array", "bit", "bitset", "cfloat", "charconv", "climits", "cmath", "compare",
+    "complex", "concepts", "cstddef", "cstdint", "cstdlib", "cstring", "deque", "functional",
+    "initializer_list", "iterator", "limits", "list", "map", "memory", "new", "numbers", "numeric",
+    "optional", "queue", "ranges", "set", "span", "stack", "string", "string_view", "tuple",
+    "type_traits", "utility", "variant", "vector", "version", "immintrin.h", "cpuid.h",
+}
+
+
+def sources(layer):
+    for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "src", "swirl", layer))):
+        for name in sorted(names):
+            if name.endswith((".hpp", ".cpp", ".h", ".c", ".inc")):
+                yield os.path.join(folder, name)
+
+
+def all_sources():
+    for layer in LAYERS:
+        yield from sources(layer)
+
+
+def text_of(file):
+    with open(file, encoding="utf-8") as opened:
+        return opened.read()
+
+
+def includes(file):
+    """(what, quoted?) of every #include."""
+    return [(m.group(2), m.group(1) == '"')
+            for m in re.finditer(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', text_of(file), re.M)]
+
+
+def code_of(file):
+    """The text without comments and string literals."""
+    text = re.sub(r'"(\\.|[^"\\\n])*"', '""', text_of(file))
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
+    return re.sub(r"//[^\n]*", " ", text)
+
+
+# Layers of which the compiler gets several files at once (and the command line, whose files write one
+# function for each kind of call).
+COMPILED_AT_ONCE = ("measure", "io", "run", "render", "tracking", "study", "paper")
+DEFINITIONS = (
+    # A function, up to its brace; a type; a constant.
+    r"^(?!return|namespace|using|\s|template|\})[\w:<>&*,\[\]. ]*?[\w>&*\]] [*&]?(\w+)\([^;{}]*?\)"
+    r"(?: const| noexcept)? \{",
+    r"^(?:struct|class|enum|enum class) (\w+)",
+    r"^(?:static )?(?:constexpr|const) [\w:<>*, ]*?(\w+)(?:\[[^\]]*\])? ?[={(]",
+)
+
+
+def names_of_its_own(text):
+    """What a file defines in its unnamed namespaces."""
+    code = re.sub(r'R"\((?:.|\n)*?\)"', '""', text)
+    return {name
+            for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
+            for definition in DEFINITIONS for name in re.findall(definition, own, re.M)}
+
+
+class Layers(unittest.TestCase):
+    def test_every_folder_of_src_is_a_layer(self):
+        self.assertEqual(os.listdir(os.path.join(SOURCE, "src")), ["swirl"])
+        self.assertEqual(set(os.listdir(os.path.join(SOURCE, "src", "swirl"))), set(LAYERS))
+        for layer in LAYERS:
+            self.assertTrue(list(sources(layer)), layer)
+
+    def test_slow_headers_are_included_by_one_file_each(self):
+        for header, homes in (("CLI/CLI.hpp", {"parser.cpp"}), ("toml++/toml.h", {"toml_file.cpp"})):
+            found = {os.path.basename(file) for file in all_sources()
+                     if header in [what for what, _ in includes(file)]}
+            self.assertEqual(found, homes, header)
+
+    def test_target_clones_occurs_in_one_file(self):
+        # And for which compilers and sanitizers not: the thread sanitizer's programs do not even
+        # begin with such functions.
+        found = {os.path.relpath(file, SOURCE) for file in all_sources()
+                 if "target_clones" in text_of(file)}
+        self.assertEqual(found, {"src/swirl/math/wide.hpp"})
+
+    def test_a_layer_includes_only_layers_before_it(self):
+        for rank, layer in enumerate(LAYERS):
+            for file in sources(layer):
+                for what, _ in includes(file):
+                    if not what.startswith("swirl/"):
+                        continue
+                    other = what.split("/")[1]
+                    self.assertIn(other, LAYERS[:rank + 1], f"{file} includes {what}")
+                    self.assertNotIn((layer, other), FORBIDDEN_PAIRS, f"{file} includes {what}")
+
+    def test_quoted_includes_name_a_header_of_the_project(self):
+        for file in all_sources():
+            for what, quoted in includes(file):
+                if quoted and what != "version.inc":
+                    self.assertTrue(what.startswith("swirl/"), f"{file} includes {what}")
+                    self.assertTrue(os.path.exists(os.path.join(SOURCE, "src", what)),
+                                    f"{file} includes {what}, which does not exist")
+
+    def test_the_engine_uses_nothing_but_the_standard_library(self):
+        for layer in ENGINE:
+            for file in sources(layer):
+                for what, quoted in includes(file):
+                    if not quoted and (os.path.relpath(file, SOURCE), what) not in EXCEPTIONS:
+                        self.assertIn(what, STANDARD, f"{file} includes <{what}>")
+                        self.assertNotIn(what, FORBIDDEN_HEADERS, f"{file} includes <{what}>")
+
+    def test_the_engine_has_no_virtual_functions_exceptions_or_globals(self):
+        for layer in ENGINE:
+            for file in sources(layer):
+                words = set(re.findall(r"[A-Za-z_]+", code_of(file)))
+                self.assertEqual(words & FORBIDDEN_WORDS, set(), file)
+                self.assertNotRegex(code_of(file), r"std::\w*_distribution", file)
+                self.assertNotRegex(code_of(file), r"std::\w*(random_device|mt19937)", file)
+
+    def test_files_compiled_together_define_distinct_names(self):
+        # A second function of one name would be a redefinition at best; with other parameters it
+        # could be called in the place of the first without a word (cmake/program.cmake).
+        for layer in COMPILED_AT_ONCE:
+            where = {}
+            for file in sources(layer):
+                if file.endswith(".cpp"):
+                    for name in names_of_its_own(text_of(file)):
+                        where.setdefault(name, set()).add(os.path.basename(file))
+            self.assertEqual({n: f for n, f in where.items() if len(f) > 1}, {}, layer)
+
+    def test_headers_have_pragma_once_and_open_with_a_comment(self):
+        for layer in LAYERS:
+            for file in sources(layer):
+                if not file.endswith(".hpp"):
+                    continue
+                text = text_of(file)
+                self.assertIn("#pragma once", text, file)
+                self.assertTrue(text.startswith("// "), f"{file} does not open with a comment")
+
+    def test_every_header_is_included_somewhere(self):
+        wanted = set()
+        for top in ("src", "tests", "bench", "examples"):
+            for folder, _, names in os.walk(os.path.join(SOURCE, top)):
+                for name in names:
+                    if name.endswith((".hpp", ".cpp")):
+                        wanted.update(what for what, _ in includes(os.path.join(folder, name)))
+        for layer in LAYERS:
+            for file in sources(layer):
+                if file.endswith(".hpp"):
+                    name = "swirl/" + os.path.relpath(file, os.path.join(SOURCE, "src", "swirl"))
+                    self.assertIn(name, wanted)
+
+    def test_no_file_is_named_utils_or_manager(self):
+        for layer in LAYERS:
+            for file in sources(layer):
+                name = os.path.basename(file)
+                self.assertNotRegex(name, r"util|manager|helper|handler|\bbase\b|misc", file)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,459 @@
+#include "swirl/render/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pictures.hpp"
+#include "swirl/render/frame_diagram.hpp"
+#include "swirl/render/sheet.hpp"
+
+namespace swirl {
+namespace {
+
+SceneStyle plain_style() {
+    SceneStyle style;
+    style.orientation = false;
+    style.points = false;
+    style.path = false;
+    return style;
+}
+
+View view_of(const Canvas& canvas, Frame frame) {
+    return fitting_view({0.0, 0.0, double(canvas.size().width), double(canvas.size().height)},
+                        frame, 8.6, 1.892);
+}
+
+/// The direction from `from` to `to` on the page, in radians counter-clockwise from the right.
+double direction(const Vec2& from, const Vec2& to) {
+    return std::atan2(-(to.y - from.y), to.x - from.x);
+}
+
+double turned_by(double from, double to) { return std::remainder(to - from, 2.0 * pi); }
+
+TEST(Scene, ADiscIsDrawnWhereItIsAndAsLargeAsItIs) {
+    Snapshot s = dish(0.1);
+    add_disc(s, {3.25, -2.5});
+    Canvas canvas(Size{600, 600});
+    const SceneStyle style = plain_style();
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+
+    const Patch patch = patch_of(canvas, style.theme.disc);
+    const Vec2 expected = view.on_page({3.25, -2.5});
+    // The middle of some 2000 pixels, whose edges are cut evenly on all sides.
+    EXPECT_NEAR(patch.middle.x, expected.x, 0.1);
+    EXPECT_NEAR(patch.middle.y, expected.y, 0.1);
+    // The rim has a colour of its own; with half of the blended edge it is at most 2 pixels wide.
+    const double radius = view.pixels_per_unit;
+    EXPECT_LT(patch.count, pi * radius * radius);
+    EXPECT_GT(patch.count, pi * (radius - 3.0) * (radius - 3.0));
+    EXPECT_TRUE(is(pixel(canvas, expected + Vec2{radius + 2.0, 0.0}), style.theme.floor));
+}
+
+TEST(Scene, ADiscStaysPutInTheMFrameIfItTurnsWithTheSwirl) {
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::m);
+    for (double turns : {0.0, 0.2, 0.55, 0.9}) {
+        Snapshot s = dish(turns);
+        // Three units from C towards M.
+        add_disc(s, (1.892 + 3.0) * unit_circle(turns));
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {s});
+        const Patch patch = patch_of(canvas, style.theme.disc);
+        EXPECT_NEAR(patch.middle.x, 200.0, 0.2) << turns;
+        EXPECT_NEAR(patch.middle.y, 200.0 + 3.0 * view.pixels_per_unit, 0.2) << turns;
+    }
+}
+
+TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
+    SceneStyle style = plain_style();
+    style.orientation = true;
+    style.theme.disc = {1.0, 1.0, 1.0};
+    Canvas canvas(Size{800, 800});
+    const View view = view_of(canvas, Frame::lab);
+    for (double angle : {0.0, 0.5, 1.7, 3.0, -2.0}) {
+        Snapshot s = dish(0.0);
+        add_disc(s, {1.0, 2.0}, angle);
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {s});
+        // The mark is the only dark thing within 0.8 of the radius.
+        const Vec2 centre = view.on_page({1.0, 2.0});
+        const double reach = 0.8 * view.pixels_per_unit;
+        Vec2 dark{0.0, 0.0};
+        for (int y = int(centre.y - reach); y <= centre.y + reach; ++y)
+            for (int x = int(centre.x - reach); x <= centre.x + reach; ++x) {
+                const Vec2 arm = Vec2{x + 0.5, y + 0.5} - centre;
+                if (dot(arm, arm) > reach * reach) continue;
+                dark = dark + (255.0 - pixel(canvas, x, y).red) * arm;
+            }
+        EXPECT_NEAR(turned_by(angle, direction({0.0, 0.0}, dark)), 0.0, 0.02) << angle;
+    }
+}
+
+/// A sphere in the middle of the dish's page, turned like that.
+Pixel top_of_ball(const Quaternion& turned) {
+    Snapshot s = dish(0.0);
+    s.resize_for_spheres(1);
+    s.set(0, {{2.0, 1.0}, {0.0, 0.0}, 0.0, 0.0, s.clock, 1.0, 1.0, 0.4});
+    s.turned = {turned};
+    SceneStyle style = plain_style();
+    style.orientation = true;
+    Canvas canvas(Size{600, 600});
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+    return pixel(canvas, view.on_page({2.0, 1.0}));
+}
+
+// A pole has a dark dot: seen from above when it is up, and again half a turn later; a quarter turn
+// rolls it away.
+TEST(Scene, ASpheresPatternRollsWithIt) {
+    const Pixel up = top_of_ball({});
+    const Pixel quarter = top_of_ball(turn_by(0.5 * pi + 0.3, 0.3, 0.0));
+    const Pixel half = top_of_ball(turn_by(pi, 0.0, 0.0));
+    EXPECT_GT(quarter.red + quarter.green + quarter.blue, 60 + up.red + up.green + up.blue);
+    EXPECT_EQ(half.red, up.red);
+    EXPECT_EQ(half.green, up.green);
+}
+
+TEST(Scene, ADiscOfUnknownOrientationHasNoMark) {
+    Snapshot s = dish(0.0);
+    add_disc(s, {0.0, 0.0}, std::nan(""));
+    SceneStyle style = plain_style();
+    style.orientation = true;
+    Canvas marked(Size{300, 300}), plain(Size{300, 300});
+    const View view = view_of(marked, Frame::lab);
+    marked.fill_page(style.theme.page);
+    draw_scene(marked, view, style, {s});
+    style.orientation = false;
+    plain.fill_page(style.theme.page);
+    draw_scene(plain, view, style, {s});
+    const auto a = marked.pixels(), b = plain.pixels();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
+}
+
+TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
+    const SceneStyle style = plain_style();
+    for (const Frame frame : {Frame::lab, Frame::m}) {
+        double before = 0.0;
+        for (int k = 0; k < 9; ++k) {
+            const double turns = k / 8.0;
+            const Snapshot s = dish(turns);
+            Canvas canvas(Size{500, 500});
+            const View view = view_of(canvas, frame);
+            canvas.fill_page(style.theme.page);
+            draw_scene(canvas, view, style, {s});
+            // One mark of the wall has the accent colour.
+            const Vec2 centre = view.on_page(FrameAt(s, frame).position(s.container_centre));
+            const double now = direction(centre, patch_of(canvas, style.theme.accent).middle);
+            const double step = turned_by(before, now);
+            if (k > 0) {
+                EXPECT_NEAR(step, frame == Frame::lab ? 0.0 : -2.0 * pi / 8.0, 0.02) << k;
+            } else {
+                EXPECT_NEAR(now, frame == Frame::lab ? 0.0 : -0.5 * pi, 0.02);
+            }
+            before = now;
+        }
+    }
+}
+
+TEST(Scene, MIsAtTheBottomAndSStraightAboveCInTheMFrame) {
+    for (int k = 0; k < 16; ++k) {
+        const Snapshot s = dish(k / 16.0);
+        const FrameAt at = FrameAt(s, Frame::m);
+        const Vec2 m = s.container_centre + (8.6 / 1.892) * s.container_centre;
+        EXPECT_NEAR(at.position(m).x, 0.0, 1e-14 * 20.0);
+        EXPECT_NEAR(at.position(m).y, -8.6, 1e-14 * 20.0);
+        EXPECT_NEAR(at.position({0.0, 0.0}).x, 0.0, 1e-14);
+        EXPECT_NEAR(at.position({0.0, 0.0}).y, 1.892, 1e-14);
+        // On the page, too.
+        const View view{Frame::m, {100.0, 100.0}, 10.0};
+        EXPECT_GT(view.on_page(at.position(m)).y, 100.0);
+    }
+}
+
+TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
+    // A disc on a straight line in the lab, seen at two moments: central difference, error ~ h².
+    const Vec2 start{2.0, -1.0}, v{0.3, 0.7};
+    const auto at = [&](double turns) {
+        Snapshot s = dish(turns);
+        add_disc(s, start + (turns * s.period) * v);
+        s.vx[0] = v.x;
+        s.vy[0] = v.y;
+        return s;
+    };
+    const double h = 1e-5;
+    const Snapshot before = at(0.3 - h), now = at(0.3), after = at(0.3 + h);
+    const Vec2 difference = FrameAt(after, Frame::m).position(after.position(0)) -
+                            FrameAt(before, Frame::m).position(before.position(0));
+    const Vec2 expected = (1.0 / (2.0 * h * now.period)) * difference;
+    const Vec2 found = FrameAt(now, Frame::m).velocity(now.position(0), now.velocity(0));
+    EXPECT_NEAR(found.x, expected.x, 1e-7);
+    EXPECT_NEAR(found.y, expected.y, 1e-7);
+}
+
+TEST(Scene, ColoursTellWhatTheySay) {
+    Snapshot s = dish(0.0);
+    add_disc(s, {-3.0, 0.0}, 0.0, 1.0, -2.0);
+    add_disc(s, {0.0, 0.0}, 0.0, 1.0, 0.0);
+    add_disc(s, {3.0, 0.0}, 0.0, 1.0, 2.0);
+    SceneStyle style = plain_style();
+    style.full_spin = 2.0;
+    style.full_speed = 1.0;
+    s.vx = {0.0, 0.5, 4.0};
+    const std::vector<std::uint8_t> pinned{1, 0, 1};
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::lab);
+    const auto expect = [&](Coloring coloring, const std::vector<Color>& colors) {
+        style.coloring = coloring;
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {.now = s, .pinned = pinned});
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_TRUE(is(pixel(canvas, view.on_page(s.position(i))), colors[i]))
+                << int(coloring) << " " << i;
+    };
+    const Theme& t = style.theme;
+    expect(Coloring::none, {t.disc, t.disc, t.disc});
+    expect(Coloring::pinned, {t.pinned, t.loose, t.pinned});
+    expect(Coloring::id, {distinct_colors[0], distinct_colors[1], distinct_colors[2]});
+    expect(Coloring::spin,
+           {diverging_color(-1.0, t.neutral), t.neutral, diverging_color(1.0, t.neutral)});
+    expect(Coloring::speed, {sequential_color(0.0), sequential_color(0.5), sequential_color(1.0)});
+}
+
+TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
+    std::vector<Snapshot> past(9, dish(0.0));
+    for (int k = 0; k < 9; ++k) add_disc(past[k], {-6.0 + 0.5 * k, 1.0});
+    Snapshot now = dish(0.0);
+    add_disc(now, {-1.5, 1.0});
+    std::vector<const Snapshot*> pointers;
+    for (const Snapshot& s : past) pointers.push_back(&s);
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{600, 600});
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {.now = now, .past = pointers});
+    const auto strength = [&](double x) {
+        return pixel(canvas, view.on_page({x, 1.0})).blue - 255.0 * style.theme.floor.blue;
+    };
+    EXPECT_GT(strength(-5.7), 10.0);
+    EXPECT_GT(strength(-2.8), strength(-5.7));
+    EXPECT_TRUE(is(pixel(canvas, view.on_page({0.0, 1.0})), style.theme.floor));
+    EXPECT_TRUE(is(pixel(canvas, view.on_page({-4.0, 1.5})), style.theme.floor));
+}
+
+TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
+    Snapshot s = dish(0.0);
+    add_disc(s, {1.892, -4.0});  // right of C in the M-frame of phase 0? C + (0, −4): to the left
+    const FrameAt at = FrameAt(s, Frame::m);
+    // At rest in the lab it moves clockwise in the M-frame: v' = −Ω ẑ × p', less the swirl itself.
+    SceneStyle style = plain_style();
+    style.forces = true;
+    Canvas canvas(Size{700, 700});
+    const View view = view_of(canvas, Frame::m);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+    const Vec2 p = at.position(s.position(0)), swirl_centre = at.position({0.0, 0.0});
+    const Vec2 v = at.velocity(s.position(0), s.velocity(0));
+    const Vec2 tail = view.on_page(p);
+    const auto page_angle = [](const Vec2& u) { return std::atan2(u.y, u.x); };
+    const double centrifugal = direction(tail, patch_of(canvas, style.theme.centrifugal).middle);
+    const double coriolis = direction(tail, patch_of(canvas, style.theme.coriolis).middle);
+    EXPECT_NEAR(turned_by(page_angle(p - swirl_centre), centrifugal), 0.0, 0.05);
+    EXPECT_NEAR(turned_by(page_angle(v) - 0.5 * pi, coriolis), 0.0, 0.05);
+}
+
+TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotation) {
+    const Snapshot s = dish(0.25);
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{500, 500});
+    const View view = fitting_view({0, 0, 500, 500}, Frame::lab, 8.6, 1.892, 0.1);
+    const Vec2 centre = view.on_page(s.container_centre);
+    for (const double turns : {0.2, -0.2, 1.2, -3.2}) {
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {.now = s, .turned = turns});
+        const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
+        const Patch arc = patch_of(canvas, color);
+        ASSERT_GT(arc.count, 100.0);
+        // From the top through 0.2 turns: its middle lies 0.1 turns beside the top, a bit more with
+        // the head.
+        const double expected = 0.5 * pi + (turns < 0.0 ? -1.0 : 1.0) * 0.1 * 2.0 * pi;
+        EXPECT_NEAR(turned_by(expected, direction(centre, arc.middle)), 0.0, 0.12) << turns;
+    }
+}
+
+TEST(Scene, GhostsLieBeneathTheDiscs) {
+    Snapshot now = dish(0.0), before = dish(0.0);
+    add_disc(now, {2.0, 0.0});
+    add_disc(before, {-2.0, 0.0});
+    const Snapshot* ghosts[] = {&before, &now};
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::lab);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {.now = now, .ghosts = ghosts});
+    EXPECT_TRUE(is(pixel(canvas, view.on_page({2.0, 0.0})), style.theme.disc));
+    const Pixel faint = pixel(canvas, view.on_page({-2.0, 0.0}));
+    EXPECT_GT(faint.blue, 255.0 * style.theme.floor.blue + 5.0);
+    EXPECT_LT(faint.blue, 255.0 * style.theme.disc.blue - 50.0);
+}
+
+TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
+    Snapshot s = dish(0.4);
+    SceneStyle style = plain_style();
+    style.slice = 0.75 * pi;  // up and to the left
+    Canvas canvas(Size{400, 400});
+    const View view = view_of(canvas, Frame::m);
+    canvas.fill_page(style.theme.page);
+    draw_scene(canvas, view, style, {s});
+    const auto green_over_red = [&](double x, double y) {
+        const Pixel p = pixel(canvas, view.on_page({x, y}));
+        return p.green - p.red;
+    };
+    EXPECT_GT(green_over_red(-4.0, 4.0), 30);
+    EXPECT_LT(green_over_red(4.0, 4.0), 30);
+    EXPECT_LT(green_over_red(-4.0, -4.0), 30);
+}
+
+TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
+    Snapshot s = dish(0.13);
+    add_disc(s, {5.0, 0.0});
+    const Theme theme = light_theme();
+    Canvas canvas(Size{1200, 450});
+    draw_frame_diagram(canvas, theme, s, 0);
+    const Patch centrifugal = patch_of(canvas, theme.centrifugal);
+    EXPECT_GT(centrifugal.count, 500.0);
+    EXPECT_GT(centrifugal.middle.x, 800.0);  // all in the third part
+    EXPECT_GT(patch_of(canvas, theme.coriolis).count, 50.0);
+    EXPECT_GT(patch_of(canvas, theme.velocity).count, 50.0);
+}
+
+TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
+    Snapshot s = dish(0.3);
+    add_disc(s, {0.0, 0.0});
+    const std::vector<Vec2> path{{1.892, 0.0}, {0.0, 1.892}, {-1.892, 0.0}, {0.0, -1.892}};
+    for (const Theme& theme : {dark_theme(), light_theme()}) {
+        for (const Size size : {Size{16, 16}, Size{64, 48}, Size{17, 400}, Size{1920, 1080},
+                                Size{8192, 64}, Size{33, 2000}}) {
+            SheetSpec spec;
+            spec.size = size;
+            spec.style.theme = theme;
+            spec.style.coloring = Coloring::spin;
+            spec.title = "A title that is far too long for a narrow page, and goes on";
+            spec.parameters = {"$N$ = 48", "$μ_{d}$ = 1"};
+            spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892},
+                           {Frame::m, "M-frame", 8.6, 1.892}};
+            spec.plot =
+                PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+            const Sheet sheet(spec);
+            Canvas canvas(size);
+            sheet.draw_still(canvas);
+            const std::vector<SceneContent> contents{{s, path}, {s, path}};
+            sheet.draw_moving(canvas, contents, {}, 0.3);
+            EXPECT_EQ(cairo_status(canvas.cairo()), CAIRO_STATUS_SUCCESS);
+            EXPECT_TRUE(is(pixel(canvas, 0, 0), theme.page));
+            EXPECT_GT(patch_of(canvas, theme.floor).count, 0.0) << size.width << "x" << size.height;
+        }
+    }
+}
+
+TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
+    // Painters share out the frames of a movie as they come free, so a frame may be the first of
+    // its canvas or the hundredth, and must be the same to the byte.
+    Snapshot s = dish(0.3), before = dish(0.25);
+    add_disc(s, {1.0, 2.0}, 0.4);
+    add_disc(before, {0.5, 2.0}, 0.2);
+    const Snapshot* past[] = {&before};
+    const std::vector<Vec2> path{{1.892, 0.0}, {0.0, 1.892}, {-1.892, 0.0}, {0.0, -1.892}};
+    SheetSpec spec;
+    spec.size = {400, 300};
+    spec.style.forces = true;
+    spec.title = "A title";
+    spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892, true}, {Frame::m, "M-frame", 8.6, 1.892}};
+    spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+    const Sheet sheet(spec);
+    const std::vector<SceneContent> contents{{.now = s, .path = path, .past = past, .turned = 0.3},
+                                             {.now = s, .path = path}};
+    const auto draw = [&](Canvas& canvas) {
+        sheet.draw_still(canvas);
+        sheet.draw_moving(canvas, contents, {}, 0.3);
+    };
+    Canvas fresh(spec.size), used(spec.size);
+    draw(fresh);
+    draw(used);
+    draw(used);
+    const auto a = fresh.pixels(), b = used.pixels();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
+}
+
+TEST(Sheet, DishesSideBySideHaveOneScaleAndDoNotOverlap) {
+    SheetSpec spec;
+    spec.panels = {{Frame::lab, "", 8.6, 1.892}, {Frame::m, "", 8.6, 1.892}};
+    const Sheet sheet(spec);
+    EXPECT_EQ(sheet.view(0).pixels_per_unit, sheet.view(1).pixels_per_unit);
+    const double reach = 8.6 * (1.0 + wall_thickness);
+    EXPECT_GT(sheet.view(1).centre.x - sheet.view(0).centre.x,
+              (2.0 * reach + 1.892) * sheet.view(0).pixels_per_unit);
+}
+
+TEST(Sheet, AShortTitleLeavesMoreRoomForTheDishesThanALongOne) {
+    const auto scale = [](const std::string& title) {
+        SheetSpec spec;
+        spec.size = {1280, 720};
+        spec.title = title;
+        spec.parameters = {"$N$ = 48"};
+        spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892}, {Frame::m, "M-frame", 8.6, 1.892}};
+        spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+        return Sheet(spec).view(0).pixels_per_unit;
+    };
+    const double roomy = scale("48 discs");
+    EXPECT_GT(roomy, 1.05 * scale("A headline that is too long to stand beside the captions"));
+    EXPECT_GT(2.0 * 8.6 * roomy, 0.54 * 720);
+}
+
+TEST(Sheet, ALegendIsNoWiderThanThePage) {
+    for (const int width : {200, 320, 1280}) {
+        SheetSpec spec;
+        spec.size = {width, 900};
+        spec.style.coloring = Coloring::spin;
+        spec.style.forces = true;
+        spec.panels = {{Frame::m, "M-frame", 8.6, 1.892}};
+        const Sheet sheet(spec);
+        Canvas canvas(spec.size);
+        sheet.draw_still(canvas);
+        for (int y = 0; y < 900; ++y)
+            EXPECT_TRUE(is(pixel(canvas, width - 1, y), spec.style.theme.page)) << width;
+    }
+}
+
+TEST(Scene, ThePointsAreNamedInASmallDishToo) {
+    Canvas canvas(Size{220, 220});
+    canvas.fill_page(dark_theme().page);
+    const View view = view_of(canvas, Frame::m);
+    const Snapshot s = dish(0.0);
+    SceneStyle style = plain_style();
+    style.points = true;
+    draw_scene(canvas, view, style, {.now = s});
+    const double unit = view.pixels_per_unit * 8.6;
+    EXPECT_LT(unit, 110.0);
+    // Left of the cross that is S: its name.
+    const Vec2 S = view.on_page(FrameAt(s, Frame::m).position({0.0, 0.0}));
+    int ink = 0;
+    for (int x = int(S.x - 15.0); x < int(S.x - 0.03 * unit - 2.0); ++x)
+        for (int y = int(S.y - 16.0); y < int(S.y); ++y) ink += pixel(canvas, x, y).green > 150;
+    EXPECT_GT(ink, 15);
+}
+
+TEST(Theme, InkCanBeReadOnThePage) {
+    for (const Theme& theme : {dark_theme(), light_theme()}) {
+        const double contrast = std::abs(brightness(theme.ink) - brightness(theme.page));
+        EXPECT_GT(contrast, 0.75);
+        EXPECT_GT(std::abs(brightness(theme.faint_ink) - brightness(theme.page)), 0.4);
+        EXPECT_GT(std::abs(brightness(theme.pinned) - brightness(theme.loose)), 0.05);
+    }
+    EXPECT_FALSE(theme_named("sepia"));
+}
+
+}  // namespace
+}  // namespace swirl

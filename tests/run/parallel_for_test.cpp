@@ -1,0 +1,36 @@
+#include "swirl/run/parallel_for.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+namespace swirl {
+namespace {
+
+TEST(OnAllCores, EveryPieceIsDoneOnce) {
+    for (const unsigned threads : {0u, 1u, 3u, 64u}) {
+        std::vector<std::atomic<int>> done(1000);
+        on_all_cores(
+            done.size(), [&](std::size_t k) { ++done[k]; }, threads);
+        for (const auto& times : done) EXPECT_EQ(times, 1);
+    }
+}
+
+TEST(OnAllCores, NothingToDoIsDoneAtOnce) {
+    on_all_cores(0, [](std::size_t) { FAIL(); });
+}
+
+TEST(OnAllCores, AFailureReachesTheCallerAndEndsTheWork) {
+    std::atomic<int> begun = 0;
+    const auto work = [&](std::size_t k) {
+        ++begun;
+        if (k == 3) throw std::runtime_error("three");
+    };
+    EXPECT_THROW(on_all_cores(100'000, work, 2), std::runtime_error);
+    EXPECT_LT(begun, 100'000);
+}
+
+}  // namespace
+}  // namespace swirl

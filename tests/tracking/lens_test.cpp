@@ -1,0 +1,124 @@
+#include "swirl/tracking/lens.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr Vec2 middle{319.5, 239.5};
+
+double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+
+TEST(Lens, SeenAndIdealUndoEachOther) {
+    for (const double k : {-0.05, 0.0, 0.03, 0.2}) {
+        const Lens lens{middle, 240.0, k};
+        for (double x = 0.0; x <= 639.0; x += 71.0)
+            for (double y = 0.0; y <= 479.0; y += 53.0) {
+                const Vec2 p = lens.seen(lens.ideal(Vec2{x, y}));
+                EXPECT_LT(length(p - Vec2{x, y}), 1e-7) << k;
+            }
+    }
+}
+
+TEST(Lens, OfATiltedCameraSeenAndIdealUndoEachOther) {
+    Lens lens{middle, 240.0, 0.03};
+    lens.squeeze = {0.006, -0.008};
+    lens.perspective = {1e-4, 6e-5};
+    for (double x = 0.0; x <= 639.0; x += 71.0)
+        for (double y = 0.0; y <= 479.0; y += 53.0) {
+            const Vec2 p = lens.seen(lens.ideal(Vec2{x, y}));
+            EXPECT_LT(length(p - Vec2{x, y}), 1e-7);
+        }
+    const Lens::Circle dish{{300.0, 250.0}, 180.0};
+    const Lens::Circle back = lens.ideal(lens.image(dish));
+    EXPECT_LT(length(back.centre - dish.centre), 1e-6);
+    EXPECT_NEAR(back.radius, dish.radius, 1e-6);
+}
+
+TEST(Lens, TheMiddleOfACirclesImageIsNotTheImageOfItsMiddle) {
+    const Lens lens{middle, 240.0, 0.03};
+    const Lens::Circle dish{{middle.x + 40.0, middle.y - 10.0}, 180.0};
+    // What a fit sees: the mean over its image, in steps of equal angle about the image's middle.
+    Vec2 centre = lens.seen(dish.centre);
+    double radius = 0.0;
+    for (int pass = 0; pass < 20; ++pass) {
+        Vec2 d{0.0, 0.0};
+        double sum = 0.0;
+        const int n = 720;
+        for (int k = 0; k < n; ++k) {
+            const Vec2 u = unit_circle(double(k) / n);
+            double r = 150.0;  // where the ray meets the image of the circle
+            for (int step = 0; step < 60; ++step)
+                r += dish.radius - length(lens.ideal(centre + r * u) - dish.centre);
+            sum += r / n;
+            d = d + (2.0 * r / n) * u;
+        }
+        centre = centre + d;
+        radius = sum;
+    }
+    EXPECT_GT(length(lens.ideal(centre) - dish.centre), 1.0);  // pixels: worth undoing
+    const Lens::Circle found = lens.ideal(Lens::Circle{centre, radius});
+    // Twenty-four points instead of all, and terms of the second order in the shift.
+    EXPECT_LT(length(found.centre - dish.centre), 0.03);
+    EXPECT_NEAR(found.radius, dish.radius, 0.03);
+}
+
+TEST(Lens, IsFoundFromSizesOfEqualBalls) {
+    Random random(3);
+    for (const double k : {0.0, 0.03, -0.02}) {
+        const Lens lens{middle, 240.0, k};
+        std::vector<SeenSize> sizes;
+        for (int i = 0; i < 800; ++i) {
+            const Vec2 p = middle + random.in_disc(215.0);
+            double noise = 0.0;
+            for (int j = 0; j < 12; ++j) noise += random.uniform() - 0.5;
+            const double stray = i % 20 == 0 ? 0.3 : 0.0;  // fits that went wrong
+            sizes.push_back({p, lens.seen_radius(p, 1.0) + 0.01 * noise + stray});
+        }
+        const Lens found = lens_of(sizes, middle, 240.0);
+        EXPECT_NEAR(found.k, k, 4.0 * found.k_error + 0.001) << k;
+        EXPECT_LT(found.k_error, 0.002);
+        EXPECT_EQ(found.k == 0.0, k == 0.0);
+    }
+}
+
+/// What is believed of sizes that tell k_sizes ± 0.0003 for balls of 26 pixels beside contacts.
+double believed(double k_sizes, double k_contacts, double contact_error) {
+    Lens lens{middle, 240.0};
+    lens.apparent_k = k_sizes;
+    lens.apparent_k_error = 0.0003;
+    lens.ball = 26.0;
+    lens.contact_k = k_contacts;
+    lens.contact_error = contact_error;
+    lens.settle_distortion();
+    return lens.k;
+}
+
+TEST(Lens, SizesAreNotBelievedAgainstContacts) {
+    // Shade makes the sizes of balls without texture say −0.015 (docs/camera.md), a near camera
+    // −0.0095.
+    EXPECT_EQ(believed(-0.015, 0.001, 0.0025), 0.0);
+    EXPECT_EQ(believed(-0.0095, 0.001, 0.0025), 0.0);
+    EXPECT_EQ(believed(-0.0095, -0.003, 0.0025), 0.0);
+}
+
+TEST(Lens, AWeakDistortionIsBelievedWhereContactsSideWithIt) {
+    EXPECT_EQ(believed(0.005, 0.004, 0.0025), 0.005);
+    EXPECT_EQ(believed(-0.006, -0.005, 0.0025), -0.006);
+    EXPECT_EQ(believed(0.005, 0.001, 0.0025), 0.0);  // which side with none
+    EXPECT_EQ(believed(0.005, 0.0, 0.0), 0.0);       // which are not there
+}
+
+TEST(Lens, OfAStrongOneSizesAndContactsAreWeighed) {
+    const double k = believed(0.033, 0.029, 0.0025);
+    EXPECT_GT(k, 0.029);
+    EXPECT_LT(k, 0.033);
+}
+
+}  // namespace
+}  // namespace swirl

@@ -1,0 +1,82 @@
+#include "swirl/tracking/video.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "swirl/math/random.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Numbers = std::vector<std::size_t>;
+
+TEST(AscendingTimes, GoodTimesStayAsTheyAre) {
+    const std::vector<double> uneven{0.5, 1.0, 1.25, 4.0, 4.1};
+    const AscendingTimes found = ascending_times(uneven);
+    EXPECT_EQ(found.seconds, uneven);
+    EXPECT_TRUE(found.untimed.empty());
+}
+
+TEST(AscendingTimes, FramesThatShareATimeGetTimesBetweenTheirNeighbours) {
+    // Whichever of the two was wrong.
+    for (const double shared : {3.0, 4.0}) {
+        const AscendingTimes found = ascending_times({0.0, 1.0, 2.0, shared, shared, 5.0, 6.0});
+        EXPECT_EQ(found.seconds, (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+        EXPECT_EQ(found.untimed, (Numbers{3, 4}));
+    }
+    // A step that is too small to be one, and three equal times at either end.
+    EXPECT_EQ(ascending_times({0.0, 1.0, 1.0 + 1e-9, 3.0, 4.0}).untimed, (Numbers{1, 2}));
+    EXPECT_EQ(ascending_times({2.0, 2.0, 2.0, 3.0, 4.0}).seconds,
+              (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+    EXPECT_EQ(ascending_times({0.0, 1.0, 2.0, 2.0, 2.0}).seconds,
+              (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+}
+
+TEST(AscendingTimes, TimesThatAreNotFiniteOrGoBackAreReplaced) {
+    const AscendingTimes found = ascending_times({0.0, 1.0, nan, 3.0, -infinite, 5.0, 6.0});
+    EXPECT_EQ(found.seconds, (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+    const AscendingTimes back = ascending_times({0.0, 1.0, 2.0, 3.0, 2.5, 5.0, 6.0});
+    EXPECT_EQ(back.untimed, (Numbers{3, 4}));
+    EXPECT_TRUE(std::is_sorted(back.seconds.begin(), back.seconds.end(), std::less_equal<>()));
+}
+
+TEST(AscendingTimes, AnyTimesAscendOrAreRejected) {
+    const double odd[] = {nan, infinite, -infinite, 0.0, -1e300, 1e300, 1.0, 2.0};
+    Random random(7);
+    int rejected = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        std::vector<double> seconds(1 + random.below(12));
+        for (std::size_t k = 0; k < seconds.size(); ++k)
+            seconds[k] = random.below(3) == 0 ? odd[random.below(8)] : double(k);
+        try {
+            const std::vector<double> times = ascending_times(seconds).seconds;
+            ASSERT_EQ(times.size(), seconds.size());
+            for (std::size_t k = 0; k < times.size(); ++k) {
+                ASSERT_TRUE(std::isfinite(times[k]));
+                if (k > 0) {
+                    ASSERT_LT(times[k - 1], times[k]);
+                }
+            }
+        } catch (const Failure&) {
+            ++rejected;
+        }
+    }
+    EXPECT_GT(rejected, 0);
+    EXPECT_LT(rejected, 2000);
+}
+
+TEST(AscendingTimes, OneTimeForAllIsRejected) {
+    EXPECT_THROW(ascending_times({1.0, 1.0, 1.0}), Failure);
+    EXPECT_THROW(ascending_times({nan, nan}), Failure);
+    EXPECT_THROW(ascending_times({}), Failure);
+}
+
+}  // namespace
+}  // namespace swirl
