@@ -407,6 +407,8 @@ class Laboratory(unittest.TestCase):
                                 "40", "--warmup", "20", "--json", "-", "--quiet").stdout)
         for column, key in (("varpi", "mean"), ("varpi_error", "error")):
             self.assertEqual(float(point[column]), here["rotation"]["by_time"][key], column)
+            rigid = column.replace("varpi", "varpi_rigid")
+            self.assertEqual(float(point[rigid]), here["rotation"]["rigid_by_time"][key], rigid)
         if shutil.which("ffprobe"):
             asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                     "stream=nb_read_frames", "-of", "csv=p=0",

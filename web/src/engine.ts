@@ -26,9 +26,15 @@ export interface Estimate {
     blocks: number;
 }
 
-export interface Rotation {
-    by_event: Estimate;
-    by_time: Estimate;
+/** The rotation rates: the mean over the discs and the rigid-body rate, by time and by event. */
+export const rates = ["by_time", "by_event", "rigid_by_time", "rigid_by_event"] as const;
+export type Rate = typeof rates[number];
+
+export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
+    return Object.fromEntries(rates.map((rate) => [rate, of(rate)])) as Record<Rate, T>;
+}
+
+export interface Rotation extends Record<Rate, Estimate> {
     warmup: number; // swirls
     /** Those of the warm-up first. */
     blocks: (number | null)[];

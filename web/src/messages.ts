@@ -1,5 +1,5 @@
 // What the page and its worker say to each other.
-import type {Crossing, Estimate, Parameter, Rotation} from "./engine";
+import type {Crossing, Parameter, Rate, Rotation} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
@@ -19,7 +19,7 @@ export type ToWorker =
     | {kind: "maps"}
     /** A run from beginning to end, of so many swirls after the warm-up. */
     | {kind: "point"; given: Record<string, string>; swirls: number}
-    | {kind: "crossing"; curve: number; points: number[]};
+    | {kind: "crossing"; curve: number; curves: Record<Rate, number[]>};
 
 /** What fills up while the dish is swirled, in cells of the M-frame, and against θ. */
 export interface Maps {
@@ -58,6 +58,6 @@ export type FromWorker =
     | {kind: "result"; text: string}
     | Maps
     /** Nothing is known of a dish that has collapsed. */
-    | {kind: "point"; rotation: Estimate; collapsed: boolean}
-    | {kind: "crossing"; curve: number; crossing: Crossing | null}
+    | {kind: "point"; rotation: Rotation; collapsed: boolean}
+    | {kind: "crossing"; curve: number; crossings: Record<Rate, Crossing | null>}
     | Frame;

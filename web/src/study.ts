@@ -1,7 +1,7 @@
 // The paper's Figure 5b by oneself: ϖ(N) for frictions of one's choice, a run for every point, on
 // all cores, and where the curves cross zero.
 import uPlot from "uplot";
-import type {Crossing} from "./engine";
+import {perRate, type Crossing, type Estimate, type Rate} from "./engine";
 import type {FromWorker, ToWorker} from "./messages";
 import {button, element, ink, line, save, withError} from "./page";
 import {symbols, texts} from "./texts";
@@ -17,9 +17,11 @@ interface Point {
     discs: number;
     done?: boolean;
     collapsed?: boolean;
-    mean?: number;
-    error?: number;
+    rotation?: Record<Rate, Estimate>;
 }
+
+/** The rate that is drawn. */
+const drawn: Rate = "by_time";
 
 const colors = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"];
 const most = 400; // points
@@ -61,7 +63,7 @@ export function frictionsIn(text: string): Friction[] | undefined {
 /** What a run has found; nothing of one that collapsed, whose averages end where it did. */
 function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Partial<Point> {
     if (collapsed) return {done: true, collapsed};
-    return {done: true, mean: rotation.mean ?? undefined, error: rotation.error ?? undefined};
+    return {done: true, rotation};
 }
 
 export class Study {
@@ -145,7 +147,7 @@ export class Study {
                 this.report();
                 next();
             }
-            if (data.kind === "crossing") this.showCrossing(this.curves[data.curve]!, data.crossing);
+            if (data.kind === "crossing") this.showCrossing(this.curves[data.curve]!, data.crossings);
             if (data.kind === "refused") {
                 this.stop();
                 this.said.textContent = data.sentence;
@@ -164,29 +166,36 @@ export class Study {
 
     private askCrossings(tell: (message: ToWorker) => void): void {
         for (const [curve, friction] of this.curves.entries())
-            tell({kind: "crossing", curve, points: this.points
+            tell({kind: "crossing", curve, curves: perRate((rate) => this.points
                 .filter((each) => each.friction === friction)
-                .flatMap((each) => [each.discs, each.mean ?? NaN, each.error ?? NaN])});
+                .flatMap(({discs, rotation}) => [discs, rotation?.[rate].mean ?? NaN, rotation?.[rate].error ?? NaN]))});
     }
 
-    private showCrossing(friction: Friction, crossing: Crossing | null): void {
-        this.findings.append(element("li", {textContent: crossing === null ? texts.noCrossing(nameOf(friction)) :
-            texts.crossing(nameOf(friction), crossing.discs === null ? null
-                : withError(crossing.discs, crossing.error, ""), crossing.lower, crossing.upper)}));
+    /** N_c depends on the rotation rate, so each has its own. */
+    private showCrossing(friction: Friction, crossings: Record<Rate, Crossing | null>): void {
+        const found = perRate((rate) => {
+            const crossing = crossings[rate];
+            if (crossing === null) return texts.noCrossing;
+            return crossing.discs === null ? texts.bracket(crossing.lower, crossing.upper)
+                : texts.crossing(withError(crossing.discs, crossing.error, ""), crossing.lower, crossing.upper);
+        });
+        this.findings.append(element("li", {textContent: texts.crossings(nameOf(friction), found)}));
         if (this.findings.childElementCount === this.curves.length) this.stop();
     }
 
     private saveTable(): void {
         const rows = this.points.filter((each) => each.done).map((each) => [
-            each.friction.disc, each.friction.wall, each.discs, each.mean ?? "", each.error ?? "", each.collapsed ? 1 : 0].join(",") + "\n");
+            each.friction.disc, each.friction.wall, each.discs, each.rotation?.[drawn].mean ?? "",
+            each.rotation?.[drawn].error ?? "", each.collapsed ? 1 : 0, each.rotation?.rigid_by_time.mean ?? "",
+            each.rotation?.rigid_by_time.error ?? ""].join(",") + "\n");
         save("rotation_against_N.csv",
-             {text: `mu_disc,mu_wall,discs,varpi,varpi_error,collapsed\n${rows.join("")}`, type: "text/csv"});
+             {text: `mu_disc,mu_wall,discs,varpi,varpi_error,collapsed,varpi_rigid,varpi_rigid_error\n${rows.join("")}`, type: "text/csv"});
     }
 
     private draw(): void {
         const numbers = [...new Set(this.points.map((each) => each.discs))].sort((a, b) => a - b);
         const values = (friction: Friction): (number | null)[] => numbers.map((n) => this.points.find(
-            (each) => each.friction === friction && each.discs === n)?.mean ?? null);
+            (each) => each.friction === friction && each.discs === n)?.rotation?.[drawn].mean ?? null);
         this.plot?.destroy();
         this.plot = new uPlot({
             width: this.place.clientWidth || 400, height: 260,
@@ -213,8 +222,9 @@ export class Study {
             context.lineTo(plot.bbox.left + plot.bbox.width, zero);
             context.stroke();
         }
-        for (const {friction, discs, mean, error} of this.points) {
-            if (mean === undefined || error === undefined || !Number.isFinite(mean + error)) continue;
+        for (const {friction, discs, rotation} of this.points) {
+            const mean = rotation?.[drawn].mean ?? NaN, error = rotation?.[drawn].error ?? NaN;
+            if (!Number.isFinite(mean + error)) continue;
             context.strokeStyle = colors[this.curves.indexOf(friction) % colors.length]!;
             const x = plot.valToPos(discs, "x", true);
             context.beginPath();

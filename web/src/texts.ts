@@ -1,6 +1,8 @@
 // Every text of the page, for who wants to translate it. In English remain what the engine says for the
 // command line, too: what it refuses, names of parameters, the keys of files.
 
+import type {Rate} from "./engine";
+
 /** What index.html has in {{braces}}, put there when the page is built. */
 export const pageTexts = {
     language: "en",
@@ -88,16 +90,16 @@ export const texts = {
     swirlsWrong: (text: string): string =>
         `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
     studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
-    crossing: (friction: string, discs: string | null, lower: number, upper: number): string =>
-        discs === null
-            ? `${friction}: the direction of rotation changes between N = ${lower} and ${upper} ` +
-                "(mean over the discs, by time)."
-            : `${friction}: the direction of rotation changes at N_c = ${discs} ` +
-                `(95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)}; mean over the discs, by time).`,
+    crossing: (discs: string, lower: number, upper: number): string =>
+        `${discs} (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)})`,
+    bracket: (lower: number, upper: number): string => `between ${lower} and ${upper}`,
+    noCrossing: "none",
+    crossings: (friction: string, of: Record<Rate, string>): string =>
+        `${friction}: N_c, where the direction of rotation changes. Mean over the discs: ${of.by_time} by time, ` +
+        `${of.by_event} by event. Rigid body: ${of.rigid_by_time} by time, ${of.rigid_by_event} by event.`,
     collapsed: (runs: string): string => "Collapsed, and left out, since the model has no state after " +
         `it: ${runs}.`,
     runOf: (discs: number, friction: string): string => `N = ${discs} at ${friction}`,
-    noCrossing: (friction: string): string => `${friction}: no change of sense is certain at these N.`,
     presets: "Presets",
     copied: "Copied",
     noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +

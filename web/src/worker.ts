@@ -1,5 +1,5 @@
 // The engine at work, beside the page so that the page never waits for it.
-import {Engine, Refusal} from "./engine";
+import {Engine, Refusal, perRate} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
 import {workerTexts} from "./texts";
 
@@ -163,7 +163,7 @@ function point(given: Record<string, string>, swirls: number): void {
     const end = (swirls + dish.rotation().warmup) * Number(configuration["period"]);
     while (!dish.advanceTo(end, eventsAtOnce) && !dish.trouble(false));
     const collapsed = dish.trouble(true) !== "";
-    say({kind: "point", rotation: dish.rotation().by_time, collapsed});
+    say({kind: "point", rotation: dish.rotation(), collapsed});
 }
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
@@ -202,8 +202,11 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 point(data.given, data.swirls);
                 break;
             case "crossing":
-                if (module) say({kind: "crossing", curve: data.curve,
-                                 crossing: new Engine(module).crossing(data.points)});
+                if (module) {
+                    const found = new Engine(module);
+                    say({kind: "crossing", curve: data.curve,
+                         crossings: perRate((rate) => found.crossing(data.curves[rate]))});
+                }
                 break;
             case "step":
                 if (!engine) break;

@@ -383,10 +383,12 @@ await study("5, 8:2:10", "0, 1, 1:0", 3);
 assert.match(await text("study-said"), /^9 of 9 runs/);
 assert.deepEqual((await page.$$eval("#study-findings li", (all) => all.map((each) => each.textContent)))
     .map((each) => each.split(": ")[0]).sort(), ["μ = 0", "μ = 1", "μ_d = 1, μ_w = 0"]);
+for (const each of await page.$$eval("#study-findings li", (all) => all.map((one) => one.textContent)))
+    assert.match(each, /Mean over the discs: .+ by time, .+ by event\. Rigid body: .+ by time, .+ by event\.$/);
 await barriers("the study");
 const table = (await downloaded("#study-table"))[1].toString().trim().split("\n");
 assert.equal(table.length, 10);
-assert.equal(table[0], "mu_disc,mu_wall,discs,varpi,varpi_error,collapsed");
+assert.equal(table[0], "mu_disc,mu_wall,discs,varpi,varpi_error,collapsed,varpi_rigid,varpi_rigid_error");
 assert.deepEqual(table.filter((row) => row.startsWith("1,0,")).map((row) => row.split(",")[2]).sort(),
                  ["10", "5", "8"]);
 if (folder) writeFileSync(`${folder}/study.csv`, table.join("\n"));
@@ -402,7 +404,7 @@ await page.goto(`${address}?discs=5&restitution=0.5&contact_duration=0`);
 await page.click("#study summary");
 await study("48", "1", 1);
 assert.match(await text("study-said"), /^1 of 1 runs done\. Collapsed, and left out.*: N = 48 at μ = 1\.$/);
-assert.match((await downloaded("#study-table"))[1].toString(), /\n1,1,48,,,1\n$/);
+assert.match((await downloaded("#study-table"))[1].toString(), /\n1,1,48,,,1,,\n$/);
 await page.click("#study summary");
 
 // The lesson goes through its six steps by keyboard alone.
@@ -437,7 +439,7 @@ for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
 
-// The picture has the canvas's size; tests/app/lab_test.py decodes it.
+// The picture has the canvas's size; tests/cli/lab_test.py decodes it.
 assert.deepEqual([16, 20].map((at) => saved["swirl.png"].readUInt32BE(at)), canvasSize);
 assert.ok(canvasSize[0] >= 300, `${canvasSize}`);
 
