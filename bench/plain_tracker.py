@@ -22,7 +22,7 @@ import tempfile
 import numpy
 from scipy import ndimage, optimize
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "app"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
 import track_test  # noqa: E402
 
 

@@ -118,7 +118,7 @@ inline Ran run_command(const std::string& command) {
 #define EXPECT_READER_AGREES(reader, file, discs, frames, bodies)                               \
     do {                                                                                        \
         const auto ran = run_command(                                                           \
-            "/usr/bin/python3 " SWIRL_SOURCE_DIR "/tests/files/independent_readers.py " +       \
+            "/usr/bin/python3 " SWIRL_SOURCE_DIR "/tests/io/independent_readers.py " +          \
             std::string(reader) + " '" + (file).string() + "' " + std::to_string(discs) + " " + \
             std::to_string(frames) + " " + std::string(bodies));                                \
         if (ran.code == 77) GTEST_SKIP() << ran.output;                                         \
