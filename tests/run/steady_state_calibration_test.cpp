@@ -145,7 +145,7 @@ TEST(SlowSteadyStateCalibration, WhatIsPlantedInRecordedRunsIsFound) {
     std::vector<Series> all;
     for (const Setting& setting : {Setting{24, 1.0}, {40, 1.0}, {48, 1.0}, {24, 0.1}})
         for (Series& series : recorded(setting, 25)) all.push_back(std::move(series));
-    const std::vector<double> sizes{5.0, 10.0, 15.0, 20.0, 30.0, 50.0};
+    const std::vector<double> sizes{5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0};
     for (const Planted& plant : plants) {
         std::string row = fmt::format("| {} |", plant.name);
         std::vector<int> shares;
@@ -155,11 +155,9 @@ TEST(SlowSteadyStateCalibration, WhatIsPlantedInRecordedRunsIsFound) {
         // More is found the larger it is; of 100 series a few may be exceptions.
         for (std::size_t k = 1; k < shares.size(); ++k)
             EXPECT_GE(shares[k], shares[k - 1] - 5) << plant.name;
-        // Visits to a second state enlarge the error that the sizes are measured in.
-        const bool one_change = plant.shape(0.0) != plant.shape(0.999);
-        if (one_change) {
-            EXPECT_GE(shares.back(), 95) << plant.name;
-        }
+        // The table of docs/physics.md: at the largest size everything is found, whatever its
+        // shape.
+        EXPECT_GE(shares.back(), 95) << plant.name;
     }
 }
 
