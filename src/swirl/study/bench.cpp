@@ -187,12 +187,12 @@ std::unique_ptr<Rival> best_rival(const BenchScene& scene, const InitialState& s
         "lists", scene,
         [settled, skin = best_skin(scene, settled)] { return PlainLists(settled, skin); }));
     if (scene.discs > 48) return std::move(rivals.front());
-    for (const auto& [name, width] : {std::pair{"loop, baseline", Width::baseline},
-                                      {"loop, avx2", Width::avx2},
-                                      {"loop, avx512", Width::avx512}})
-        if (has_width(width))
+    for (const auto& [name, of_loop] : {std::pair{"loop, baseline", Width::baseline},
+                                        {"loop, avx2", Width::avx2},
+                                        {"loop, avx512", Width::avx512}})
+        if (has_width(of_loop))
             rivals.push_back(std::make_unique<RivalLoop<PlainLoop>>(
-                name, scene, [settled, width = width] { return PlainLoop(settled, width); }));
+                name, scene, [settled, width = of_loop] { return PlainLoop(settled, width); }));
     std::vector<double> rates;
     for (const auto& rival : rivals) rates.push_back(rival->rate_over(0.1 * seconds));
     return std::move(rivals[static_cast<std::size_t>(std::max_element(rates.begin(), rates.end()) -

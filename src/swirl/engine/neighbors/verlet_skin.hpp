@@ -394,7 +394,7 @@ SWIRL_INLINE double fair_skin_radius(const Candidates& candidates, std::uint32_t
 /// Sets X_i where the disc is at time t, with a skin radius of 0 for now.
 static void centre_skin(EngineState& state, std::uint32_t i, double t) {
     const Vec2 at = state.comoving_frame.place_of(state.discs[i].flight().position_at(t), t);
-    state.skins[i] = {static_cast<float>(at.x), static_cast<float>(at.y), 0.0f, {state.size}};
+    state.skins[i] = {static_cast<float>(at.x), static_cast<float>(at.y), {0.0f}, {state.size}};
     if (!state.has_no_grid) enter_cell(state, i);
 }
 
