@@ -7,7 +7,7 @@ around zero, where curves cross.
 import style
 
 MOST = 48  # discs, in the paper
-NEAR_ZERO = 0.1  # of Ω: shown enlarged
+NEAR_ZERO = 0.1  # of Ω: shown enlarged, as far down as there are points
 CURVES = [
     ("no-wall", r"no wall friction ($\mu_w = 0$)", style.GREEN, "^"),
     ("no-disc", r"no disc friction ($\mu_d = 0$)", style.ORANGE, "v"),
@@ -33,8 +33,9 @@ def main():
     style.rotation_axes(axes, "by event")
     axes.set_xlabel("")
     style.rotation_axes(near, "by event")
-    near.set_ylabel("around zero")
-    near.set_ylim(-NEAR_ZERO, NEAR_ZERO)
+    near.set_ylabel(r"$\varpi/\Omega$ near zero")
+    shown = [row["by_event"] for row in rows if abs(row["by_event"]) <= NEAR_ZERO]
+    near.set_ylim(max(-NEAR_ZERO, min(shown + [0]) - 0.02), NEAR_ZERO)
     last = max(row["discs"] for row in rows)
     notes = []
     if last > MOST:
