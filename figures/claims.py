@@ -191,6 +191,11 @@ def crossing_words(row):
     return number(Value(row["crossing"], row["crossing_error"]))
 
 
+def crossing_sentence(words):
+    """N_c, for a sentence: "N_c = 38.2 ± 0.1" or "N_c between 36 and 40"."""
+    return f"N_c {words}" if words.startswith("between") else f"N_c = {words}"
+
+
 class Crossing:
     def __init__(self, row, points, freedom=math.inf):
         self.verdict, self.points = row["verdict"], points
@@ -207,7 +212,7 @@ class Crossing:
     @property
     def text(self):
         if self.verdict == "crosses":
-            return f"N_c = {self.words}"
+            return crossing_sentence(self.words)
         return (f"no crossing ({self.verdict}; lowest ϖ/Ω = {number(self.lowest)} at N = "
                 f"{self.lowest_discs:.0f})")
 

@@ -14,6 +14,7 @@ import struct
 import sys
 
 import claims
+import verdicts
 import whole_file
 
 ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNDECIDED, claims.UNTESTABLE,
@@ -56,8 +57,8 @@ CONTRADICTIONS = [
     ("Which rotation", "ϖ is the mean over the discs of (r × v)/r² about the centre of mass: those near "
      "it, whose r² is small, weigh most, and the variance diverges.", "The paper's mean is the one that is "
      "judged. Every table also has the rotation of the rigid body that fits the velocities best "
-     "(rigid_by_event, rigid_by_time). The two change sign at different N: with μ = 1 the rigid body does so "
-     "about 1.3 discs earlier. Figure 5b has N_c by all four rates."),
+     "(rigid_by_event, rigid_by_time). The two change sign at different N; figure 5b has N_c by all four "
+     "rates."),
     ("Which average", "Figure 5b averages over events, the experiment over time.",
      "Both are given everywhere; figure “averages” compares them."),
 ]
@@ -254,7 +255,7 @@ def duration(seconds):
 
 def judge(folder):
     judged = [(claim, *claim.verdict(folder)) for claim in claims.CLAIMS]
-    return [(claim, verdict, powers(found)) for claim, verdict, found in judged]
+    return [(claim, verdict, in_words(found)) for claim, verdict, found in judged]
 
 
 def counts(judged):
@@ -320,12 +321,15 @@ def intro():
 
 
 def how_to_read(about):
+    seeds = about.get("seeds_of_a_point", 8)
     return ("ϖ is the rotation frequency of the cluster, Ω that of the swirl, N the number of discs, μ "
             "the friction (μ_d between discs, μ_w at the wall). "
-            "± is one standard error, between seeds and within runs, whichever is larger; three of "
-            "them decide. A sign alone decides nothing: each claim has a size that would matter, which the text "
-            "gives. What they do not decide is undecided, after "
-            f"{about.get('most_seeds_of_a_point', 32)} seeds at the points concerned. Verdicts are "
+            "± is one standard error, between seeds and within runs, whichever is larger. A claim is "
+            "decided by the probability of three standard deviations, 99.73 %: with "
+            f"{seeds} seeds these are {verdicts.threshold(seeds - 1):.1f} errors. A sign alone decides "
+            "nothing: each claim has a size that would matter, which the text gives. A claim that is not "
+            f"decided gets up to {about.get('most_seeds_of_a_point', 32)} seeds at the points that could "
+            "decide it, and is undecided after that. Verdicts are "
             "computed from the tables by the rules of figures/verdicts.py; every other number that "
             "a verdict depends on has a name in figures/claims.py. "
             + quick_sentence(about)).strip()
@@ -356,7 +360,7 @@ def lowest_of(folder, setting):
 def change_of(crossing):
     """Where a curve changes its sense, for a sentence."""
     if crossing.verdict == "crosses":
-        return f"at N_c = {crossing.words}"
+        return f"at {claims.crossing_sentence(crossing.words)}"
     low = f"ϖ/Ω is lowest at N = {crossing.lowest_discs:.0f}, {claims.number(crossing.lowest)}"
     if crossing.verdict == "always rotates":
         return f"not at all ({low})"
@@ -460,7 +464,7 @@ def found_spheres(folder):
     except FileNotFoundError:
         changes = {}
     changes = ", ".join(f"{at.words} (μ = {mu:g})" for mu, at in sorted(changes.items()))
-    where = f" Their sense changes for the last time at N = {changes}." if changes else ""
+    where = f" Their sense changes for the last time at these N: {changes}." if changes else ""
     return statement(
         turn, f"Spheres that roll on a floor counterrotate, too, when they are many; {cause} {numbers}.{where}"
         f"{inertia_of_discs(folder)}",
@@ -558,9 +562,12 @@ CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": 
           "no-vertical-disc": "no vertical friction between spheres",
           "no-vertical-wall": "no vertical friction at the wall", "no-damping": "e = 1",
           "shell": "hollow spheres"}
-POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*((?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?|[\d.]+)"
+POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*"
+                   r"((?:(?:inertia|restitution|tangential)_|e)?[\d.]+|(?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?)"
                    r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
-SYMBOLS = {"inertia": "I", "restitution": "e", "tangential_restitution": "β"}
+FRICTIONS = re.compile(r"\bmap_d([\d.]+)_w([\d.]+)_(?:\d+of\d+periods|\d+events|\d+periods)\b")
+VARIED = re.compile(r"(inertia|restitution|tangential|e)_?(?=[\d.])")
+SYMBOLS = {"inertia": "I", "restitution": "e", "e": "e", "tangential": "β", "tangential_restitution": "β"}
 PARAMETER = re.compile(rf"^({'|'.join(SYMBOLS)}) (?=[\d.])")
 
 
@@ -586,10 +593,13 @@ def in_words(finding):
         rough = ", μ = 0.3" if curve.endswith("-rough") else ""
         curve = curve.removesuffix("-rough")
         curve = CURVES.get(curve) or (f"μ = {curve}" if curve[0].isdigit() else
+                                      VARIED.sub(lambda m: f"{SYMBOLS[m.group(1)]} = ", curve, count=1)
+                                      if VARIED.match(curve) else
                                       curve.replace("_f", ", μ_f = ").replace("-", " "))
         curve += rough
         return f"{curve} with N = {discs}" + (f" (seed {seed})" if seed else "")
     finding = re.sub(r"^Figure \S+: (drawn; )?", "", finding)
+    finding = FRICTIONS.sub(r"(μ_d, μ_w) = (\1, \2)", finding)
     finding = re.sub(r" Another --seed than \d+ may not meet it\.|; docs/physics\.md", "", finding)
     finding = PARAMETER.sub(lambda match: f"{SYMBOLS[match.group(1)]} = ", POINT.sub(point, finding))
     return powers(finding)

@@ -297,7 +297,7 @@ class OnMadeUpTables(unittest.TestCase):
             for curve, lower in (("high", 36), ("medium", 40), ("low", 46))])
         verdict, found = claims.friction_order(self.folder)
         self.assertEqual(verdict, HOLDS)
-        self.assertIn("N_c = between 36 and 38", found)
+        self.assertIn("N_c between 36 and 38", found)
         self.assertNotIn("not known", found)
 
     def test_undetermined_signs_beyond_the_last_change_of_spheres_leave_it_open(self):

@@ -147,7 +147,7 @@ class FirstPage(Tables):
                                   (0.2, 28, "rotation"), (0.2, 32.4, "counterrotation"))])
         self.write("spheres", [{"curve": "0.2", "mu": 0.2, "discs": n, "by_time": level, "by_time_error": 0.001,
                                 "point": f"spheres_0.2_N{n}"} for n, level in ((16, 0.1), (44, -0.05), (48, -0.05))])
-        self.assertIn("without). Their sense changes for the last time at N = 32.4 ± 0.3 (μ = 0.2), "
+        self.assertIn("without). Their sense changes for the last time at these N: 32.4 ± 0.3 (μ = 0.2), "
                       "14.0 ± 0.3 (μ = 0.5).", self.found())
         os.remove(os.path.join(self.folder, "figure_spheres_sense.csv"))
         tables(0.1, -0.05, -0.025)
@@ -222,6 +222,11 @@ class Figures(Tables):
                 ("spheres_no-floor-rough_N48_25of75periods", "no floor, μ = 0.3 with N = 48"),
                 ("spheres_shell_N52_25of75periods", "hollow spheres with N = 52"),
                 ("spheres_coins_f0.01_N16_25of75periods", "coins, μ_f = 0.01 with N = 16"),
+                ("inertia_0.5_N54_40of240periods", "I = 0.5 with N = 54"),
+                ("tangential_1_N44_40of240periods", "β = 1 with N = 44"),
+                ("spheres_e0.95_N52_25of75periods", "e = 0.95 with N = 52"),
+                ("1 of 3 at map_d0.5_w0_100of300periods, and", "1 of 3 at (μ_d, μ_w) = (0.5, 0), and"),
+                ("Most runs change at low_N5, so", "Most runs change at μ = 0.1 with N = 5, so"),
                 ("tangential_restitution 0.5: lowest", "β = 0.5: lowest"),
                 ("inertia 10: crosses", "I = 10: crosses"),
                 ("Figure 1c: drawn; the forces", "the forces"),
@@ -231,6 +236,16 @@ class Figures(Tables):
             self.assertEqual(report.in_words(name), words)
         self.assertEqual(report.sentence("e = 1: crosses"), "e = 1: crosses")
         self.assertEqual(report.sentence("a disc"), "a disc")
+
+    def test_the_rule_is_that_of_the_verdicts(self):
+        for seeds, errors in ((8, "with 8 seeds these are 4.5 errors"), (3, "with 3 seeds these are 19.2 errors")):
+            said = report.how_to_read({"quick": False, "seeds_of_a_point": seeds})
+            self.assertIn(errors, said)  # figures/verdicts.py, CERTAIN
+            self.assertNotIn("three of them decide", said)
+
+    def test_a_bracket_is_no_number(self):
+        self.assertEqual(report.claims.crossing_sentence("between 36 and 40"), "N_c between 36 and 40")
+        self.assertEqual(report.claims.crossing_sentence("38.2 ± 0.1"), "N_c = 38.2 ± 0.1")
 
     def test_titles(self):
         for name, description, title in (
