@@ -95,6 +95,19 @@ TEST(SteadyStateSearch, TwoStatesAreSeenIfTheyLast) {
     EXPECT_EQ(find_steady_state(blocks).verdict, Verdict::steady);
 }
 
+TEST(Mser5, MinimisesTheSquaredStandardErrorAndNotTheVariance) {
+    // Ten batches that alternate, ±1.1 and then ±1. The last five have the smaller variance, 0.96
+    // against 1.105, but the mean of fewer batches has the larger squared error: 0.96/5 = 0.192
+    // against 0.1105. So nothing is cut off.
+    std::vector<double> blocks;
+    for (int batch = 0; batch < 10; ++batch)
+        blocks.insert(blocks.end(), 5, (batch % 2 == 0 ? 1.0 : -1.0) * (batch < 5 ? 1.1 : 1.0));
+    EXPECT_EQ(mser5_truncation(blocks), 0u);
+    // A beginning far from the rest is cut off.
+    for (int block = 0; block < 10; ++block) blocks[static_cast<std::size_t>(block)] += 100.0;
+    EXPECT_EQ(mser5_truncation(blocks), 10u);
+}
+
 TEST(BeginningIsForgotten, OnlyAfterATransientHasEnded) {
     // A mean spin that saturates as exp(−t/60), as it does without disc friction.
     int early = 0, late = 0;
