@@ -32,7 +32,7 @@ void read_all_of_log(const std::string& file) {
         log.read(k, std::min(at_once, log.events() - k));
 }
 
-/// In the child. It ends in the same way whether the file is refused or not.
+/// In the child. Its exit status is 0 whether the file is rejected or not: only a crash matters.
 [[noreturn]] void read_and_exit(const std::string& file) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit no_core{0, 0};
@@ -50,7 +50,7 @@ void read_all_of_log(const std::string& file) {
     _exit(0);
 }
 
-/// Ends with the child, at the latest at a signal.
+/// Waits for the child; kills it when a stop signal arrives.
 int status_of(pid_t child, int its_end) {
     pollfd wait{its_end, POLLIN, 0};
     constexpr int milliseconds = 100;
@@ -69,17 +69,21 @@ void try_reading(const std::string& file) {
     // The child alone has the end to write to, and never writes: it is closed when the child ends.
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-        throw Failure(fmt::format("There is no pipe to be had: {}.", system_reason()));
+        throw Failure(fmt::format(
+            "No pipe could be created to read the file in a child process: {}.", system_reason()));
     const pid_t child = fork();
     if (child == 0) read_and_exit(file);
     const std::string reason = system_reason();
     close(ends[1]);
     const int status = child < 0 ? 0 : status_of(child, ends[0]);
     close(ends[0]);
-    if (child < 0) throw Failure(fmt::format("The system starts no other process: {}.", reason));
+    if (child < 0)
+        throw Failure(
+            fmt::format("No child process could be started to read the file: {}.", reason));
     if (stop_signal().load()) throw Interrupted("Stopped while the file was read.");
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    // Killed for lack of memory, or by someone: this process may fare better, or be told why.
+    // SIGKILL means that memory ran out or that a user ended the child. The parent reads the file
+    // itself.
     if (status == 0 || signal == SIGKILL) return;
     throw Failure(fmt::format("'{}' is damaged: reading it crashes the HDF5 library ({}).", file,
                               signal != 0 ? strsignal(signal) : "its process ended"));
