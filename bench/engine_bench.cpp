@@ -74,14 +74,14 @@ void wall_contact_time(benchmark::State& state) {
     std::vector<Disc> discs;
     for (int k = 0; k < 64; ++k) {
         Disc d = unit_disc();
-        d.position = path.legs[0].start + random.in_disc(7.5);
+        d.position = path.segments[0].start + random.in_disc(7.5);
         d.velocity = random.in_disc(2.0);
         discs.push_back(d);
     }
     unsigned k = 0;
     for (auto _ : state)
         benchmark::DoNotOptimize(
-            time_of_wall_contact(discs[k++ & 63], path.legs[0], paper_container_radius));
+            time_of_wall_contact(discs[k++ & 63], path.segments[0], paper_container_radius));
 }
 BENCHMARK(wall_contact_time)->ArgName("circle")->Arg(0)->Arg(1);
 
@@ -91,7 +91,8 @@ void event(benchmark::State& state) {
         state.SkipWithError("this processor has no such vectors");
         return;
     }
-    Simulation simulation(paper_dish(static_cast<std::size_t>(state.range(0))), {}, {0, width});
+    Simulation simulation(paper_container(static_cast<std::size_t>(state.range(0))), {},
+                          {0, width});
     simulation.run(20000);
     for (auto _ : state) simulation.run(100);
     state.SetItemsProcessed(100 * state.iterations());
@@ -99,7 +100,7 @@ void event(benchmark::State& state) {
 BENCHMARK(event)->ArgNames({"N", "width"})->ArgsProduct({{5, 28, 48}, {1, 2, 3}});
 
 void step_and_refresh(benchmark::State& state) {
-    Simulation simulation(paper_dish(48));
+    Simulation simulation(paper_container(48));
     simulation.run(20000);
     Snapshot snapshot = simulation.snapshot();
     for (auto _ : state) simulation.refresh(snapshot, simulation.step());
@@ -107,7 +108,7 @@ void step_and_refresh(benchmark::State& state) {
 BENCHMARK(step_and_refresh);
 
 void step_refresh_and_look_at_the_rotation(benchmark::State& state) {
-    Simulation simulation(paper_dish(48));
+    Simulation simulation(paper_container(48));
     simulation.run(20000);
     Snapshot snapshot = simulation.snapshot();
     ClusterRotation rotation;

@@ -30,13 +30,13 @@ namespace {
 constexpr int camera = 511;
 constexpr double R = paper_container_radius;
 
-Simulation dish(std::size_t discs) {
+Simulation container(std::size_t discs) {
     const auto places = place_discs(std::vector<double>(discs, 1.0), R, 1);
     InitialState scene{{}, polygon_path(paper_amplitude, paper_period, paper_sides), R, {}, {}};
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     for (const Vec2& p : *places)
         scene.discs.push_back(
-            {leg.start + p, leg.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
+            {segment.start + p, segment.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
     Simulation simulation(scene);
     simulation.advance_to(20, 0.0);
     return simulation;
@@ -49,14 +49,14 @@ struct Samples {
 };
 
 /// Swirl after swirl, with samples.
-void swirls(benchmark::State& state, const Samples& samples, std::size_t discs = 48) {
-    Simulation simulation = dish(discs);
+void periods(benchmark::State& state, const Samples& samples, std::size_t discs = 48) {
+    Simulation simulation = container(discs);
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     Snapshot snapshot = simulation.snapshot();
     const auto before = simulation.events().total();
     for (auto _ : state) {
         if (!samples.by_time && !samples.by_event) {
-            simulation.advance_to(simulation.swirls() + 1, 0.0);
+            simulation.advance_to(simulation.periods() + 1, 0.0);
             continue;
         }
         int next = 0;
@@ -65,12 +65,12 @@ void swirls(benchmark::State& state, const Samples& samples, std::size_t discs =
             for (; samples.by_time && next < camera && paper_period * next / camera <= event.clock;
                  ++next) {
                 snapshot.clock = paper_period * next / camera;
-                const Leg& leg = path.leg_at(snapshot.clock);
-                snapshot.container_centre = leg.position_at(snapshot.clock);
-                snapshot.container_velocity = leg.velocity_at(snapshot.clock);
+                const Segment& segment = path.segment_at(snapshot.clock);
+                snapshot.container_centre = segment.position_at(snapshot.clock);
+                snapshot.container_velocity = segment.velocity_at(snapshot.clock);
                 samples.by_time(snapshot);
             }
-            over = simulation.swirls() > event.swirls;
+            over = simulation.periods() > event.periods;
             simulation.refresh(snapshot, event);
             if (samples.by_event) samples.by_event(snapshot, event);
         }
@@ -80,45 +80,45 @@ void swirls(benchmark::State& state, const Samples& samples, std::size_t discs =
         static_cast<double>(simulation.events().total() - before), benchmark::Counter::kIsRate);
 }
 
-void nobody_looks(benchmark::State& state) { swirls(state, {}); }
+void nobody_looks(benchmark::State& state) { periods(state, {}); }
 BENCHMARK(nobody_looks);
 
 void one_by_one(benchmark::State& state) {
-    swirls(state, {{}, [](const Snapshot&, const Event&) {}, [] {}});
+    periods(state, {{}, [](const Snapshot&, const Event&) {}, [] {}});
 }
 BENCHMARK(one_by_one);
 
 void rotation_by_event(benchmark::State& state) {
     ClusterRotation rotation;
-    swirls(state, {{},
-                   [&](const Snapshot& s, const Event& event) { rotation.sample(s, event); },
-                   [&] { rotation.close_block(); }});
+    periods(state, {{},
+                    [&](const Snapshot& s, const Event& event) { rotation.sample(s, event); },
+                    [&] { rotation.close_block(); }});
 }
 BENCHMARK(rotation_by_event);
 
 void rotation_by_time(benchmark::State& state) {
     ClusterRotation rotation;
-    swirls(state, {[&](const Snapshot& s) { rotation.sample_by_time(s); },
-                   {},
-                   [&] { rotation.close_block(); }});
+    periods(state, {[&](const Snapshot& s) { rotation.sample_by_time(s); },
+                    {},
+                    [&] { rotation.close_block(); }});
 }
 BENCHMARK(rotation_by_time);
 
 void view_alone(benchmark::State& state) {
     MFrameView view;
-    swirls(state, {[&](const Snapshot& s) { view.update(s); }, {}, [] {}});
+    periods(state, {[&](const Snapshot& s) { view.update(s); }, {}, [] {}});
 }
 BENCHMARK(view_alone);
 
 template <class Map>
 void view_and(benchmark::State& state, Map map) {
     MFrameView view;
-    swirls(state, {[&](const Snapshot& s) {
-                       view.update(s);
-                       map.sample(view);
-                   },
-                   {},
-                   [&] { map.close_block(); }});
+    periods(state, {[&](const Snapshot& s) {
+                        view.update(s);
+                        map.sample(view);
+                    },
+                    {},
+                    [&] { map.close_block(); }});
 }
 void density_map(benchmark::State& state) { view_and(state, DensityMap(R)); }
 void flow_map(benchmark::State& state) { view_and(state, FlowMap(R)); }
@@ -142,19 +142,19 @@ void collisions(benchmark::State& state) {
     WallStress stress(R);
     EnergyBudget budget;
     PinnedByCollisions pinned;
-    swirls(state, {{},
-                   [&](const Snapshot& s, const Event& event) {
-                       rates.sample(event);
-                       stress.sample(event, s);
-                       budget.sample(event, s);
-                       pinned.sample(event, s);
-                   },
-                   [&] {
-                       rates.close_block(paper_period, 48);
-                       stress.close_block(paper_period);
-                       budget.close_block(paper_period);
-                       pinned.close_block();
-                   }});
+    periods(state, {{},
+                    [&](const Snapshot& s, const Event& event) {
+                        rates.sample(event);
+                        stress.sample(event, s);
+                        budget.sample(event, s);
+                        pinned.sample(event, s);
+                    },
+                    [&] {
+                        rates.close_block(paper_period, 48);
+                        stress.close_block(paper_period);
+                        budget.close_block(paper_period);
+                        pinned.close_block();
+                    }});
 }
 BENCHMARK(collisions);
 
@@ -215,19 +215,19 @@ struct Everything {
 
 void camera_only(benchmark::State& state) {
     Everything all;
-    swirls(state,
-           {[&](const Snapshot& s) { all.follow_the_camera(s); }, {}, [&] { all.close_block(); }});
+    periods(state,
+            {[&](const Snapshot& s) { all.follow_the_camera(s); }, {}, [&] { all.close_block(); }});
 }
 BENCHMARK(camera_only);
 
 void everything(benchmark::State& state) {
     Everything all;
-    swirls(state, {[&](const Snapshot& s) {
-                       all.follow_the_camera(s);
-                       all.sample_the_structure(s);
-                   },
-                   {},
-                   [&] { all.close_block(); }});
+    periods(state, {[&](const Snapshot& s) {
+                        all.follow_the_camera(s);
+                        all.sample_the_structure(s);
+                    },
+                    {},
+                    [&] { all.close_block(); }});
 }
 BENCHMARK(everything);
 

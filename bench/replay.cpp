@@ -19,7 +19,7 @@ double now() {
     return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
-swirl::InitialState large_dish(std::size_t n) {
+swirl::InitialState large_container(std::size_t n) {
     return swirl::state_of(
         {swirl::unit_disc()}, n,
         swirl::paper_container_radius * swirl::square_root(static_cast<double>(n) / 48.0),
@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
     if (argc != 2) return 2;
     const bool gas = std::strcmp(argv[1], "gas") == 0, large = std::strcmp(argv[1], "large") == 0;
     swirl::InitialState scene = gas     ? swirl::gas_at_rest(1000, 0.7)
-                                : large ? large_dish(500)
-                                        : swirl::paper_dish(48);
+                                : large ? large_container(500)
+                                        : swirl::paper_container(48);
     constexpr int places = 12, times = 2000, few = 300;
     swirl::Simulation simulation(scene);
     std::int64_t swirl = 30;

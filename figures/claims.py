@@ -24,7 +24,7 @@ import os
 import sys
 
 import tables
-import whole_file
+import atomic_file
 from verdicts import (FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Part, Value,  # noqa: F401
                       above, agreed, below, either, every, falls, largest_reversal, mean_of,
                       measured, parts, rises, scattered, trend, true, within)
@@ -1506,7 +1506,7 @@ def main():
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     file = os.path.join(sys.argv[1], "verdicts.json")
     try:
-        whole_file.write(file, json.dumps(all_verdicts(sys.argv[1]), indent=1, ensure_ascii=False) + "\n")
+        atomic_file.write(file, json.dumps(all_verdicts(sys.argv[1]), indent=1, ensure_ascii=False) + "\n")
     except OSError as error:
         sys.exit(f"'{file}' could not be written: {error.strerror}.")
 

@@ -15,7 +15,7 @@ import sys
 
 import claims
 import verdicts
-import whole_file
+import atomic_file
 
 ORDER = [claims.HOLDS, claims.IN_PART, claims.FAILS, claims.UNDECIDED, claims.UNTESTABLE,
          claims.MISSING]
@@ -890,7 +890,7 @@ def page(folder, about, judged):
 
 def write(path, text):
     try:
-        whole_file.write(path, text)
+        atomic_file.write(path, text)
     except OSError as error:
         sys.exit(f"'{path}' could not be written: {error.strerror}.")
 

@@ -18,7 +18,7 @@ import matplotlib.ticker  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 
 import tables  # noqa: E402
-import whole_file  # noqa: E402
+import atomic_file  # noqa: E402
 from tables import column, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
@@ -358,7 +358,7 @@ def save(drawing, table):
         drawn = io.BytesIO()
         drawing.savefig(drawn, format=kind, metadata=about)
         try:
-            whole_file.write(f"{stem}.{kind}", drawn.getvalue())
+            atomic_file.write(f"{stem}.{kind}", drawn.getvalue())
         except OSError as error:
             sys.exit(f"'{stem}.{kind}' could not be written: {error.strerror}.")
 

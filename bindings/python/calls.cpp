@@ -57,7 +57,7 @@ std::string list_text(const std::string& name, const py::handle& values) {
     for (const py::handle value : values)
         text += (text.empty() ? "" : ",") + value_text(name, value);
     if (text.empty())
-        throw WrongCall(
+        throw UsageError(
             fmt::format("{} is an empty list, but it must have one value at least.", name));
     return text;
 }

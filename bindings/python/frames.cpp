@@ -3,7 +3,7 @@
 namespace swirl::python {
 
 void Frames::reserve(std::size_t frames, std::size_t of_discs) {
-    swirls.reserve(frames);
+    periods.reserve(frames);
     for (auto* column : {&clock, &time}) column->reserve(frames);
     for (auto* column : {&container_centre, &container_velocity}) column->reserve(2 * frames);
     for (auto* column : {&position, &velocity}) column->reserve(2 * frames * of_discs);
@@ -23,7 +23,7 @@ void Frames::begin(const Snapshot& s) {
 }
 
 void Frames::add_moment(std::int64_t swirl, double now, const Vec2& centre, const Vec2& moves) {
-    swirls.push_back(swirl);
+    periods.push_back(swirl);
     clock.push_back(now);
     time.push_back(static_cast<double>(swirl) * period + now);
     container_centre.insert(container_centre.end(), {centre.x, centre.y});
@@ -32,7 +32,7 @@ void Frames::add_moment(std::int64_t swirl, double now, const Vec2& centre, cons
 
 void Frames::add(const Snapshot& s) {
     if (size() == 0) begin(s);
-    add_moment(s.swirls, s.clock, s.container_centre, s.container_velocity);
+    add_moment(s.periods, s.clock, s.container_centre, s.container_velocity);
     const auto add_vector = [](std::vector<double>& column, const Vec2& v) {
         column.push_back(v.x);
         column.push_back(v.y);
@@ -51,8 +51,8 @@ void Frames::add(const Snapshot& s) {
 void Frames::add(const Simulation& simulation, const ContainerPath& path) {
     if (size() == 0 || are_spheres) return add(simulation.snapshot());
     const double now = simulation.clock();
-    const Leg& leg = path.leg_at(now);
-    add_moment(simulation.swirls(), now, leg.position_at(now), leg.velocity_at(now));
+    const Segment& segment = path.segment_at(now);
+    add_moment(simulation.periods(), now, segment.position_at(now), segment.velocity_at(now));
     const std::size_t at = angle.size();
     for (auto* column : {&position, &velocity}) column->resize(2 * (at + discs));
     for (auto* column : {&angle, &spin}) column->resize(at + discs);
@@ -72,7 +72,7 @@ void Frames::clear() { *this = Frames(); }
 
 Snapshot Frames::frame(std::size_t k) const {
     Snapshot s;
-    s.swirls = swirls[k];
+    s.periods = periods[k];
     s.clock = clock[k];
     s.period = period;
     s.container_radius = container_radius;

@@ -17,7 +17,7 @@ struct Frames {
     double period = 0.0, container_radius = 0.0;
     bool on_floor = false, are_spheres = false, lie_flat = false;
     std::vector<double> radius, mass, inertia;  // [disc]
-    std::vector<std::int64_t> swirls;           // [frame]
+    std::vector<std::int64_t> periods;          // [frame]
     std::vector<double> clock, time;
     std::vector<double> container_centre, container_velocity;            // [frame][x, y]
     std::vector<double> position, velocity, acceleration, rolling_spin;  // [frame][disc][x, y]

@@ -15,7 +15,7 @@ void tell(std::exception_ptr thrown, PyObject* failure, PyObject* file_error) {
     };
     try {
         std::rethrow_exception(thrown);
-    } catch (const WrongCall& error) {
+    } catch (const UsageError& error) {
         set(PyExc_ValueError, error);
     } catch (const Failure& error) {
         set(failure, error);

@@ -50,7 +50,7 @@ class Recording {
         for (std::uint64_t k = begin; k < end; k += step) {
             const Snapshot s = series_.frame(k);
             if (!frames->fits(s))
-                throw WrongCall(fmt::format(
+                throw UsageError(fmt::format(
                     "Frame {} has {} discs and the one before it {}; frames of different "
                     "discs can be asked for one by one.",
                     k, s.size(), frames->discs));
@@ -80,15 +80,15 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
                                   const Numbers& x, const Numbers& y, const Numbers& radius,
                                   const py::dict& scale, double misfit) {
     const py::ssize_t n = frame.size();
-    if (n == 0) throw WrongCall("There are no positions in the tracks.");
+    if (n == 0) throw UsageError("There are no positions in the tracks.");
     if (particle.size() != n || x.size() != n || y.size() != n ||
         (radius.size() != n && radius.size() != 0))
-        throw WrongCall("The columns of the tracks have different lengths.");
+        throw UsageError("The columns of the tracks have different lengths.");
     Tracks tracks;
     tracks.y_down = true;
     for (py::ssize_t k = 0; k < n; ++k) {
         if (!std::isfinite(x.data()[k]) || !std::isfinite(y.data()[k]))
-            throw WrongCall(fmt::format("Row {} of the tracks has no finite position.", k));
+            throw UsageError(fmt::format("Row {} of the tracks has no finite position.", k));
         const std::int64_t number = frame.data()[k], id = particle.data()[k];
         if (tracks.frames.empty() || tracks.frames.back().number != number) {
             tracks.frames.emplace_back();
@@ -96,7 +96,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
         }
         TrackFrame& at = tracks.frames.back();
         if (!at.id.empty() && at.id.back() >= id)
-            throw WrongCall(fmt::format("Particle {} is in frame {} twice.", id, number));
+            throw UsageError(fmt::format("Particle {} is in frame {} twice.", id, number));
         at.id.push_back(id);
         at.position.push_back({x.data()[k], y.data()[k]});
         if (radius.size() == n) at.radius.push_back(radius.data()[k]);
@@ -112,7 +112,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     s.clockwise = py::cast<bool>(scale["clockwise"]);
     s.swirl_centre = {number("centre_x"), number("centre_y")};
     if (tracks.frames.size() == 1)
-        throw WrongCall(
+        throw UsageError(
             "The tracks are of a single frame, which tells no velocities; two are the "
             "least.");
     mend(tracks, s.pixels_per_radius);
@@ -131,16 +131,16 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
 }
 
 /// What frames cannot tell, where it was asked for by name.
-void refuse_untold(const std::vector<std::string>& names, bool tracked) {
+void reject_untold(const std::vector<std::string>& names, bool tracked) {
     for (const std::string& name : names) {
         const MeasurementKind& kind = *find_measurement(name);
         if (kind.needs_events)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "measure has '{}' in its list, which needs every collision, and frames do not hold "
                 "them; swirl.run(measure=\"{}\") can tell.",
                 name, name));
         if (kind.needs_tracks && !tracked)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "The discs are never the same for {} frames in a row, so '{}' cannot be told of "
                 "them; density, flow, profile, radial, temperature, order and packing can.",
                 PinnedLoose::width + 1, name));
@@ -154,15 +154,15 @@ py::tuple estimate_tuple(const Estimate& e) {
 py::tuple analyse(Recording& recording, const std::vector<std::string>& names, bool all,
                   double skip) {
     if (!(skip >= 0.0))
-        throw WrongCall(fmt::format("skip is {}, but it must be 0 or more swirls.", skip));
-    if (recording.size() == 0) throw WrongCall("The recording holds no frames.");
+        throw UsageError(fmt::format("skip is {}, but it must be 0 or more swirls.", skip));
+    if (recording.size() == 0) throw UsageError("The recording holds no frames.");
     const SnapshotSeries& series = recording.series();
     const bool tracked = holds_tracks(series);
-    if (!all) refuse_untold(names, tracked);
+    if (!all) reject_untold(names, tracked);
     const auto told = measurable(names, tracked);
     const Snapshot last = series.frame(series.frames - 1);
     if (last.time() < skip * last.period)
-        throw WrongCall(fmt::format("skip {} leaves no frame.", skip));
+        throw UsageError(fmt::format("skip {} leaves no frame.", skip));
     std::atomic<bool> stop = false;
     MeasuringControl control;
     control.stop = &stop;

@@ -61,13 +61,14 @@ class Listening {
 RunResult run_with_own(Run& run, const OwnMeasurement& own, Listening& listening) {
     SampleTimes times = run.sample_times(own.frames_per_period);
     auto frames = std::make_shared<Frames>();
-    std::int64_t swirls = 0;
+    std::int64_t periods = 0;
     while (run.next_event()) {
         while (run.next_sample(times))
             if (run.is_warm()) frames->add(run.snapshot());
         run.pass_event();
-        if (run.event().kind != EventKind::path_vertex || run.snapshot().swirls == swirls) continue;
-        swirls = run.snapshot().swirls;
+        if (run.event().kind != EventKind::path_vertex || run.snapshot().periods == periods)
+            continue;
+        periods = run.snapshot().periods;
         if (frames->size() == 0) continue;
         listening.listen([&] {
             (*own.period_ended)(frames);
@@ -95,7 +96,7 @@ py::tuple run_once(const py::dict& given, const std::vector<std::string>& measur
     const bool records =
         !files.trajectory.empty() || !files.event_log.empty() || !files.checkpoint.empty();
     if (records && own.period_ended)
-        throw WrongCall(
+        throw UsageError(
             "A run that is recorded cannot have measurements of one's own; swirl.analyse() of its "
             "recording can.");
     RunResult result;
@@ -124,7 +125,7 @@ py::tuple estimates(const py::array_t<double, py::array::c_style | py::array::fo
                     const py::array_t<double, py::array::c_style | py::array::forcecast>& weights) {
     if (sums.ndim() != 2 || weights.ndim() != 2 || sums.shape(0) != weights.shape(0) ||
         sums.shape(1) != weights.shape(1))
-        throw WrongCall("Sums and weights of blocks must be tables of the same shape.");
+        throw UsageError("Sums and weights of blocks must be tables of the same shape.");
     const auto blocks = static_cast<std::size_t>(sums.shape(0));
     const auto columns = static_cast<std::size_t>(sums.shape(1));
     std::vector<double> means, errors, effective;

@@ -79,7 +79,7 @@ py::tuple rotation_of(const Look& look) {
 template <class Visitor>
 void visit_columns(Frames& f, Visitor&& visit) {
     visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,
-          f.mass, f.inertia, f.swirls, f.clock, f.time, f.container_centre, f.container_velocity,
+          f.mass, f.inertia, f.periods, f.clock, f.time, f.container_centre, f.container_velocity,
           f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);
 }
 py::bytes bytes_of(const Frames& frames) {
@@ -98,7 +98,7 @@ Frames frames_in(const py::bytes& bytes) {
         return std::all_of(each.begin(), each.end(),
                            [&](const auto* column) { return column->size() == length; });
     };
-    if (f.swirls.size() != n || !is(n, {&f.clock, &f.time}) ||
+    if (f.periods.size() != n || !is(n, {&f.clock, &f.time}) ||
         !is(2 * n, {&f.container_centre, &f.container_velocity}) ||
         !is(f.discs, {&f.radius, &f.mass, &f.inertia}) ||
         !is(2 * all, {&f.position, &f.velocity}) ||
@@ -109,7 +109,7 @@ Frames frames_in(const py::bytes& bytes) {
 }
 
 /// Only we make them: what Python would begin by itself has nothing in it.
-void refuse_to_be_begun(py::object type) {
+void reject_to_be_begun(py::object type) {
     type.attr("__new__") =
         py::module_::import("builtins")
             .attr("staticmethod")(py::cpp_function([](const py::args&, const py::kwargs&) {
@@ -130,7 +130,7 @@ void bind_looks(py::module_& module) {
         "All discs and the container at one instant, in the lab frame: position and velocity are\n"
         "[disc, xy], spin, angle, radius, mass and inertia [disc]. Read-only views, which never\n"
         "change. m_frame() turns it into the frame of the swirl.");
-    refuse_to_be_begun(snapshot);
+    reject_to_be_begun(snapshot);
     snapshot.def("archive", [](const Look& l) { return bytes_of(l.frames); })
         .def_property_readonly("position", column<Look>(&Frames::position, per_disc_xy))
         .def_property_readonly("velocity", column<Look>(&Frames::velocity, per_disc_xy))
@@ -150,7 +150,7 @@ void bind_looks(py::module_& module) {
         .def_property_readonly("container_radius",
                                [](const Look& l) { return l.frames.container_radius; })
         .def_property_readonly("period", [](const Look& l) { return l.frames.period; })
-        .def_property_readonly("swirls", [](const Look& l) { return l.frames.swirls[0]; })
+        .def_property_readonly("swirls", [](const Look& l) { return l.frames.periods[0]; })
         .def_property_readonly("clock", [](const Look& l) { return l.frames.clock[0]; })
         .def_property_readonly("time", [](const Look& l) { return l.frames.time[0]; })
         .def("m_frame",
@@ -165,7 +165,7 @@ void bind_looks(py::module_& module) {
         module, "Frames",
         "Snapshots of the same discs in order of time, as columns: position and velocity are\n"
         "[frame, disc, xy], spin and angle [frame, disc], time [frame]. frames[k] is a Snapshot.");
-    refuse_to_be_begun(frames);
+    reject_to_be_begun(frames);
     frames.def("archive", &bytes_of)
         .def_property_readonly("position", column<Frames>(&Frames::position, per_frame_and_disc_xy))
         .def_property_readonly("velocity", column<Frames>(&Frames::velocity, per_frame_and_disc_xy))
@@ -178,7 +178,7 @@ void bind_looks(py::module_& module) {
                                column<Frames>(&Frames::container_centre, per_frame_xy))
         .def_property_readonly("container_velocity",
                                column<Frames>(&Frames::container_velocity, per_frame_xy))
-        .def_property_readonly("swirls", column<Frames>(&Frames::swirls, per_frame))
+        .def_property_readonly("swirls", column<Frames>(&Frames::periods, per_frame))
         .def_property_readonly("clock", column<Frames>(&Frames::clock, per_frame))
         .def_property_readonly("time", column<Frames>(&Frames::time, per_frame))
         .def_property_readonly("container_radius",
@@ -209,16 +209,16 @@ void bind_looks(py::module_& module) {
 
 /// As a row of numpy; no holes, so that equal events are equal bytes.
 struct EventRow {
-    std::int64_t swirls;
+    std::int64_t periods;
     double clock, time;
     std::int64_t kind, i, j;
     double normal_x, normal_y, normal_impulse, tangential_impulse, overlap;
 };
 
 EventRow row_of(const Event& e, double period) {
-    return {e.swirls,
+    return {e.periods,
             e.clock,
-            static_cast<double>(e.swirls) * period + e.clock,
+            static_cast<double>(e.periods) * period + e.clock,
             static_cast<std::int64_t>(e.kind),
             e.i,
             e.j,
@@ -252,7 +252,7 @@ constexpr double largest_given = 1e15;
 void expect_sound(const char* name, const Numbers& values) {
     for (py::ssize_t k = 0; k < values.size(); ++k)
         if (!(std::abs(values.data()[k]) <= largest_given))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("{} has {} among its values, but all must be numbers from {} to {}.",
                             name, values.data()[k], -largest_given, largest_given));
 }
@@ -260,8 +260,8 @@ void expect_sound(const char* name, const Numbers& values) {
 void expect_pairs(const char* name, const Numbers& values, std::size_t rows) {
     if (values.ndim() != 2 || values.shape(1) != 2 ||
         (rows && values.shape(0) != signed_size(rows)))
-        throw WrongCall(fmt::format("{} is {}, but it must be {} × 2: x and y of each.", name,
-                                    shape_text(values), rows ? fmt::format("{}", rows) : "N"));
+        throw UsageError(fmt::format("{} is {}, but it must be {} × 2: x and y of each.", name,
+                                     shape_text(values), rows ? fmt::format("{}", rows) : "N"));
     expect_sound(name, values);
 }
 
@@ -272,16 +272,16 @@ std::vector<double> column_of(const char* name, const std::optional<Numbers>& va
     expect_sound(name, *values);
     if (values->ndim() == 0) return std::vector<double>(n, *values->data());
     if (values->ndim() != 1 || values->shape(0) != signed_size(n))
-        throw WrongCall(fmt::format("{} is {}, but it must be {} numbers, or one for all discs.",
-                                    name, shape_text(*values), n));
+        throw UsageError(fmt::format("{} is {}, but it must be {} numbers, or one for all discs.",
+                                     name, shape_text(*values), n));
     return {values->data(), values->data() + n};
 }
 
 void expect_between(const char* name, const std::vector<double>& values, double from, double to) {
     for (const double value : values)
         if (!(value >= from && value <= to))
-            throw WrongCall(fmt::format("{} is {} of a disc, but it must be from {} to {}.", name,
-                                        value, from, to));
+            throw UsageError(fmt::format("{} is {} of a disc, but it must be from {} to {}.", name,
+                                         value, from, to));
 }
 
 /// The ranges of discs that are given one by one.
@@ -308,7 +308,7 @@ void expect_apart(const InitialState& scene, const Vec2& centre, double rounding
         const double out = std::hypot(d.position.x - centre.x, d.position.y - centre.y) + d.radius -
                            scene.container_radius;
         if (out > rounding * d.radius)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "Disc {} at ({}, {}) sticks out of the container by {:.3g}: its centre is at ({}, "
                 "{}), and its radius {}.",
                 i, d.position.x, d.position.y, out, centre.x, centre.y, scene.container_radius));
@@ -319,23 +319,24 @@ void expect_apart(const InitialState& scene, const Vec2& centre, double rounding
             if (q.position.x - p.position.x > p.radius + largest) break;
             const double apart =
                 std::hypot(p.position.x - q.position.x, p.position.y - q.position.y);
-            const double least = p.radius + q.radius;
-            if (apart < least * (1.0 - rounding))
-                throw WrongCall(fmt::format(
+            const double minimum = p.radius + q.radius;
+            if (apart < minimum * (1.0 - rounding))
+                throw UsageError(fmt::format(
                     "Discs {} and {} are {:.6g} apart, but their radii add up to {:.6g}: no two "
                     "may "
                     "lie in each other.",
-                    std::min(order[a], order[b]), std::max(order[a], order[b]), apart, least));
+                    std::min(order[a], order[b]), std::max(order[a], order[b]), apart, minimum));
         }
 }
 
-std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config, const Leg& leg) {
+std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
+                           const Segment& segment) {
     expect_pairs("position", given.position, 0);
     const auto n = static_cast<std::size_t>(given.position.shape(0));
-    if (n == 0) throw WrongCall("position is 0 × 2, but there must be one disc at least.");
-    if (static_cast<double>(n) > most_discs)
-        throw WrongCall(fmt::format("There are {} discs, but no more than {} can be simulated.", n,
-                                    most_discs));
+    if (n == 0) throw UsageError("position is 0 × 2, but there must be one disc at least.");
+    if (static_cast<double>(n) > max_discs)
+        throw UsageError(
+            fmt::format("There are {} discs, but no more than {} can be simulated.", n, max_discs));
     if (given.velocity) expect_pairs("velocity", *given.velocity, n);
     const auto angle = column_of("angle", given.angle, n, 0.0);
     const auto spin = column_of("spin", given.spin, n, 0.0);
@@ -353,7 +354,7 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config, con
         const double* const p = given.position.data() + 2 * i;
         const Vec2 velocity =
             given.velocity ? Vec2{given.velocity->data()[2 * i], given.velocity->data()[2 * i + 1]}
-                           : leg.velocity;
+                           : segment.velocity;
         discs.push_back(
             {{p[0], p[1]}, velocity, angle[i], spin[i], 0.0, radius[i], mass[i], inertia[i]});
     }
@@ -366,13 +367,13 @@ ContainerPath polyline(const Numbers& vertices, const std::optional<Numbers>& ti
                        double period) {
     expect_pairs("path", vertices, 0);
     const auto n = static_cast<std::size_t>(vertices.shape(0));
-    if (n < 2) throw WrongCall("path has one vertex, but a way needs two at least.");
+    if (n < 2) throw UsageError("path has one vertex, but a way needs two at least.");
     for (std::size_t k = 0; k < 2 * n; ++k)
         if (std::abs(vertices.data()[k]) > largest_value)
-            throw WrongCall(fmt::format("path goes to {}, but no farther than {} it may.",
-                                        vertices.data()[k], largest_value));
-    if (static_cast<double>(n) > most_sides)
-        throw WrongCall(fmt::format("path has {} vertices, but {} are the most.", n, most_sides));
+            throw UsageError(fmt::format("path goes to {}, but no farther than {} it may.",
+                                         vertices.data()[k], largest_value));
+    if (static_cast<double>(n) > max_sides)
+        throw UsageError(fmt::format("path has {} vertices, but {} are the most.", n, max_sides));
     const auto vertex = [&](std::size_t k) {
         return Vec2{vertices.data()[2 * (k % n)], vertices.data()[2 * (k % n) + 1]};
     };
@@ -383,7 +384,7 @@ ContainerPath polyline(const Numbers& vertices, const std::optional<Numbers>& ti
     }
     if (!times) {
         // At one speed all the way.
-        if (!(at[n] > 0.0)) throw WrongCall("All vertices of the path are the same point.");
+        if (!(at[n] > 0.0)) throw UsageError("All vertices of the path are the same point.");
         for (double& t : at) t *= period / at[n];
     } else {
         const auto given = column_of("path_times", times, n, 0.0);
@@ -391,48 +392,49 @@ ContainerPath polyline(const Numbers& vertices, const std::optional<Numbers>& ti
     }
     at[n] = period;
     if (at[0] != 0.0)
-        throw WrongCall(fmt::format("path_times begins with {}, but must with 0.", at[0]));
+        throw UsageError(fmt::format("path_times begins with {}, but must with 0.", at[0]));
     ContainerPath path{period, {}};
     for (std::size_t k = 0; k < n; ++k) {
         if (!(at[k + 1] - at[k] >= 1e-9 * period))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("The container would be at vertex {} of its path at {} and at the next "
                             "at {}; times "
                             "must ascend up to the period {}, and no two vertices be the same.",
                             k, at[k], at[k + 1], period));
-        path.legs.push_back({at[k], at[k + 1], vertex(k),
-                             (1.0 / (at[k + 1] - at[k])) * (vertex(k + 1) - vertex(k)), 0.0});
+        path.segments.push_back({at[k], at[k + 1], vertex(k),
+                                 (1.0 / (at[k + 1] - at[k])) * (vertex(k + 1) - vertex(k)), 0.0});
     }
     return path;
 }
 
 constexpr std::string_view archive_head = "swirl simulation 2\n";
 
-[[noreturn]] void refuse_archive(std::string_view what) {
+[[noreturn]] void reject_archive(std::string_view what) {
     throw FileError(fmt::format("This is no simulation of swirl that could go on: {}.", what));
 }
 
-bool same_legs(const std::vector<Leg>& a, const std::vector<Leg>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Leg& x, const Leg& y) {
-        return x.begin == y.begin && x.end == y.end && x.start.x == y.start.x &&
-               x.start.y == y.start.y && x.velocity.x == y.velocity.x &&
-               x.velocity.y == y.velocity.y && x.turning == y.turning;
-    });
+bool same_segments(const std::vector<Segment>& a, const std::vector<Segment>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Segment& x, const Segment& y) {
+                          return x.begin == y.begin && x.end == y.end && x.start.x == y.start.x &&
+                                 x.start.y == y.start.y && x.velocity.x == y.velocity.x &&
+                                 x.velocity.y == y.velocity.y && x.turning == y.turning;
+                      });
 }
 
 /// The path of an archive is that of its parameters, or what polyline() makes of its vertices.
-void expect_path(const std::vector<Leg>& legs, const RunConfig& config, bool own) {
-    if (same_legs(legs, make_path(config).legs)) return;
-    if (!own) refuse_archive("its path is not that of its parameters");
-    Numbers vertices(std::vector<py::ssize_t>{signed_size(legs.size()), 2}),
-        times(signed_size(legs.size()));
-    for (std::size_t k = 0; k < legs.size(); ++k) {
-        vertices.mutable_data()[2 * k] = legs[k].start.x;
-        vertices.mutable_data()[2 * k + 1] = legs[k].start.y;
-        times.mutable_data()[k] = legs[k].begin;
+void expect_path(const std::vector<Segment>& segments, const RunConfig& config, bool own) {
+    if (same_segments(segments, make_path(config).segments)) return;
+    if (!own) reject_archive("its path is not that of its parameters");
+    Numbers vertices(std::vector<py::ssize_t>{signed_size(segments.size()), 2}),
+        times(signed_size(segments.size()));
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+        vertices.mutable_data()[2 * k] = segments[k].start.x;
+        vertices.mutable_data()[2 * k + 1] = segments[k].start.y;
+        times.mutable_data()[k] = segments[k].begin;
     }
-    if (!same_legs(legs, polyline(vertices, times, config.period).legs))
-        refuse_archive("its path has a leg that does not lead to the next");
+    if (!same_segments(segments, polyline(vertices, times, config.period).segments))
+        reject_archive("its path has a leg that does not lead to the next");
 }
 
 /// The discs of an archive: in the ranges of those that are given, or those of the parameters.
@@ -448,7 +450,7 @@ void expect_discs(const InitialState& scene, const RunConfig& config, bool own, 
     if (own) {
         expect_sizes_in_range(radius, mass, inertia);
         // Of contacts that went on for long, more than rounding is left.
-        return expect_apart(now, scene.path.leg_at(clock).position_at(clock), 1e-3);
+        return expect_apart(now, scene.path.segment_at(clock).position_at(clock), 1e-3);
     }
     const auto second = static_cast<std::size_t>(config.mixture ? config.mixture->count : 0);
     const auto n = static_cast<std::size_t>(config.discs);
@@ -461,14 +463,14 @@ void expect_discs(const InitialState& scene, const RunConfig& config, bool own, 
         same = radius[i] == r && mass[i] == m &&
                inertia[i] == (first ? config.inertia : multiple * m * r * r);
     }
-    if (!same) refuse_archive("its discs are not those of its parameters");
+    if (!same) reject_archive("its discs are not those of its parameters");
 }
 
 /// A dish that goes on while nobody looks. May be called from any thread; two at once take turns.
-class Dish {
+class Container {
   public:
-    Dish(RunConfig config, bool own, InitialState scene, const Progress& progress,
-         const std::atomic<bool>* stop = nullptr)
+    Container(RunConfig config, bool own, InitialState scene, const Progress& progress,
+              const std::atomic<bool>* stop = nullptr)
         : config_(std::move(config)),
           own_(own),
           scene_(std::move(scene)),
@@ -508,12 +510,12 @@ class Dish {
     }
 
     py::array step(std::int64_t count) {
-        constexpr std::int64_t most = std::int64_t{1} << 26;
-        if (count < 0 || count > most)
-            throw WrongCall(fmt::format(
+        constexpr std::int64_t maximum = std::int64_t{1} << 26;
+        if (count < 0 || count > maximum)
+            throw UsageError(fmt::format(
                 "The number of events is {}, but it must be from 0 to {}: more do not fit into an "
                 "array of reasonable size. advance(events=...) has no such limit.",
-                count, most));
+                count, maximum));
         py::array_t<EventRow> rows(count);
         EventRow* const begin = rows.mutable_data();
         std::int64_t done = 0;
@@ -529,7 +531,7 @@ class Dish {
     }
     void run(std::int64_t count) {
         if (count < 0)
-            throw WrongCall(fmt::format("events is {}, but it must be 0 or more.", count));
+            throw UsageError(fmt::format("events is {}, but it must be 0 or more.", count));
         for_long([&] {
             const std::int64_t part = std::min(count, unit_of_work());
             simulation_.run(static_cast<std::uint64_t>(part));
@@ -540,23 +542,24 @@ class Dish {
     void advance(double time) {
         for_long([&, to = std::optional<Moment>()]() mutable {
             if (!to) to = later(time);
-            return !simulation_.advance_to(to->swirls, to->clock,
+            return !simulation_.advance_to(to->periods, to->clock,
                                            static_cast<std::uint64_t>(unit_of_work()));
         });
     }
-    void advance_to(std::int64_t swirls, double clock) {
+    void advance_to(std::int64_t periods, double clock) {
         if (!(clock >= 0.0 && clock < scene_.path.period))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("clock is {}, but it must be from 0 to below the period, {}.", clock,
                             scene_.path.period));
         for_long([&, checked = false]() mutable {
             const Progress now = simulation_.progress();
-            if (!checked && (swirls < now.swirls || (swirls == now.swirls && clock < now.clock)))
-                throw WrongCall(fmt::format(
+            if (!checked &&
+                (periods < now.periods || (periods == now.periods && clock < now.clock)))
+                throw UsageError(fmt::format(
                     "It is swirl {} and {} on the clock already; time does not go back.",
-                    now.swirls, now.clock));
+                    now.periods, now.clock));
             checked = true;
-            return !simulation_.advance_to(swirls, clock,
+            return !simulation_.advance_to(periods, clock,
                                            static_cast<std::uint64_t>(unit_of_work()));
         });
     }
@@ -567,14 +570,14 @@ class Dish {
         std::int64_t k = -1;
         for_long([&] {
             if (k < 0) {
-                begin = {simulation_.swirls(), simulation_.clock()};
+                begin = {simulation_.periods(), simulation_.clock()};
                 frames->reserve(static_cast<std::size_t>(count), simulation_.size());
                 k = 0;
             }
-            Moment m{begin.swirls + k / per_period,
+            Moment m{begin.periods + k / per_period,
                      begin.clock + period * double(k % per_period) / double(per_period)};
             carry(m);
-            if (!simulation_.advance_to(m.swirls, m.clock,
+            if (!simulation_.advance_to(m.periods, m.clock,
                                         static_cast<std::uint64_t>(unit_of_work())))
                 return true;
             if (k == count) return false;
@@ -593,9 +596,9 @@ class Dish {
         StateWriter write;
         in_turn([&](Simulation& s) {
             std::string config = config_text(config_);
-            write(config, own_, scene_.path.legs);
+            write(config, own_, scene_.path.segments);
             Progress progress = s.progress();
-            write(progress.swirls, progress.clock, progress.leg, progress.events);
+            write(progress.periods, progress.clock, progress.segment, progress.events);
             std::vector<Disc> discs;
             for (std::size_t i = 0; i < s.size(); ++i) discs.push_back(s.disc(i));
             write(discs);
@@ -605,35 +608,35 @@ class Dish {
         bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
         return bytes + write.bytes();
     }
-    static std::unique_ptr<Dish> of_archive(std::string_view bytes) {
+    static std::unique_ptr<Container> of_archive(std::string_view bytes) {
         std::uint64_t sum = 0;
         if (!bytes.starts_with(archive_head) || bytes.size() < archive_head.size() + sizeof sum)
-            refuse_archive("it begins otherwise, or is of another version");
+            reject_archive("it begins otherwise, or is of another version");
         std::memcpy(&sum, bytes.data() + archive_head.size(), sizeof sum);
         bytes.remove_prefix(archive_head.size() + sizeof sum);
-        if (checksum(bytes) != sum) refuse_archive("it is damaged");
+        if (checksum(bytes) != sum) reject_archive("it is damaged");
         StateReader read(bytes);
         std::string text;
         bool own = false;
-        std::vector<Leg> legs;
+        std::vector<Segment> segments;
         Progress progress;
         std::vector<Disc> discs;
-        read(text, own, legs);
-        read(progress.swirls, progress.clock, progress.leg, progress.events);
+        read(text, own, segments);
+        read(progress.periods, progress.clock, progress.segment, progress.events);
         read(discs);
         read.expect_end();
         try {
             const RunConfig config = resolve(parameters_in(text));
-            if (own && config.shape() != Shape::disc) refuse_archive("only discs can be one's own");
-            expect_path(legs, config, own);
-            InitialState scene = without_discs(config, {config.period, std::move(legs)});
+            if (own && config.shape() != Shape::disc) reject_archive("only discs can be one's own");
+            expect_path(segments, config, own);
+            InitialState scene = without_discs(config, {config.period, std::move(segments)});
             scene.discs = std::move(discs);
             if (const char* const what = impossible_to_continue(scene, progress))
-                refuse_archive(what);
+                reject_archive(what);
             expect_discs(scene, config, own, progress.clock);
-            return std::make_unique<Dish>(config, own, std::move(scene), progress);
-        } catch (const WrongCall& wrong) {
-            refuse_archive(wrong.what());
+            return std::make_unique<Container>(config, own, std::move(scene), progress);
+        } catch (const UsageError& wrong) {
+            reject_archive(wrong.what());
         }
     }
 
@@ -643,14 +646,14 @@ class Dish {
     double container_radius() const { return scene_.container_radius; }
     std::vector<double> path() const {
         std::vector<double> vertices;
-        for (const Leg& leg : scene_.path.legs)
-            vertices.insert(vertices.end(), {leg.begin, leg.start.x, leg.start.y});
+        for (const Segment& segment : scene_.path.segments)
+            vertices.insert(vertices.end(), {segment.begin, segment.start.x, segment.start.y});
         return vertices;
     }
 
   private:
     struct Moment {
-        std::int64_t swirls;
+        std::int64_t periods;
         double clock;
     };
 
@@ -661,15 +664,15 @@ class Dish {
         const double period = scene_.path.period;
         if (m.clock < period) return;
         const double whole = std::floor(m.clock / period);
-        m.swirls += static_cast<std::int64_t>(whole);
+        m.periods += static_cast<std::int64_t>(whole);
         m.clock = std::max(0.0, m.clock - whole * period);
-        if (m.clock >= period) m = {m.swirls + 1, 0.0};
+        if (m.clock >= period) m = {m.periods + 1, 0.0};
     }
     Moment later(double time) const {
         const double period = scene_.path.period;
-        const double swirls = std::floor(time / period);
-        Moment m{simulation_.swirls() + static_cast<std::int64_t>(swirls),
-                 simulation_.clock() + (time - swirls * period)};
+        const double periods = std::floor(time / period);
+        Moment m{simulation_.periods() + static_cast<std::int64_t>(periods),
+                 simulation_.clock() + (time - periods * period)};
         carry(m);
         return m;
     }
@@ -681,15 +684,16 @@ class Dish {
     Simulation simulation_;
 };
 
-std::unique_ptr<Dish> make_dish(const py::dict& parameters, const std::optional<GivenDiscs>& given,
-                                const std::optional<Numbers>& path,
-                                const std::optional<Numbers>& path_times) {
+std::unique_ptr<Container> make_container(const py::dict& parameters,
+                                          const std::optional<GivenDiscs>& given,
+                                          const std::optional<Numbers>& path,
+                                          const std::optional<Numbers>& path_times) {
     const RunConfig config = resolve(texts_of(parameters));
     const bool own = given || path;
     if (own && config.shape() != Shape::disc)
-        throw WrongCall(
+        throw UsageError(
             "Only discs without a floor can begin at places or follow a path of one's own.");
-    if (path_times && !path) throw WrongCall("path_times needs the path of which it is.");
+    if (path_times && !path) throw UsageError("path_times needs the path of which it is.");
     std::atomic<bool> stop = false;
     InitialState scene;
     if (given) {
@@ -701,19 +705,19 @@ std::unique_ptr<Dish> make_dish(const py::dict& parameters, const std::optional<
         scene = listening(stop, [&] { return make_initial_state(config, &stop); });
     }
     if (path) {
-        const Leg before = scene.path.legs.front();
+        const Segment before = scene.path.segments.front();
         scene.path = polyline(*path, path_times, config.period);
-        const Leg& leg = scene.path.legs.front();
+        const Segment& segment = scene.path.segments.front();
         for (Disc& d : scene.discs) {
-            d.position = d.position + (leg.start - before.start);
-            d.velocity = d.velocity + (leg.velocity - before.velocity);
+            d.position = d.position + (segment.start - before.start);
+            d.velocity = d.velocity + (segment.velocity - before.velocity);
         }
     }
-    if (given) scene.discs = discs_of(*given, config, scene.path.legs.front());
+    if (given) scene.discs = discs_of(*given, config, scene.path.segments.front());
     // What an overlap may be for rounding: what a snapshot shows is a contact now and then.
-    if (own) expect_apart(scene, scene.path.legs.front().start, 1e-9);
+    if (own) expect_apart(scene, scene.path.segments.front().start, 1e-9);
     return listening(stop, [&] {
-        return std::make_unique<Dish>(config, own, std::move(scene), Progress{}, &stop);
+        return std::make_unique<Container>(config, own, std::move(scene), Progress{}, &stop);
     });
 }
 
@@ -721,15 +725,15 @@ std::unique_ptr<Dish> make_dish(const py::dict& parameters, const std::optional<
 
 void bind_simulations(py::module_& module) {
     bind_looks(module);
-    PYBIND11_NUMPY_DTYPE(EventRow, swirls, clock, time, kind, i, j, normal_x, normal_y,
+    PYBIND11_NUMPY_DTYPE(EventRow, periods, clock, time, kind, i, j, normal_x, normal_y,
                          normal_impulse, tangential_impulse, overlap);
     module.attr("event_dtype") = py::dtype::of<EventRow>();
 
     py::class_<Event> event(module, "Event",
                             "What happened: kind (swirl.EventKind), when (swirls and clock), and\n"
                             "to which discs, i and j.");
-    refuse_to_be_begun(event);
-    event.def_readonly("swirls", &Event::swirls)
+    reject_to_be_begun(event);
+    event.def_readonly("swirls", &Event::periods)
         .def_readonly("clock", &Event::clock)
         .def_property_readonly("kind", [](const Event& e) { return static_cast<int>(e.kind); })
         .def_readonly("i", &Event::i)
@@ -741,7 +745,7 @@ void bind_simulations(py::module_& module) {
                                [](const Event& e) { return e.impulse.tangential; })
         .def_readonly("overlap", &Event::overlap);
 
-    py::class_<Dish>(module, "Dish")
+    py::class_<Container>(module, "Dish")
         .def(py::init([](const py::dict& parameters, const py::dict& discs,
                          const std::optional<Numbers>& path,
                          const std::optional<Numbers>& path_times) {
@@ -755,38 +759,39 @@ void bind_simulations(py::module_& module) {
                                         array("spin"),      array("radius"),   array("mass"),
                                         array("inertia")};
                  }
-                 return make_dish(parameters, given, path, path_times);
+                 return make_container(parameters, given, path, path_times);
              }),
              py::arg("parameters"), py::arg("discs"), py::arg("path"), py::arg("path_times"))
-        .def("step", &Dish::step)
-        .def("next", &Dish::next)
-        .def("run", &Dish::run)
-        .def("advance", &Dish::advance)
-        .def("advance_to", &Dish::advance_to)
-        .def("sample", &Dish::sample)
-        .def("snapshot", &Dish::look)
-        .def("archive", [](Dish& d) { return py::bytes(d.archive()); })
+        .def("step", &Container::step)
+        .def("next", &Container::next)
+        .def("run", &Container::run)
+        .def("advance", &Container::advance)
+        .def("advance_to", &Container::advance_to)
+        .def("sample", &Container::sample)
+        .def("snapshot", &Container::look)
+        .def("archive", [](Container& d) { return py::bytes(d.archive()); })
         .def_static(
             "of_archive",
-            [](const py::bytes& bytes) { return Dish::of_archive(std::string_view(bytes)); })
-        .def("config", &Dish::config)
-        .def_property_readonly("is_own", &Dish::is_own)
-        .def_property_readonly("period", &Dish::period)
-        .def_property_readonly("container_radius", &Dish::container_radius)
-        .def("path", &Dish::path)
-        .def("__len__", [](Dish& d) { return d.in_turn([](Simulation& s) { return s.size(); }); })
+            [](const py::bytes& bytes) { return Container::of_archive(std::string_view(bytes)); })
+        .def("config", &Container::config)
+        .def_property_readonly("is_own", &Container::is_own)
+        .def_property_readonly("period", &Container::period)
+        .def_property_readonly("container_radius", &Container::container_radius)
+        .def("path", &Container::path)
+        .def("__len__",
+             [](Container& d) { return d.in_turn([](Simulation& s) { return s.size(); }); })
         .def("counts",
-             [](Dish& d) {
+             [](Container& d) {
                  const EventCounts c = d.in_turn([](Simulation& s) { return s.events(); });
                  return py::make_tuple(c.disc_disc, c.disc_wall, c.path_vertex, c.elastic_by_tc,
                                        c.begins_to_roll);
              })
         .def("now",
-             [](Dish& d) {
+             [](Container& d) {
                  return d.in_turn(
-                     [](Simulation& s) { return py::make_tuple(s.swirls(), s.clock()); });
+                     [](Simulation& s) { return py::make_tuple(s.periods(), s.clock()); });
              })
-        .def("state_hash", [](Dish& d) {
+        .def("state_hash", [](Container& d) {
             return d.in_turn([](Simulation& s) { return fmt::format("{:016x}", s.state_hash()); });
         });
 }

@@ -47,10 +47,10 @@ class Latest {
 SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
                   const std::vector<std::string>& measured, int frames) {
     if (replicas < 1 || replicas > 1'000'000)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("seeds is {}, but it must be a whole number from 1 to 1000000.", replicas));
     if (frames < 0 || frames > 1'000'000)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("frames is {}, but it must be a whole number from 0 to 1000000.", frames));
     SweepPlan plan = make_plan(lists_of(given), replicas);
     plan.measure = measured;
@@ -94,29 +94,31 @@ py::tuple collect(const std::string& folder) {
                           collected.without_swirl);
 }
 
-CrossingSettings crossing_settings(const py::dict& given, std::int64_t fewest, std::int64_t most,
-                                   double tolerance, const std::string& rate) {
-    if (fewest < 1 || most < fewest || static_cast<double>(most) > most_discs)
-        throw WrongCall(fmt::format(
-            "The range of discs is {} to {}, but it must go up, from 1 at least.", fewest, most));
+CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
+                                   std::int64_t maximum, double tolerance,
+                                   const std::string& rate) {
+    if (minimum < 1 || maximum < minimum || static_cast<double>(maximum) > max_discs)
+        throw UsageError(
+            fmt::format("The range of discs is {} to {}, but it must go up, from 1 at least.",
+                        minimum, maximum));
     if (!(tolerance > 0.0))
-        throw WrongCall(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
+        throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", events_of_a_search);
-    texts["discs"] = std::to_string(most);  // only what is searched has to fit
+    texts["discs"] = std::to_string(maximum);  // only what is searched has to fit
     CrossingSettings settings;
     settings.rate = rate_named(rate);
     settings.config = resolve(texts);
-    settings.from = fewest;
-    settings.to = most;
+    settings.from = minimum;
+    settings.to = maximum;
     settings.tolerance = tolerance;
     return settings;
 }
 
-py::tuple crossing(const py::dict& given, std::int64_t fewest, std::int64_t most, double tolerance,
-                   const std::string& rate, unsigned threads, const std::string& command,
-                   const Told& told) {
-    const CrossingSettings settings = crossing_settings(given, fewest, most, tolerance, rate);
+py::tuple crossing(const py::dict& given, std::int64_t minimum, std::int64_t maximum,
+                   double tolerance, const std::string& rate, unsigned threads,
+                   const std::string& command, const Told& told) {
+    const CrossingSettings settings = crossing_settings(given, minimum, maximum, tolerance, rate);
     std::atomic<bool> stop = false;
     Latest<std::string, double> latest;
     CrossingControl control;

@@ -23,25 +23,26 @@ inline bool is_by_hand(const ContainerPath& path) { return path.period == no_per
 /// The same path, counted from a moment of its swirl.
 inline ContainerPath path_from(const ContainerPath& path, double clock) {
     ContainerPath later{path.period, {}};
-    const auto add = [&](const Leg& leg, double begin, double end, double shift) {
+    const auto add = [&](const Segment& segment, double begin, double end, double shift) {
         if (begin < end)
-            later.legs.push_back({begin + shift, end + shift, leg.position_at(begin),
-                                  leg.velocity_at(begin), leg.turning});
+            later.segments.push_back({begin + shift, end + shift, segment.position_at(begin),
+                                      segment.velocity_at(begin), segment.turning});
     };
-    for (const Leg& leg : path.legs) add(leg, std::max(leg.begin, clock), leg.end, -clock);
-    for (const Leg& leg : path.legs)
-        add(leg, leg.begin, std::min(leg.end, clock), path.period - clock);
-    later.legs.back().end = path.period;
+    for (const Segment& segment : path.segments)
+        add(segment, std::max(segment.begin, clock), segment.end, -clock);
+    for (const Segment& segment : path.segments)
+        add(segment, segment.begin, std::min(segment.end, clock), path.period - clock);
+    later.segments.back().end = path.period;
     return later;
 }
 
 /// From its end to its beginning.
 inline ContainerPath backwards(const ContainerPath& path) {
     ContainerPath back{path.period, {}};
-    for (auto leg = path.legs.rbegin(); leg != path.legs.rend(); ++leg)
-        back.legs.push_back({path.period - leg->end, path.period - leg->begin,
-                             leg->position_at(leg->end), -1.0 * leg->velocity_at(leg->end),
-                             -leg->turning});
+    for (auto segment = path.segments.rbegin(); segment != path.segments.rend(); ++segment)
+        back.segments.push_back({path.period - segment->end, path.period - segment->begin,
+                                 segment->position_at(segment->end),
+                                 -1.0 * segment->velocity_at(segment->end), -segment->turning});
     return back;
 }
 

@@ -23,9 +23,9 @@ namespace swirl {
 
 /// One dish under observation. An event is found first, by executing it: until then the state of
 /// the snapshot holds, and can be looked at in between; then it is passed.
-class Dish {
+class Container {
   public:
-    Dish(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
+    Container(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
         : config_(config),
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
@@ -34,8 +34,8 @@ class Dish {
           pinned_times_(samples_per_period, config.period) {
         run_.follow_orientations();
     }
-    Dish(const Dish&) = delete;
-    Dish& operator=(const Dish&) = delete;
+    Container(const Container&) = delete;
+    Container& operator=(const Container&) = delete;
 
     /// The last one that was passed.
     const Event& event() const { return passed_; }
@@ -67,7 +67,7 @@ class Dish {
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
-    bool is_warm() const { return run_.kept_snapshot().swirls >= warmup(); }
+    bool is_warm() const { return run_.kept_snapshot().periods >= warmup(); }
 
     /// As a run of the command line that ended with the last event would have it, but for the time
     /// that it took. Nothing is said of a warm-up that has not ended. No event is found beyond the
@@ -86,10 +86,10 @@ class Dish {
 
     /// In the words of a run of the command line, which would end here; from then on there are no
     /// more events.
-    const std::optional<std::string>& trouble() const { return trouble_; }
+    const std::optional<std::string>& problem() const { return problem_; }
     /// The same, if this is the end.
-    std::optional<std::string> trouble_at_the_end() const {
-        return trouble_ || is_by_hand(path()) ? trouble_ : run_.trouble_at_the_end();
+    std::optional<std::string> problem_at_the_end() const {
+        return problem_ || is_by_hand(path()) ? problem_ : run_.problem_at_the_end();
     }
 
     void step() {
@@ -97,10 +97,10 @@ class Dish {
     }
 
     /// All events up to a moment, but no more than `most`; says whether it has come to that moment.
-    bool advance_to(double time, std::uint32_t most) {
+    bool advance_to(double time, std::uint32_t maximum) {
         while (find()) {
             if (time_of(run_.event()) > time) return true;
-            if (most-- == 0) return false;
+            if (maximum-- == 0) return false;
             pass();
         }
         return false;
@@ -109,17 +109,17 @@ class Dish {
     /// The dish at a moment between the last event and the next.
     const Snapshot& seen_at(double time) {
         seen_ = run_.kept_snapshot();
-        const double clock = time - static_cast<double>(seen_.swirls) * config_.period;
+        const double clock = time - static_cast<double>(seen_.periods) * config_.period;
         // The samples may have moved the snapshot on towards the next event.
         seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
-        const Leg& leg = path().leg_at(seen_.clock);
-        seen_.container_centre = leg.position_at(seen_.clock);
-        seen_.container_velocity = leg.velocity_at(seen_.clock);
+        const Segment& segment = path().segment_at(seen_.clock);
+        seen_.container_centre = segment.position_at(seen_.clock);
+        seen_.container_velocity = segment.velocity_at(seen_.clock);
         return seen_;
     }
     /// Of the last event that was passed.
     double time() const {
-        return static_cast<double>(run_.kept_snapshot().swirls) * config_.period + passed_clock_;
+        return static_cast<double>(run_.kept_snapshot().periods) * config_.period + passed_clock_;
     }
 
     /// What another dish begins with whose discs are where they are at this moment, as seen from
@@ -128,10 +128,10 @@ class Dish {
     InitialState going_on(double time, const RunConfig& config, const ContainerPath& path) {
         InitialState state = without_discs(config, path);
         const Snapshot now = seen_at(time).up_to_date();
-        const Leg& leg = path.legs.front();
+        const Segment& segment = path.segments.front();
         for (std::size_t i = 0; i < now.size(); ++i) {
             Disc disc = now.disc(i);
-            disc.position = disc.position + (leg.start - now.container_centre);
+            disc.position = disc.position + (segment.start - now.container_centre);
             disc.time = 0.0;
             state.discs.push_back(disc);
         }
@@ -140,7 +140,7 @@ class Dish {
 
   private:
     double time_of(const Event& event) const {
-        return static_cast<double>(event.swirls) * config_.period + event.clock;
+        return static_cast<double>(event.periods) * config_.period + event.clock;
     }
     /// A page's dish goes on for ever, and has no length of which the warm-up could be a part.
     static RunConfig endless(RunConfig config) {
@@ -155,8 +155,8 @@ class Dish {
     bool find() {
         if (found_) return true;
         // By hand there is no swirl to go by.
-        if (!trouble_ && run_.is_time_to_look() && !is_by_hand(path())) trouble_ = run_.trouble();
-        if (trouble_) return false;
+        if (!problem_ && run_.is_time_to_look() && !is_by_hand(path())) problem_ = run_.problem();
+        if (problem_) return false;
         run_.find_event();
         found_ = true;
         // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
@@ -181,7 +181,7 @@ class Dish {
     PinnedFrames pinned_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last event that was passed
-    std::optional<std::string> trouble_;
+    std::optional<std::string> problem_;
 };
 
 }  // namespace swirl

@@ -31,14 +31,14 @@
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 
 extern "C" {
-[[noreturn]] __attribute__((import_module("page"), import_name("refuse"))) void page_refuse(
+[[noreturn]] __attribute__((import_module("page"), import_name("refuse"))) void page_reject(
     const char* text, std::size_t size);
 }
 
 namespace swirl {
 
 void throw_wrong_call(const std::string& sentence) {
-    page_refuse(sentence.data(), sentence.size());
+    page_reject(sentence.data(), sentence.size());
 }
 void throw_interrupted(const std::string& sentence) { throw_wrong_call(sentence); }
 
@@ -91,8 +91,8 @@ Asked asked_for(std::string_view lines) {
     return {std::move(config), std::move(measured), std::move(given)};
 }
 
-std::unique_ptr<Dish> dish;
-ParameterTexts given_to_dish;  // at its beginning
+std::unique_ptr<Container> simulated;
+ParameterTexts given_to_container;  // at its beginning
 std::vector<double> numbers;
 std::vector<MeasurementReport> reports;
 
@@ -137,7 +137,7 @@ Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& poi
     constexpr double gap = 1e-9;  // the rounding of a contact that is worked out
     const Disc& disc = state.discs[i];
     const Vec2 from = disc.position, way = point - from;
-    const Vec2 centre = state.path.legs.front().start;
+    const Vec2 centre = state.path.segments.front().start;
     const double room = (state.container_radius - disc.radius) * (1.0 - gap);
     const auto fits = [&](const Vec2& p) {
         if (dot(p - centre, p - centre) > room * room) return false;
@@ -196,23 +196,23 @@ EXPORTED(parameters) std::uint32_t parameters() {
 /// A new dish, at rest: "name=value" on every line, as on the command line, and "measure=a,b,c".
 EXPORTED(begin) void begin() {
     auto [config, measured, given] = asked_for(buffer);
-    dish.reset();
-    dish = std::make_unique<Dish>(config, make_initial_state(config), measured);
-    given_to_dish = std::move(given);
+    simulated.reset();
+    simulated = std::make_unique<Container>(config, make_initial_state(config), measured);
+    given_to_container = std::move(given);
 }
 
 /// 1: change() would keep the discs; 0: it would be another dish.
 EXPORTED(keeps) std::uint32_t keeps() {
-    return only_contacts_and_path_differ(dish->config(), asked_for(buffer).config);
+    return only_contacts_and_path_differ(simulated->config(), asked_for(buffer).config);
 }
 
 /// The same discs, at this moment and from the container's first leg on, with other frictions,
 /// restitutions or another path; the averages begin anew. 0: it would be another dish.
 EXPORTED(change) std::uint32_t change(double time) {
     const auto [config, measured, given] = asked_for(buffer);
-    if (!only_contacts_and_path_differ(dish->config(), config)) return 0;
-    const InitialState state = dish->going_on(time, config, make_path(config));
-    dish = std::make_unique<Dish>(config, state, measured);
+    if (!only_contacts_and_path_differ(simulated->config(), config)) return 0;
+    const InitialState state = simulated->going_on(time, config, make_path(config));
+    simulated = std::make_unique<Container>(config, state, measured);
     return 1;
 }
 
@@ -220,47 +220,49 @@ EXPORTED(change) std::uint32_t change(double time) {
 /// too. 0: not without loss, since the dish has friction, a floor, or discs that do not bounce back
 /// fully.
 EXPORTED(reverse) std::uint32_t reverse(double time) {
-    const RunConfig& config = dish->config();
+    const RunConfig& config = simulated->config();
     if (config.mu_disc != 0.0 || config.mu_wall != 0.0 || config.restitution != 1.0 || config.floor)
         return 0;
-    const double clock = dish->seen_at(time).clock;
-    const ContainerPath back = path_from(backwards(dish->path()), dish->path().period - clock);
-    InitialState state = dish->going_on(time, config, back);
+    const double clock = simulated->seen_at(time).clock;
+    const ContainerPath back =
+        path_from(backwards(simulated->path()), simulated->path().period - clock);
+    InitialState state = simulated->going_on(time, config, back);
     for (Disc& disc : state.discs) {
         disc.velocity = -1.0 * disc.velocity;
         disc.spin = -disc.spin;
     }
-    dish = std::make_unique<Dish>(config, state, dish->measured());
+    simulated = std::make_unique<Container>(config, state, simulated->measured());
     return 1;
 }
 
 /// Disc i is put as near to (x, y) as there is room on the way, and moves with the dish there; all
 /// others go on as they are.
 EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
-    const ContainerPath later = path_from(dish->path(), dish->seen_at(time).clock);
-    InitialState state = dish->going_on(time, dish->config(), later);
+    const ContainerPath later = path_from(simulated->path(), simulated->seen_at(time).clock);
+    InitialState state = simulated->going_on(time, simulated->config(), later);
     if (i >= state.discs.size()) return;
     Disc& disc = state.discs[i];
     disc.position = nearest_with_room(state, i, {x, y});
-    disc.velocity = later.legs.front().velocity;
+    disc.velocity = later.segments.front().velocity;
     disc.spin = 0.0;
-    dish = std::make_unique<Dish>(dish->config(), state, dish->measured());
+    simulated = std::make_unique<Container>(simulated->config(), state, simulated->measured());
 }
 
 /// By hand: from this moment on the container goes straight to (x, y), which takes the duration
 /// (above 0), and stays there. Times begin anew, and so do averages, which have no swirl to go by.
 EXPORTED(steer) void steer(double time, double x, double y, double duration) {
-    RunConfig config = dish->config();
-    const Vec2 from = dish->seen_at(time).container_centre;
-    const InitialState state = dish->going_on(time, config, path_by_hand(from, {x, y}, duration));
+    RunConfig config = simulated->config();
+    const Vec2 from = simulated->seen_at(time).container_centre;
+    const InitialState state =
+        simulated->going_on(time, config, path_by_hand(from, {x, y}, duration));
     config.period = state.path.period;
-    dish = std::make_unique<Dish>(config, state, std::vector<std::string>{});
+    simulated = std::make_unique<Container>(config, state, std::vector<std::string>{});
 }
 
 /// What the dish is, "name=value" on every line: what was not given is there, too.
 EXPORTED(configuration) std::uint32_t configuration() {
     std::string lines;
-    for (const auto& [name, value] : texts_of(dish->config()))
+    for (const auto& [name, value] : texts_of(simulated->config()))
         lines += fmt::format("{}={}\n", name, value);
     return answer(lines);
 }
@@ -269,32 +271,33 @@ EXPORTED(configuration) std::uint32_t configuration() {
 /// changed since its beginning. Without a warm-up that was given it would choose one by the length
 /// of the run; it gets the page's, unless the run ends within it and would be refused.
 EXPORTED(command) std::uint32_t command() {
-    ParameterTexts texts = given_to_dish;
+    ParameterTexts texts = given_to_container;
     const auto warmup = texts.find("warmup");
-    if ((warmup == texts.end() || warmup->second == "auto") && dish->is_warm())
-        texts["warmup"] = fmt::format("{}", dish->warmup());
+    if ((warmup == texts.end() || warmup->second == "auto") && simulated->is_warm())
+        texts["warmup"] = fmt::format("{}", simulated->warmup());
     std::string line = "./swirl run";
     for (const Parameter& p : run_parameters)
         if (const auto given = texts.find(p.name); given != texts.end())
             line += fmt::format(" {} {}", option_name(p.name), shell_word(given->second));
-    const std::uint64_t events = dish->simulation().events().total();
+    const std::uint64_t events = simulated->simulation().events().total();
     return answer(line + fmt::format(" --events {}", std::max(events, std::uint64_t{1})));
 }
 
 /// None where there is trouble, and none after it.
 EXPORTED(run_events) void run_events(std::uint32_t count) {
-    for (std::uint32_t k = 0; k < count; ++k) dish->step();
+    for (std::uint32_t k = 0; k < count; ++k) simulated->step();
 }
 
 /// 1: it has come there; 0: there are more events before, or trouble.
-EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t most) {
-    return dish->advance_to(time, most);
+EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t maximum) {
+    return simulated->advance_to(time, maximum);
 }
 
 /// The sentence with which a run of the command line would have ended here, if it is the end (1) or
 /// not (0); nothing for a sound run.
-EXPORTED(trouble) std::uint32_t trouble(std::uint32_t at_the_end) {
-    return answer((at_the_end ? dish->trouble_at_the_end() : dish->trouble()).value_or(""));
+EXPORTED(problem) std::uint32_t problem(std::uint32_t at_the_end) {
+    return answer(
+        (at_the_end ? simulated->problem_at_the_end() : simulated->problem()).value_or(""));
 }
 
 /// The dish at a moment (between the last event and the next): time, swirls, clock, container's
@@ -302,15 +305,15 @@ EXPORTED(trouble) std::uint32_t trouble(std::uint32_t at_the_end) {
 /// angle, spin, vx, vy, radius, 1 if it is pinned; then of every sphere the quaternion that takes
 /// its own axes to the lab's. In the lab frame.
 EXPORTED(frame) const double* frame(double time) {
-    const Snapshot& s = dish->seen_at(time);
+    const Snapshot& s = simulated->seen_at(time);
     const MFrame m = m_frame(s);
-    numbers.assign({s.time(), double(s.swirls), s.clock, s.container_centre.x, s.container_centre.y,
-                    s.container_velocity.x, s.container_velocity.y, s.container_radius, m.down.x,
-                    m.down.y, double(s.size())});
+    numbers.assign({s.time(), double(s.periods), s.clock, s.container_centre.x,
+                    s.container_centre.y, s.container_velocity.x, s.container_velocity.y,
+                    s.container_radius, m.down.x, m.down.y, double(s.size())});
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec2 at = s.position(i);
         numbers.insert(numbers.end(), {at.x, at.y, s.orientation(i), s.spin[i], s.vx[i], s.vy[i],
-                                       s.radius[i], dish->is_pinned(i) ? 1.0 : 0.0});
+                                       s.radius[i], simulated->is_pinned(i) ? 1.0 : 0.0});
     }
     if (!s.are_balls()) return numbers.data();
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -328,7 +331,7 @@ namespace {
 /// Time, kind (0 disc and disc, 1 disc and wall, 2 corner of the path, 3 begins to roll), i, j,
 /// normal (2), impulse along it and along the tangent, sticks.
 const double* numbers_of(const Event& e) {
-    numbers.assign({double(e.swirls) * dish->config().period + e.clock,
+    numbers.assign({double(e.periods) * simulated->config().period + e.clock,
                     double(static_cast<int>(e.kind)), double(e.i), double(e.j), e.normal.x,
                     e.normal.y, e.impulse.normal, e.impulse.tangential, double(e.impulse.sticks)});
     return numbers.data();
@@ -336,38 +339,38 @@ const double* numbers_of(const Event& e) {
 }  // namespace
 
 /// The last one that was passed.
-EXPORTED(event) const double* event() { return numbers_of(dish->event()); }
+EXPORTED(event) const double* event() { return numbers_of(simulated->event()); }
 /// The one to come.
-EXPORTED(next_event) const double* next_event() { return numbers_of(dish->next_event()); }
+EXPORTED(next_event) const double* next_event() { return numbers_of(simulated->next_event()); }
 
-EXPORTED(time) double passed_time() { return dish->time(); }
+EXPORTED(time) double passed_time() { return simulated->time(); }
 EXPORTED(events) double events() {
-    return static_cast<double>(dish->simulation().events().total());
+    return static_cast<double>(simulated->simulation().events().total());
 }
-EXPORTED(state_hash) std::uint64_t state_hash() { return dish->simulation().state_hash(); }
+EXPORTED(state_hash) std::uint64_t state_hash() { return simulated->simulation().state_hash(); }
 
 /// ϖ/Ω so far by each of the rotation rates, without the warm-up. For the plot, the rigid-body rate
 /// by time block for block, with the warm-up: a disc near the centre of mass makes peaks in the
 /// other. How many of the blocks are the warm-up's and how many swirls a block has, there and after
 /// it: JSON.
 EXPORTED(rotation) std::uint32_t rotation() {
-    const RotationEstimates e = dish->rotation().estimates();
+    const RotationEstimates e = simulated->rotation().estimates();
     std::string blocks;
-    for (const ClusterRotation* part : {&dish->rotation_in_warmup(), &dish->rotation()})
+    for (const ClusterRotation* part : {&simulated->rotation_in_warmup(), &simulated->rotation()})
         for (const double mean : part->rigid_by_time().block_means())
             blocks += (blocks.empty() ? "" : ",") + number(mean);
-    const BlockSeries &before = dish->rotation_in_warmup().rigid_by_time(),
-                      &after = dish->rotation().rigid_by_time();
+    const BlockSeries &before = simulated->rotation_in_warmup().rigid_by_time(),
+                      &after = simulated->rotation().rigid_by_time();
     return answer(fmt::format(
         R"({{"by_event":{},"by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
         R"("warmup_blocks":{},"swirls_per_block":[{},{}],"blocks":[{}]}})",
         estimate_json(e.by_event), estimate_json(e.by_time), estimate_json(e.rigid_by_event),
-        estimate_json(e.rigid_by_time), dish->warmup(), before.size(), before.periods_per_block(),
-        after.periods_per_block(), blocks));
+        estimate_json(e.rigid_by_time), simulated->warmup(), before.size(),
+        before.periods_per_block(), after.periods_per_block(), blocks));
 }
 
 /// What is measured, as it is now: for the columns to come.
-EXPORTED(report) void report() { reports = dish->observation().report(); }
+EXPORTED(report) void report() { reports = simulated->observation().report(); }
 
 /// A column of a table of the last report: "density//by_time". How many values there are; 0 if
 /// there is no such column.
@@ -410,8 +413,8 @@ EXPORTED(crossing) std::uint32_t crossing() {
 /// The result as `swirl run --json` writes it, as far as a page knows it: not which build of the
 /// program it was, how it was called, and how long it took (docs/lab.md).
 EXPORTED(result) std::uint32_t result() {
-    dish->settle();
-    const RunResult r = dish->result();
+    simulated->settle();
+    const RunResult r = simulated->result();
     JsonObject given, events, warmup, rotation, steady, others, measured;
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
@@ -434,7 +437,7 @@ EXPORTED(result) std::uint32_t result() {
                                                      : others;
         into.add(row.name, row_json(row));
     });
-    for (const auto& [name, report] : dish->observation().report())
+    for (const auto& [name, report] : simulated->observation().report())
         measured.add(name, report_json(report));
     std::string said;
     for (const std::string& warning : warnings(r))

@@ -17,12 +17,12 @@ struct GoldenRun {
 };
 
 inline InitialState golden_circle() {
-    InitialState scene = paper_dish(28);
+    InitialState scene = paper_container(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     return scene;
 }
 inline InitialState golden_walton() {
-    InitialState scene = paper_dish(36);
+    InitialState scene = paper_container(36);
     scene.disc_surface = {0.5, 0.97, 0.4};
     scene.wall_surface = {0.8, 0.95, 0.2};
     return scene;
@@ -30,15 +30,15 @@ inline InitialState golden_walton() {
 
 inline std::vector<GoldenRun> golden_runs() {
     return {
-        {"48 discs, mu = 1", paper_dish(48), 50000, 0xfa8f17a6b78853c0u},
-        {"28 discs, mu = 1", paper_dish(28), 50000, 0x6eb38e0dd0a3178bu},
-        {"mixture", mixture_dish(), 50000, 0x54d636010ea73d68u},
+        {"48 discs, mu = 1", paper_container(48), 50000, 0xfa8f17a6b78853c0u},
+        {"28 discs, mu = 1", paper_container(28), 50000, 0x6eb38e0dd0a3178bu},
+        {"mixture", mixture_container(), 50000, 0x54d636010ea73d68u},
         {"exact circle", golden_circle(), 5000, 0xf40e59448fab6240u},
         {"restitution", golden_walton(), 20000, 0xb89cac39392593cfu},
         {"gas of 2000", gas_at_rest(2000, 0.7), 50000, 0x802cf8bbd151c318u},
-        {"48 spheres on a floor", sphere_dish(48), 20000, 0x267ebf43bc3a9349u},
+        {"48 spheres on a floor", sphere_container(48), 20000, 0x267ebf43bc3a9349u},
         {"spheres of three kinds", sphere_mixture(), 20000, 0xc3d231d32b19022bu},
-        {"coins", coin_dish(36), 20000, 0xb9396db00e95ef24u},
+        {"coins", coin_container(36), 20000, 0xb9396db00e95ef24u},
     };
 }
 

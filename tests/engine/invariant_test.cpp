@@ -18,9 +18,9 @@ extern "C" __attribute__((visibility("default"))) const char* __asan_default_opt
 namespace swirl {
 namespace {
 
-class BrokenPromise : public ::testing::Test {
+class InvariantViolation : public ::testing::Test {
   protected:
-    BrokenPromise() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+    InvariantViolation() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
 };
 
 void run(const InitialState& initial, const Progress& progress = {}) {
@@ -28,19 +28,19 @@ void run(const InitialState& initial, const Progress& progress = {}) {
         if (has_width(width)) Simulation(initial, progress, {0, width}).run(1000);
 }
 
-TEST_F(BrokenPromise, HealthyRunsKeepThem) { run(paper_dish(28)); }
+TEST_F(BrokenPromise, HealthyRunsKeepThem) { run(paper_container(28)); }
 
 TEST_F(BrokenPromise, ACollisionThatGivesEnergyIsFound) {
-    InitialState initial = paper_dish(28);
+    InitialState initial = paper_container(28);
     initial.disc_surface.restitution = 1.5;
     EXPECT_DEATH(run(initial), "energy_never_grows");
-    initial = paper_dish(5);
+    initial = paper_container(5);
     initial.wall_surface.restitution = 1.5;
     EXPECT_DEATH(run(initial), "energy_never_grows");
 }
 
 TEST_F(BrokenPromise, FrictionThatPullsIsFound) {
-    InitialState initial = paper_dish(28);
+    InitialState initial = paper_container(28);
     initial.disc_surface.mu = -0.5;
     EXPECT_DEATH(run(initial), "friction_obeys_coulombs_law");
 }
@@ -61,7 +61,7 @@ struct TwoDiscs {
         std::uint32_t neighbours[4];
     } cold[3];
     Skin skins[2];
-    Leg leg{0.0, 10.0, {0.0, 0.0}, {0.0, 0.0}, 0.0};
+    Segment segment{0.0, 10.0, {0.0, 0.0}, {0.0, 0.0}, 0.0};
     EngineState state{};
 
     TwoDiscs() {
@@ -85,8 +85,8 @@ struct TwoDiscs {
         state.level_times[0] = times;
         state.level_times[1] = top_times;
         state.level_winners[1] = winners;
-        state.legs = &leg;
-        state.leg_count = 1;
+        state.segments = &segment;
+        state.segment_count = 1;
         state.container_radius = 10.0;
     }
     void check() const {

@@ -34,19 +34,20 @@ double virial(const Snapshot& s) {
     return sum;
 }
 
-InitialState circle_dish(std::size_t n, double mu_disc, double mu_wall) {
-    InitialState scene = paper_dish(n, mu_disc, mu_wall);
+InitialState circle_container(std::size_t n, double mu_disc, double mu_wall) {
+    InitialState scene = paper_container(n, mu_disc, mu_wall);
     scene.path = circular_path(paper_amplitude, paper_period);
-    const Leg& leg = scene.path.legs.front();
-    for (Disc& d : scene.discs) d.velocity = d.velocity - paper_dish(1).path.legs[0].velocity;
-    for (Disc& d : scene.discs) d.velocity = d.velocity + leg.velocity;
+    const Segment& segment = scene.path.segments.front();
+    for (Disc& d : scene.discs)
+        d.velocity = d.velocity - paper_container(1).path.segments[0].velocity;
+    for (Disc& d : scene.discs) d.velocity = d.velocity + segment.velocity;
     return scene;
 }
 
 // In the frame that turns with the swirl centre the dish stands still, and K − ΩL is the energy
 // there. A smooth wall and smooth discs conserve it.
 TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction) {
-    const InitialState scene = circle_dish(48, 0.0, 0.0);
+    const InitialState scene = circle_container(48, 0.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     const auto invariant = [&] {
@@ -65,7 +66,7 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction)
 
 // The discs' friction is a loss in every frame, so there K − ΩL can only fall.
 TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionOnly) {
-    const InitialState scene = circle_dish(40, 1.0, 0.0);
+    const InitialState scene = circle_container(40, 1.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     Snapshot s = simulation.snapshot();
@@ -83,7 +84,7 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionO
 // With friction at the wall, each hit changes it by −ΩR J_t − loss: the test of the wall's part in
 // the budget. The loss in the frame of the wall follows from the disc's velocities there.
 TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
-    const InitialState scene = circle_dish(20, 0.0, 1.0);
+    const InitialState scene = circle_container(20, 0.0, 1.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
     Snapshot s = simulation.snapshot();
@@ -140,7 +141,7 @@ TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
 }
 
 TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
-    InitialState scene = paper_dish(48, 0.0, 0.0);
+    InitialState scene = paper_container(48, 0.0, 0.0);
     scene.path = still_path(10.0);
     Random random(4);
     for (Disc& d : scene.discs) {

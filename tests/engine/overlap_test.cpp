@@ -40,25 +40,27 @@ void expect_no_overlap(const InitialState& scene, int events) {
     EXPECT_GT(deepest, -1e-12);  // the contacts were looked at
 }
 
-TEST(Overlap, NoneInSixMillionEventsOfTheFullDish) { expect_no_overlap(paper_dish(48), 6000000); }
-TEST(Overlap, NoneInTwoMillionEventsOfTheHalfFullDish) {
-    expect_no_overlap(paper_dish(28), 2000000);
+TEST(Overlap, NoneInSixMillionEventsOfTheFullDish) {
+    expect_no_overlap(paper_container(48), 6000000);
 }
-TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_dish(), 1000000); }
+TEST(Overlap, NoneInTwoMillionEventsOfTheHalfFullDish) {
+    expect_no_overlap(paper_container(28), 2000000);
+}
+TEST(Overlap, NoneInAMillionEventsOfAMixture) { expect_no_overlap(mixture_container(), 1000000); }
 TEST(Overlap, NoneInAMillionEventsAfterTheEnergyHasGrown) {
-    expect_no_overlap(paper_dish(40, 0.0, 0.0), 1000000);
+    expect_no_overlap(paper_container(40, 0.0, 0.0), 1000000);
 }
 TEST(Overlap, NoneInAMillionEventsOfSpheresThatRoll) {
-    expect_no_overlap(sphere_dish(48), 1000000);
+    expect_no_overlap(sphere_container(48), 1000000);
 }
 TEST(Overlap, SlowNoneInTenMillionEventsOfSpheresAndCoins) {
-    for (const std::size_t n : {5u, 28u, 48u}) expect_no_overlap(sphere_dish(n), 10'000'000);
-    expect_no_overlap(sphere_dish(48, 0.0), 10'000'000);
+    for (const std::size_t n : {5u, 28u, 48u}) expect_no_overlap(sphere_container(n), 10'000'000);
+    expect_no_overlap(sphere_container(48, 0.0), 10'000'000);
     expect_no_overlap(sphere_mixture(), 10'000'000);
-    expect_no_overlap(coin_dish(48), 10'000'000);
+    expect_no_overlap(coin_container(48), 10'000'000);
 }
 TEST(Overlap, NoneOnTheTrueCircle) {
-    InitialState scene = paper_dish(28);
+    InitialState scene = paper_container(28);
     scene.path = circular_path(paper_amplitude, paper_period);
     expect_no_overlap(scene, 100000);
 }

@@ -89,10 +89,10 @@ TEST(Placement, AnEmptyDishCostsNoMore) {
 TEST(Placement, OlersBoundIsNoLessThanWhatIsKnownToFit) {
     // Seven in R = 3 r, nineteen in (1 + √2 + √6) r, 61 in 8.6613 r (Graham, Lubachevsky et al.
     // 1998, doi:10.1016/S0012-365X(97)00050-2).
-    EXPECT_GE(most_discs_in_dish(1.0, 3.0), 7.0);
-    EXPECT_GE(most_discs_in_dish(1.0, 4.8637), 19.0);
-    EXPECT_GE(most_discs_in_dish(1.0, 8.6613), 61.0);
-    EXPECT_EQ(most_discs_in_dish(1.0, 1.0), 1.0);
+    EXPECT_GE(max_discs_in_container(1.0, 3.0), 7.0);
+    EXPECT_GE(max_discs_in_container(1.0, 4.8637), 19.0);
+    EXPECT_GE(max_discs_in_container(1.0, 8.6613), 61.0);
+    EXPECT_EQ(max_discs_in_container(1.0, 1.0), 1.0);
 }
 
 TEST(Placement, LargerDishesHoldAsMuch) {

@@ -23,9 +23,9 @@ class PlainGrid {
         double largest = 0.0;
         for (const Disc& d : scene.discs) largest = larger(largest, d.radius);
         reach_ = scene.container_radius;
-        for (const Leg& leg : scene.path.legs)
-            reach_ = larger(reach_,
-                            scene.container_radius + 1.1 * square_root(dot(leg.start, leg.start)));
+        for (const Segment& segment : scene.path.segments)
+            reach_ = larger(reach_, scene.container_radius +
+                                        1.1 * square_root(dot(segment.start, segment.start)));
         // A tenth wider than two discs that touch, so that rounding cannot hide one from another.
         side_ = static_cast<std::int64_t>(2.0 * reach_ / (2.2 * largest));
         width_ = 2.0 * reach_ / static_cast<double>(side_);
@@ -34,9 +34,9 @@ class PlainGrid {
     }
 
     Event step() {
-        const Leg& leg = scene_.path.legs[leg_];
+        const Segment& segment = scene_.path.segments[segment_];
         for (;;) {
-            if (queue_.empty() || queue_.top().time >= leg.end) return end_leg();
+            if (queue_.empty() || queue_.top().time >= segment.end) return end_segment();
             const Entry e = queue_.top();
             queue_.pop();
             if (e.changes_i != changes_[e.i] || e.changes_j != changes_[e.j]) continue;
@@ -44,7 +44,7 @@ class PlainGrid {
                 cross(e.i, e.time);
                 continue;
             }
-            if (e.kind == wall && e.leg != leg_) continue;
+            if (e.kind == wall && e.segment != segment_) continue;
             return e.kind == wall ? hit_wall(e.i, e.time) : hit_disc(e.i, e.j, e.time);
         }
     }
@@ -57,7 +57,7 @@ class PlainGrid {
         double time;
         std::uint32_t i, j;  // i < j, or i = j: the wall, or a new cell
         std::uint32_t changes_i, changes_j;
-        std::uint32_t leg;
+        std::uint32_t segment;
         Kind kind;
         // A disc enters its new cell before anything else of that instant; then the smaller i, the
         // smaller j.
@@ -73,12 +73,14 @@ class PlainGrid {
         return k < 0 ? 0 : k >= side_ ? side_ - 1 : k;
     }
     void push(Kind kind, double time, std::uint32_t i, std::uint32_t j) {
-        if (time < scene_.path.legs[leg_].end || (kind != wall && time < scene_.path.period))
-            queue_.push({time, i, j, changes_[i], changes_[j], leg_, kind});
+        if (time < scene_.path.segments[segment_].end ||
+            (kind != wall && time < scene_.path.period))
+            queue_.push({time, i, j, changes_[i], changes_[j], segment_, kind});
     }
     void push_wall(std::uint32_t i) {
         push(wall,
-             time_of_wall_contact(scene_.discs[i], scene_.path.legs[leg_], scene_.container_radius),
+             time_of_wall_contact(scene_.discs[i], scene_.path.segments[segment_],
+                                  scene_.container_radius),
              i, i);
     }
     /// When disc i, in its cell since `t`, leaves it.
@@ -166,24 +168,25 @@ class PlainGrid {
         changed(j, t);
         push_contacts(i);
         push_contacts(j);
-        return {swirls_, t, EventKind::disc_disc, i, j, {}, J, 0.0};
+        return {periods_, t, EventKind::disc_disc, i, j, {}, J, 0.0};
     }
     Event hit_wall(std::uint32_t i, double t) {
-        const Leg& leg = scene_.path.legs[leg_];
+        const Segment& segment = scene_.path.segments[segment_];
         Disc& a = scene_.discs[i];
         a = a.at(t);
-        Body left = body(a), container = wall_body(leg.velocity_at(t));
+        Body left = body(a), container = wall_body(segment.velocity_at(t));
         const Impulse J =
-            collide(left, container, a.position - leg.position_at(t), scene_.wall_surface);
+            collide(left, container, a.position - segment.position_at(t), scene_.wall_surface);
         a.velocity = left.velocity, a.spin = left.spin;
         changed(i, t);
         push_contacts(i);
-        return {swirls_, t, EventKind::disc_wall, i, i, {}, J, 0.0};
+        return {periods_, t, EventKind::disc_wall, i, i, {}, J, 0.0};
     }
-    Event end_leg() {
-        const Event event{swirls_, scene_.path.legs[leg_].end, EventKind::path_vertex, 0, 0, {}, {},
-                          0.0};
-        if (++leg_ < scene_.path.legs.size()) {
+    Event end_segment() {
+        const Event event{
+            periods_, scene_.path.segments[segment_].end, EventKind::path_vertex, 0, 0, {}, {},
+            0.0};
+        if (++segment_ < scene_.path.segments.size()) {
             for (std::uint32_t i = 0; i < scene_.discs.size(); ++i) push_wall(i);
             return event;
         }
@@ -192,8 +195,8 @@ class PlainGrid {
             scene_.discs[i].time = 0.0;
             ++changes_[i];
         }
-        leg_ = 0;
-        ++swirls_;
+        segment_ = 0;
+        ++periods_;
         start();
         return event;
     }
@@ -205,8 +208,8 @@ class PlainGrid {
     std::priority_queue<Entry> queue_;
     double reach_, width_;
     std::int64_t side_;
-    std::uint32_t leg_ = 0;
-    std::int64_t swirls_ = 0;
+    std::uint32_t segment_ = 0;
+    std::int64_t periods_ = 0;
 };
 
 }  // namespace swirl

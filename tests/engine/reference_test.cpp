@@ -22,12 +22,12 @@ class EveryWidth : public OfEveryWidth {
 
 /// The same discs in a dish that is swirled on a true circle.
 InitialState on_circle(InitialState scene, double amplitude = paper_amplitude) {
-    const Leg before = scene.path.legs[0];
+    const Segment before = scene.path.segments[0];
     scene.path = circular_path(amplitude, paper_period);
-    const Leg& leg = scene.path.legs[0];
+    const Segment& segment = scene.path.segments[0];
     for (Disc& disc : scene.discs) {
-        disc.position = disc.position + (leg.start - before.start);
-        disc.velocity = disc.velocity + (leg.velocity - before.velocity);
+        disc.position = disc.position + (segment.start - before.start);
+        disc.velocity = disc.velocity + (segment.velocity - before.velocity);
     }
     return scene;
 }
@@ -35,16 +35,16 @@ InitialState on_circle(InitialState scene, double amplitude = paper_amplitude) {
 // Without a grid (0 cells), a few discs go by all pairs; one cell has neighbour lists.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInThePaperDish) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
-        expect_same_trajectory(paper_dish(n), 100000, tuning());
+        expect_same_trajectory(paper_container(n), 100000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAtEveryNumberOfVectors) {
     for (const std::size_t n : {8u, 9u, 16u, 17u, 24u, 25u, 32u, 33u, 40u, 41u})
-        expect_same_trajectory(paper_dish(n), 3000, tuning());
+        expect_same_trajectory(paper_container(n), 3000, tuning());
 }
 // Their times are one row, two, four of which one is nobody's, four, six and eight.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhereDiscsAreFew) {
     for (const std::size_t n : {1u, 2u, 5u, 12u, 20u, 28u, 40u, 52u})
-        expect_same_trajectory(paper_dish(n), 20000, tuning(1));
+        expect_same_trajectory(paper_container(n), 20000, tuning(1));
 }
 // A second level has two rows, four, six and eight.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhateverTheRowsOnTop) {
@@ -52,16 +52,16 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhateverTheRowsOnTop) {
         expect_same_trajectory(gas_at_rest(n, 0.7), 400, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithoutFriction) {
-    expect_same_trajectory(paper_dish(40, 0.0, 0.0), 30000, tuning());
+    expect_same_trajectory(paper_container(40, 0.0, 0.0), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
-    expect_same_trajectory(mixture_dish(), 100000, tuning());
-    expect_same_trajectory(mixture_dish(), 30000, tuning(3));
-    expect_same_trajectory(mixture_dish(20), 30000, tuning());
+    expect_same_trajectory(mixture_container(), 100000, tuning());
+    expect_same_trajectory(mixture_container(), 30000, tuning(3));
+    expect_same_trajectory(mixture_container(20), 30000, tuning());
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u}) {
-        const InitialState scene = on_circle(paper_dish(n));
+        const InitialState scene = on_circle(paper_container(n));
         expect_same_trajectory(scene, 10000, tuning());
         expect_same_trajectory(scene, 5000, tuning(1));
     }
@@ -69,8 +69,8 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnTheExactCircle) {
     // along it for long.
     expect_same_trajectory(on_circle(state_of({unit_disc()}, 200, 18.0, still_path(1.0), 1.0, 1.0)),
                            5000, tuning());
-    expect_same_trajectory(on_circle(mixture_dish()), 10000, tuning(3));
-    expect_same_trajectory(on_circle(paper_dish(20, 0.0, 0.0)), 10000, tuning());
+    expect_same_trajectory(on_circle(mixture_container()), 10000, tuning(3));
+    expect_same_trajectory(on_circle(paper_container(20, 0.0, 0.0)), 10000, tuning());
 }
 // There the frame of the skins outlasts the corners; in the second, which shakes its discs together
 // first, only at times.
@@ -106,7 +106,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInADishMuchWiderThanIts
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
     for (const double amplitude : {1e-3, 30.0, 1e6}) {
         for (const std::size_t n : {28u, 48u}) {
-            const InitialState scene = on_circle(paper_dish(n), amplitude);
+            const InitialState scene = on_circle(paper_container(n), amplitude);
             expect_same_trajectory(scene, sanitized ? 500 : 3000, tuning());
             Simulation simulation(scene);
             double deepest = 0.0;
@@ -117,12 +117,12 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
     }
 }
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithRestitution) {
-    InitialState scene = paper_dish(40);
+    InitialState scene = paper_container(40);
     scene.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     scene.wall_surface = {0.8, 0.8, 0.2, 1e-3};
     expect_same_trajectory(scene, 30000, tuning());
     // Discs that stay together when they meet may meet again at once.
-    InitialState sticky = paper_dish(28);
+    InitialState sticky = paper_container(28);
     sticky.disc_surface = sticky.wall_surface = {1.0, 0.0, 0.0, 0.05};
     expect_same_trajectory(sticky, 30000, tuning());
 }
@@ -135,7 +135,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitInAGas) {
 /// Turns all discs about the centre of the dish, as if they were one body.
 InitialState turning(InitialState scene, double angular_velocity) {
     for (Disc& disc : scene.discs) {
-        const Vec2 from_centre = disc.position - scene.path.legs[0].start;
+        const Vec2 from_centre = disc.position - scene.path.segments[0].start;
         disc.velocity = disc.velocity + angular_velocity * perpendicular(from_centre);
     }
     return scene;
@@ -149,8 +149,9 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInAPackThatTurns) {
     for (const double angular_velocity : {0.02, -0.19, 1.0})
         for (const int cells : {1, 3})
             expect_same_trajectory(turning(pack, angular_velocity), events, tuning(cells));
-    expect_same_trajectory(turning(mixture_dish(), 0.1), events, tuning(3));
-    expect_same_trajectory(on_circle(turning(paper_dish(41, 0.3, 0.0), -0.1)), events, tuning(3));
+    expect_same_trajectory(turning(mixture_container(), 0.1), events, tuning(3));
+    expect_same_trajectory(on_circle(turning(paper_container(41, 0.3, 0.0), -0.1)), events,
+                           tuning(3));
     expect_same_trajectory(turning(large_among_small(3, 100, 0.3, 5.5), 0.2), events / 4, tuning());
 }
 // In a frame that did not turn, the discs would fly ten times as fast as among each other; each
@@ -166,8 +167,8 @@ TEST(TurningPack, HardlyAnyListIsRebuilt) {
 // Over several swirls.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInThePaperDish) {
     for (const std::size_t n : {1u, 5u, 48u})
-        expect_same_trajectory(paper_dish(n), 20000, tuning(NeighbourSearch::cells));
-    InitialState dissipative = paper_dish(40);
+        expect_same_trajectory(paper_container(n), 20000, tuning(NeighbourSearch::cells));
+    InitialState dissipative = paper_container(40);
     dissipative.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     expect_same_trajectory(dissipative, 20000, tuning(NeighbourSearch::cells));
 }
@@ -178,7 +179,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsForUnequalDiscs) {
         state_of({unit_disc(), large}, 60, 20.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
     expect_same_trajectory(two_sizes, 20000, tuning(NeighbourSearch::cells));
-    expect_same_trajectory(mixture_dish(), 5000, tuning(NeighbourSearch::cells));
+    expect_same_trajectory(mixture_container(), 5000, tuning(NeighbourSearch::cells));
     expect_same_trajectory(large_among_small(20, 20, 0.1, 10.0), 20000,
                            tuning(NeighbourSearch::cells));
     // A cell would have to hold eleven: lists take over at once.
@@ -190,11 +191,11 @@ InitialState gas_of_two_sizes(std::size_t large, std::size_t small, double small
                               double packing, double period = 10.0) {
     const double area = double(large) + double(small) * small_radius * small_radius;
     InitialState scene = large_among_small(large, small, small_radius, square_root(area / packing));
-    const Leg before = scene.path.legs.front();
+    const Segment before = scene.path.segments.front();
     scene.path = still_path(period);
     scene.disc_surface = scene.wall_surface = {0.0};
     for (Disc& disc : scene.discs) {
-        disc.position = disc.position - before.start + scene.path.legs.front().start;
+        disc.position = disc.position - before.start + scene.path.segments.front().start;
         disc.velocity = (10.0 / disc.radius) * (disc.velocity - before.velocity);
     }
     return scene;
@@ -284,12 +285,12 @@ TEST(VeryUnequalDiscs, EngineIsThePlainGridBitForBitAmongThousands) {
 }
 // Discs have followed the container long before its next course; so do the lists.
 TEST(FastDish, ListsAreRebuiltNoMoreOftenThanDiscsCollide) {
-    InitialState scene = paper_dish(48);
+    InitialState scene = paper_container(48);
     scene.path = polygon_path(1e6, paper_period, paper_sides);
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     for (Disc& disc : scene.discs) {
-        disc.position = disc.position + (leg.start - Vec2{paper_amplitude, 0.0});
-        disc.velocity = disc.velocity + leg.velocity;
+        disc.position = disc.position + (segment.start - Vec2{paper_amplitude, 0.0});
+        disc.velocity = disc.velocity + segment.velocity;
     }
     expect_same_trajectory(scene, sanitized ? 1000 : 20000, {});
     Simulation simulation(scene);
@@ -376,8 +377,8 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsInAThinDish) {
 // On the true circle, which is one leg: its cells are laid over all of it.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsOnTheExactCircle) {
     const int events = sanitized ? 1000 : 10000;
-    for (const InitialState& scene :
-         {paper_dish(5), paper_dish(48), mixture_dish(), large_among_small(20, 20, 0.1, 10.0)})
+    for (const InitialState& scene : {paper_container(5), paper_container(48), mixture_container(),
+                                      large_among_small(20, 20, 0.1, 10.0)})
         expect_same_trajectory(on_circle(scene), events, tuning(NeighbourSearch::cells));
     for (const double container_radius : {60.0, 45.0, 18.0}) {
         InitialState thin = on_circle(
@@ -392,9 +393,9 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithCellsOnTheExactCircle) {
         state_of({unit_disc()}, 60, 18.0, polygon_path(200.0, paper_period, paper_sides), 1.0, 1.0);
     expect_same_trajectory(on_circle(far, 200.0), 2000, tuning(NeighbourSearch::cells));
     far = on_circle(far);
-    Leg& leg = far.path.legs.front();
-    leg.velocity = -1.0 * leg.velocity;
-    leg.turning = -leg.turning;
+    Segment& segment = far.path.segments.front();
+    segment.velocity = -1.0 * segment.velocity;
+    segment.turning = -segment.turning;
     expect_same_trajectory(far, 2000, tuning(NeighbourSearch::cells));
 }
 /// Everybody flies to the centre, to be there at one time.
@@ -453,7 +454,7 @@ TEST(ThinDish, DiscsEnterCellsNoOftenerThanTheyFlyThere) {
     InitialState scene =
         state_of({unit_disc()}, 2000, 258.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.1);
-    for (Disc& disc : scene.discs) disc.velocity = disc.velocity - scene.path.legs[0].velocity;
+    for (Disc& disc : scene.discs) disc.velocity = disc.velocity - scene.path.segments[0].velocity;
     Simulation simulation(scene);
     simulation.advance_to(3, 0.0);
     // A disc flies 2.4 radii in that time at the mean speed it starts with, and the container 36;
@@ -470,7 +471,7 @@ void expect_the_same(const InitialState& scene, Rival rival, int events) {
     for (int k = 0; k < events; ++k) {
         const Event expected = plain.step(), found = rival.step();
         ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-        ASSERT_EQ(expected.swirls, found.swirls) << "event " << k;
+        ASSERT_EQ(expected.periods, found.periods) << "event " << k;
         ASSERT_EQ(expected.kind, found.kind) << "event " << k;
         ASSERT_EQ(expected.i, found.i) << "event " << k;
         ASSERT_EQ(expected.j, found.j) << "event " << k;
@@ -482,8 +483,9 @@ void expect_the_same(const InitialState& scene, Rival rival, int events) {
 }
 
 TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
-    for (const InitialState& scene : {paper_dish(5), paper_dish(28), paper_dish(48), mixture_dish(),
-                                      gas_at_rest(101, 0.3), on_circle(paper_dish(28))})
+    for (const InitialState& scene :
+         {paper_container(5), paper_container(28), paper_container(48), mixture_container(),
+          gas_at_rest(101, 0.3), on_circle(paper_container(28))})
         expect_the_same(scene, PlainLoop(scene, GetParam()), 5000);
 }
 TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInAGas) {
@@ -496,20 +498,20 @@ TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInAGas) {
 }
 // Lists that are left at once, and that hold nearly everybody.
 TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInASwirledDish) {
-    InitialState dissipative = paper_dish(40);
+    InitialState dissipative = paper_container(40);
     dissipative.disc_surface = {0.5, 0.9, 0.4, 1e-3};
     dissipative.wall_surface = {0.8, 0.8, 0.2, 1e-3};
     const InitialState thin =
         state_of({unit_disc()}, 101, 45.0, polygon_path(paper_amplitude, paper_period, paper_sides),
                  1.0, 1.0, 1.0);
-    for (const InitialState& scene : {paper_dish(5), paper_dish(48), dissipative, thin,
-                                      mixture_dish(), large_among_small(4, 60, 0.1, 3.0)})
+    for (const InitialState& scene : {paper_container(5), paper_container(48), dissipative, thin,
+                                      mixture_container(), large_among_small(4, 60, 0.1, 3.0)})
         for (const double skin : {0.05, 0.5, 3.0})
             expect_the_same(scene, PlainLists(scene, skin, GetParam()), sanitized ? 300 : 3000);
 }
 TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitOnTheExactCircle) {
     for (const std::size_t n : {5u, 48u}) {
-        const InitialState scene = on_circle(paper_dish(n));
+        const InitialState scene = on_circle(paper_container(n));
         expect_the_same(scene, PlainLists(scene, 0.4, GetParam()), sanitized ? 300 : 5000);
     }
 }
@@ -517,7 +519,7 @@ TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitOnTheExactCircle) {
 // Many discs, against a second plain loop that has cells and a queue (plain_grid.hpp); that one
 // against the first, where that is possible.
 TEST(PlainGrid, IsTheReferenceBitForBit) {
-    const InitialState scene = paper_dish(48);
+    const InitialState scene = paper_container(48);
     Reference all_pairs(scene);
     PlainGrid grid(scene);
     for (int k = 0; k < 20000; ++k) {
@@ -527,7 +529,7 @@ TEST(PlainGrid, IsTheReferenceBitForBit) {
         ASSERT_EQ(expected.j, found.j) << "event " << k;
     }
 }
-InitialState large_dish(std::size_t n) {
+InitialState large_container(std::size_t n) {
     const double scale = square_root(static_cast<double>(n) / 48.0);
     return state_of({unit_disc()}, n, scale * paper_container_radius,
                     polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides), 1.0,
@@ -547,14 +549,14 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAGasOfUnequalDiscs) {
         expect_same_trajectory<PlainGrid>(gas_of_two_sizes(large, 2000 - large, 0.1, 0.3, 3.0),
                                           20000, tuning(NeighbourSearch::cells));
 }
-InitialState thin_dish(std::size_t n, double packing) {
+InitialState thin_container(std::size_t n, double packing) {
     return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing),
                     polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0, 0.3);
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
     if (sanitized) GTEST_SKIP() << "fifty thousand events";
     for (const double packing : {0.2, 0.03}) {
-        const InitialState scene = thin_dish(2000, packing);
+        const InitialState scene = thin_container(2000, packing);
         expect_same_trajectory<PlainGrid>(scene, 50000, tuning());
         expect_same_trajectory<PlainGrid>(on_circle(scene), 50000, tuning(NeighbourSearch::cells));
     }
@@ -562,10 +564,10 @@ TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInAThinDish) {
 // Its discs gather in the third swirl, and fly again in the sixth: then the search is another.
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitWhereListsTakeOverAndCellsComeBack) {
     if (sanitized) GTEST_SKIP() << "thirty thousand events";
-    expect_same_trajectory<PlainGrid>(thin_dish(500, 0.38), 32000, tuning());
+    expect_same_trajectory<PlainGrid>(thin_container(500, 0.38), 32000, tuning());
 }
 TEST(ThinDish, GoesByListsWhileItsDiscsHaveGatheredAndByCellsElse) {
-    const InitialState scene = thin_dish(500, 0.38);
+    const InitialState scene = thin_container(500, 0.38);
     const auto bytes = [&](NeighbourSearch search) {
         return Simulation(scene, {}, {0, Width::best, search}).loop_counts().bytes;
     };
@@ -588,7 +590,7 @@ TEST(ThinDish, GoesByListsWhileItsDiscsHaveGatheredAndByCellsElse) {
 }
 TEST_P(EveryWidth, EngineIsThePlainGridBitForBitInALargeDish) {
     if (sanitized) GTEST_SKIP() << "a million events";
-    expect_same_trajectory<PlainGrid>(large_dish(10000), 200000, tuning());
+    expect_same_trajectory<PlainGrid>(large_container(10000), 200000, tuning());
 }
 TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfTenThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
@@ -600,13 +602,13 @@ TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsInAThinGasOfTenTh
 }
 TEST(ManyDiscs, EngineIsThePlainGridBitForBitOverAMillionEventsOfAHundredThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
-    expect_same_trajectory<PlainGrid>(large_dish(100000), 1000000, {});
+    expect_same_trajectory<PlainGrid>(large_container(100000), 1000000, {});
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryWidth, every_width(), width_name);
 
 TEST(Grid, EveryGridGivesTheSameBits) {
-    const InitialState scene = paper_dish(48);
+    const InitialState scene = paper_container(48);
     Simulation all_pairs(scene, {}, {1, Width::best});
     all_pairs.run(100000);
     for (const int cells : {2, 3, 4, 5, 6, 7, 8, 1000}) {
@@ -617,7 +619,7 @@ TEST(Grid, EveryGridGivesTheSameBits) {
 }
 
 TEST(Observation, LookingDoesNotChangeABit) {
-    const InitialState scene = paper_dish(48);
+    const InitialState scene = paper_container(48);
     Simulation alone(scene), watched(scene);
     alone.run(50000);
     Snapshot snapshot = watched.snapshot();
@@ -635,7 +637,7 @@ TEST(Observation, LookingDoesNotChangeABit) {
 }
 
 TEST(Observation, RefreshedSnapshotEqualsANewOne) {
-    Simulation simulation(paper_dish(28));
+    Simulation simulation(paper_container(28));
     Snapshot kept = simulation.snapshot();
     for (int k = 0; k < 5000; ++k) simulation.refresh(kept, simulation.step());
     const Snapshot fresh = simulation.snapshot();
@@ -648,7 +650,7 @@ TEST(Observation, RefreshedSnapshotEqualsANewOne) {
 }
 
 TEST(Resume, FromTheDiscsAndTheProgressContinuesBitForBit) {
-    expect_resumed_bit_for_bit(paper_dish(48), 60000, 23456);
+    expect_resumed_bit_for_bit(paper_container(48), 60000, 23456);
 }
 
 TEST(Resume, OfUnequalDiscsInCellsContinuesBitForBit) {

@@ -43,7 +43,7 @@ void expect_same_trajectory(const InitialState& scene, int events, const Tuning&
     for (int k = 0; k < events; ++k) {
         const Event expected = plain.step(), found = engine.step();
         ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-        ASSERT_EQ(expected.swirls, found.swirls);
+        ASSERT_EQ(expected.periods, found.periods);
         ASSERT_EQ(expected.kind, found.kind) << "event " << k;
         ASSERT_EQ(expected.i, found.i) << "event " << k;
         ASSERT_EQ(expected.j, found.j) << "event " << k;

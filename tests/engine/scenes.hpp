@@ -29,11 +29,11 @@ inline InitialState state_of(const std::vector<Disc>& kinds, std::size_t n, doub
     if (!centres) throw std::runtime_error("the test's discs do not fit");
     InitialState scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
     Random random(seed + 1);
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     for (std::size_t i = 0; i < n; ++i) {
         Disc d = kinds[i % kinds.size()];
-        d.position = leg.start + (*centres)[i];
-        d.velocity = leg.velocity + random.in_disc(speed);
+        d.position = segment.start + (*centres)[i];
+        d.velocity = segment.velocity + random.in_disc(speed);
         scene.discs.push_back(d);
     }
     return scene;
@@ -44,15 +44,15 @@ inline Disc unit_disc(double inertia = paper_inertia) {
 }
 
 /// The paper's dish.
-inline InitialState paper_dish(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
-                               std::uint64_t seed = 1) {
+inline InitialState paper_container(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
+                                    std::uint64_t seed = 1) {
     return state_of({unit_disc()}, n, paper_container_radius,
                     polygon_path(paper_amplitude, paper_period, paper_sides), mu_disc, mu_wall, 0.1,
                     seed);
 }
 
 /// Three kinds of disc, in the paper's dish.
-inline InitialState mixture_dish(std::size_t n = 40) {
+inline InitialState mixture_container(std::size_t n = 40) {
     return state_of({{{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, 10.0},
                      {{0, 0}, {0, 0}, 0, 0, 0, 0.6, 0.36, 0.0648},
                      {{0, 0}, {0, 0}, 0, 0, 0, 1.4, 2.0, 3.92}},
@@ -75,11 +75,12 @@ inline InitialState large_among_small(std::size_t large, std::size_t small, doub
                        {0.7},
                        {0.4}};
     Random random(2);
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double m = radii[i] * radii[i], inertia = paper_inertia * m * m;
-        scene.discs.push_back({leg.start + (*centres)[i], leg.velocity + random.in_disc(0.1), 0.0,
-                               0.0, 0.0, radii[i], m, inertia});
+        scene.discs.push_back({segment.start + (*centres)[i],
+                               segment.velocity + random.in_disc(0.1), 0.0, 0.0, 0.0, radii[i], m,
+                               inertia});
     }
     return scene;
 }
@@ -91,8 +92,8 @@ inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double s
 }
 
 /// Solid spheres on a floor, in the paper's dish.
-inline InitialState sphere_dish(std::size_t n, double deceleration = 1.92, double mu = 0.2,
-                                double restitution = 0.9) {
+inline InitialState sphere_container(std::size_t n, double deceleration = 1.92, double mu = 0.2,
+                                     double restitution = 0.9) {
     InitialState scene =
         state_of({unit_disc(solid_sphere_inertia(1.0, 1.0))}, n, paper_container_radius,
                  polygon_path(paper_amplitude, paper_period, paper_sides), mu, mu);
@@ -102,14 +103,14 @@ inline InitialState sphere_dish(std::size_t n, double deceleration = 1.92, doubl
     return scene;
 }
 /// The same with a rolling resistance, μ_r g; this one brings many to rest on the floor.
-inline InitialState resisting_dish(std::size_t n, double resistance = 1.5) {
-    InitialState scene = sphere_dish(n);
+inline InitialState resisting_container(std::size_t n, double resistance = 1.5) {
+    InitialState scene = sphere_container(n);
     scene.floor.rolling_resistance = resistance;
     return scene;
 }
 /// The same of discs that lie flat on the floor.
-inline InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
-    InitialState scene = sphere_dish(n, deceleration);
+inline InitialState coin_container(std::size_t n, double deceleration = 1.92) {
+    InitialState scene = sphere_container(n, deceleration);
     for (Disc& d : scene.discs) d.inertia = solid_inertia(d.mass, d.radius);
     scene.shape = Shape::coin;
     scene.floor.bodies_lie_flat = true;
@@ -117,7 +118,7 @@ inline InitialState coin_dish(std::size_t n, double deceleration = 1.92) {
 }
 /// Three kinds of sphere, solid and hollow.
 inline InitialState sphere_mixture() {
-    InitialState scene = mixture_dish(30);
+    InitialState scene = mixture_container(30);
     for (std::size_t i = 0; i < scene.discs.size(); ++i) {
         Disc& d = scene.discs[i];
         d.inertia =

@@ -24,20 +24,21 @@ InitialState many_spheres(std::size_t n, double packing, double deceleration) {
 class SpheresInEveryWidth : public OfEveryWidth {};
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBit) {
     for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})
-        expect_same_trajectory(sphere_dish(n), 4000, {0, GetParam()});
+        expect_same_trajectory(sphere_container(n), 4000, {0, GetParam()});
 }
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
     expect_same_trajectory(sphere_mixture(), 10000, {0, GetParam()});
 }
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitOnAllFloors) {
     for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
-        expect_same_trajectory(sphere_dish(28, deceleration), 4000, {0, GetParam()});
+        expect_same_trajectory(sphere_container(28, deceleration), 4000, {0, GetParam()});
 }
 TEST_P(SpheresInEveryWidth, TheSearchThroughCellsIsTheReferenceBitForBit) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 55u})
-        expect_same_trajectory(sphere_dish(n), 3000, {0, GetParam(), NeighbourSearch::cells});
+        expect_same_trajectory(sphere_container(n), 3000, {0, GetParam(), NeighbourSearch::cells});
     expect_same_trajectory(sphere_mixture(), 5000, {0, GetParam(), NeighbourSearch::cells});
-    expect_same_trajectory(sphere_dish(28, 0.0), 3000, {0, GetParam(), NeighbourSearch::cells});
+    expect_same_trajectory(sphere_container(28, 0.0), 3000,
+                           {0, GetParam(), NeighbourSearch::cells});
     for (const double packing : {0.6, 0.1})
         for (const double deceleration : {0.0, 0.5})
             expect_same_trajectory(many_spheres(90, packing, deceleration), 2000, {0, GetParam()});
@@ -46,13 +47,14 @@ TEST_P(SpheresInEveryWidth, CoinsAreTheReferenceBitForBit) {
     for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
         for (const double deceleration : {0.1, 1.92})
             for (const std::size_t n : {1u, 5u, 48u})
-                expect_same_trajectory(coin_dish(n, deceleration), 3000, {0, GetParam(), search});
+                expect_same_trajectory(coin_container(n, deceleration), 3000,
+                                       {0, GetParam(), search});
 }
 TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitWithRollingResistance) {
     for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
         for (const double resistance : {0.01, 1.5})
             for (const std::size_t n : {1u, 5u, 28u, 48u})
-                expect_same_trajectory(resisting_dish(n, resistance), 3000,
+                expect_same_trajectory(resisting_container(n, resistance), 3000,
                                        {0, GetParam(), search});
     InitialState mixture = sphere_mixture();
     mixture.floor.rolling_resistance = 0.1;
@@ -61,7 +63,7 @@ TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitWithRollingResistance) 
 TEST_P(SpheresInEveryWidth, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
     for (const NeighbourSearch search : {NeighbourSearch::all_pairs, NeighbourSearch::cells}) {
         for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
-            expect_same_trajectory(sphere_dish(n), 100000, {0, GetParam(), search});
+            expect_same_trajectory(sphere_container(n), 100000, {0, GetParam(), search});
         expect_same_trajectory(sphere_mixture(), 100000, {0, GetParam(), search});
     }
 }
@@ -95,7 +97,7 @@ void expect_spheres_are_discs_bit_for_bit(const InitialState& spheres, int event
 // discs.
 TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
     for (const std::size_t n : {2u, 5u, 28u, 48u}) {
-        InitialState spheres = sphere_dish(n, 0.0, 0.0);
+        InitialState spheres = sphere_container(n, 0.0, 0.0);
         for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
         expect_spheres_are_discs_bit_for_bit(spheres, 20000);
     }
@@ -105,7 +107,7 @@ TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
     expect_spheres_are_discs_bit_for_bit(mixture, 20000);
 }
 TEST(Spheres, WithoutFloorAndVerticalFrictionTheyAreDiscsBitForBit) {
-    for (InitialState spheres : {sphere_dish(28, 0.0, 0.5), sphere_mixture()}) {
+    for (InitialState spheres : {sphere_container(28, 0.0, 0.5), sphere_mixture()}) {
         spheres.floor.deceleration = 0.0;
         for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
         spheres.disc_surface.vertical_friction = spheres.wall_surface.vertical_friction = 0.0;
@@ -114,8 +116,8 @@ TEST(Spheres, WithoutFloorAndVerticalFrictionTheyAreDiscsBitForBit) {
 }
 
 TEST(Spheres, ResumedFromTheirStatesAndTheProgressTheyContinueBitForBit) {
-    expect_resumed_bit_for_bit(sphere_dish(40), 30000, 12345);
-    expect_resumed_bit_for_bit(resisting_dish(40, 0.1), 30000, 12345);
+    expect_resumed_bit_for_bit(sphere_container(40), 30000, 12345);
+    expect_resumed_bit_for_bit(resisting_container(40, 0.1), 30000, 12345);
 }
 
 void expect_refreshed_snapshots_are_new_ones(const InitialState& scene) {
@@ -147,14 +149,14 @@ void expect_refreshed_snapshots_are_new_ones(const InitialState& scene) {
     }
 }
 TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
-    expect_refreshed_snapshots_are_new_ones(sphere_dish(20));
-    expect_refreshed_snapshots_are_new_ones(resisting_dish(20));
+    expect_refreshed_snapshots_are_new_ones(sphere_container(20));
+    expect_refreshed_snapshots_are_new_ones(resisting_container(20));
 }
 
 // The two searches, where the reference would take too long.
 TEST(Spheres, CellsAndAllPairsAgreeBitForBitOverManySwirls) {
-    for (const InitialState& scene :
-         {sphere_dish(48), coin_dish(48), sphere_dish(40, 0.05), resisting_dish(48, 0.1)}) {
+    for (const InitialState& scene : {sphere_container(48), coin_container(48),
+                                      sphere_container(40, 0.05), resisting_container(48, 0.1)}) {
         Simulation pairs(scene), cells(scene, {}, {0, Width::best, NeighbourSearch::cells});
         pairs.run(200000);
         cells.run(200000);
@@ -167,23 +169,23 @@ TEST(Spheres, ManyResumedInTheMiddleOfALegContinueBitForBit) {
 
 // A coin that never meets the wall is soon at rest on the floor, leg after leg.
 TEST(Spheres, ACoinThatNeverMeetsTheWallGoesWithTheFloor) {
-    InitialState scene = coin_dish(1);
-    scene.discs[0].position = scene.path.legs[0].start;
-    scene.discs[0].velocity = scene.path.legs[0].velocity;
+    InitialState scene = coin_container(1);
+    scene.discs[0].position = scene.path.segments[0].start;
+    scene.discs[0].velocity = scene.path.segments[0].velocity;
     Simulation simulation(scene);
     for (std::size_t k = 1; k < 15; ++k) {
         ASSERT_EQ(simulation.step().kind, EventKind::path_vertex);
         ASSERT_EQ(simulation.step().kind, EventKind::begins_to_roll);
-        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.legs[k].velocity.x);
-        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.legs[k].velocity.y);
+        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.segments[k].velocity.x);
+        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.segments[k].velocity.y);
     }
 }
 
 // Alone and away from the wall: 2/7 of every jump of the floor's velocity, as soon as it rolls.
 TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
-    InitialState scene = sphere_dish(1);
-    const Vec2 u = scene.path.legs[0].velocity;
-    scene.discs[0].position = scene.path.legs[0].start;
+    InitialState scene = sphere_container(1);
+    const Vec2 u = scene.path.segments[0].velocity;
+    scene.discs[0].position = scene.path.segments[0].start;
     scene.discs[0].velocity = u;
     scene.discs[0].rolling_spin = {0.0, 0.0};
     Simulation simulation(scene);
@@ -191,7 +193,7 @@ TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
     for (std::size_t k = 1; k < 15; ++k) {
         ASSERT_EQ(simulation.step().kind, EventKind::path_vertex);
         ASSERT_EQ(simulation.step().kind, EventKind::begins_to_roll);
-        const Vec2 jump = scene.path.legs[k].velocity - scene.path.legs[k - 1].velocity;
+        const Vec2 jump = scene.path.segments[k].velocity - scene.path.segments[k - 1].velocity;
         expected = expected + 2.0 / 7.0 * jump;
         EXPECT_NEAR(simulation.disc(0).velocity.x, expected.x, 1e-13);
         EXPECT_NEAR(simulation.disc(0).velocity.y, expected.y, 1e-13);
@@ -201,9 +203,9 @@ TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
 // Against a resistance it comes to rest on the floor: after 2/7 of a jump it rolls with 5/7 of it
 // over the floor, and stops before the next.
 TEST(Spheres, AgainstAResistanceASphereThatNeverMeetsTheWallStopsOnTheFloorOnEveryLeg) {
-    InitialState scene = resisting_dish(1);
-    const Vec2 u = scene.path.legs[0].velocity;
-    scene.discs[0].position = scene.path.legs[0].start;
+    InitialState scene = resisting_container(1);
+    const Vec2 u = scene.path.segments[0].velocity;
+    scene.discs[0].position = scene.path.segments[0].start;
     scene.discs[0].velocity = u;
     Simulation simulation(scene);
     for (std::size_t k = 1; k < 15; ++k) {
@@ -211,17 +213,17 @@ TEST(Spheres, AgainstAResistanceASphereThatNeverMeetsTheWallStopsOnTheFloorOnEve
         const double rolls = simulation.step().clock;
         const Event rests = simulation.step();
         ASSERT_EQ(rests.kind, EventKind::begins_to_roll);
-        const Vec2 jump = scene.path.legs[k].velocity - scene.path.legs[k - 1].velocity;
+        const Vec2 jump = scene.path.segments[k].velocity - scene.path.segments[k - 1].velocity;
         EXPECT_NEAR(rests.clock - rolls, 5.0 / 7.0 * std::hypot(jump.x, jump.y) / (5.0 / 7.0 * 1.5),
                     1e-12);
-        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.legs[k].velocity.x);
-        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.legs[k].velocity.y);
+        EXPECT_EQ(simulation.disc(0).velocity.x, scene.path.segments[k].velocity.x);
+        EXPECT_EQ(simulation.disc(0).velocity.y, scene.path.segments[k].velocity.y);
     }
 }
 
 // In a dish at rest: w²/2a, however many times the clocks have restarted on the way.
 TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDeceleration) {
-    InitialState scene = resisting_dish(1, 0.02);
+    InitialState scene = resisting_container(1, 0.02);
     scene.path = still_path(1.0);
     const double w = 0.3, a = 5.0 / 7.0 * 0.02;
     scene.discs[0].position = {-3.0, 0.0};
@@ -229,7 +231,7 @@ TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDecelerat
     scene.discs[0].rolling_spin = spin_of_rolling({w, 0.0}, 1.0);
     Simulation simulation(scene);
     int stops = 0;
-    while (simulation.swirls() < 30) stops += simulation.step().kind == EventKind::begins_to_roll;
+    while (simulation.periods() < 30) stops += simulation.step().kind == EventKind::begins_to_roll;
     EXPECT_EQ(stops, 1);  // 21 restarts before it
     EXPECT_EQ(simulation.disc(0).velocity.x, 0.0);
     EXPECT_NEAR(simulation.disc(0).position.x, -3.0 + w * w / (2.0 * a), 1e-12);
@@ -238,11 +240,11 @@ TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDecelerat
 // How it has turned is the way over the floor, also where the floor has just taken another
 // velocity.
 TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
-    InitialState scene = resisting_dish(1, 0.5);
-    const Leg& leg = scene.path.legs[0];
+    InitialState scene = resisting_container(1, 0.5);
+    const Segment& segment = scene.path.segments[0];
     const Vec2 w{0.6, 0.0};
-    scene.discs[0].position = leg.start;
-    scene.discs[0].velocity = leg.velocity + w;
+    scene.discs[0].position = segment.start;
+    scene.discs[0].velocity = segment.velocity + w;
     scene.discs[0].rolling_spin = spin_of_rolling(w, 1.0);
     Simulation simulation(scene);
     Snapshot s = simulation.snapshot();
@@ -250,7 +252,7 @@ TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
     const Event vertex = simulation.step();
     ASSERT_EQ(vertex.kind, EventKind::path_vertex);
     simulation.refresh(s, vertex);
-    const double way = 0.6 * leg.end - 0.5 * (5.0 / 7.0 * 0.5) * leg.end * leg.end;
+    const double way = 0.6 * segment.end - 0.5 * (5.0 / 7.0 * 0.5) * segment.end * segment.end;
     EXPECT_NEAR(2.0 * std::acos(std::abs(s.turned[0].w)), way, 1e-9);
 }
 
@@ -258,19 +260,19 @@ TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
 // rubs much a sphere rolls, but for a share of the time that goes with 1/(μ_f g).
 TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
     const auto after = [](double deceleration) {
-        Simulation simulation(sphere_dish(5, deceleration));
+        Simulation simulation(sphere_container(5, deceleration));
         simulation.advance_to(0, 6.0);
         return simulation.snapshot();
     };
     const Snapshot none = after(0.0);
     const auto distance = [&](double deceleration) {
         const Snapshot s = after(deceleration);
-        double most = 0.0;
+        double maximum = 0.0;
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 off = s.position(i) - none.position(i);
-            most = std::max(most, std::hypot(off.x, off.y));
+            maximum = std::max(maximum, std::hypot(off.x, off.y));
         }
-        return most;
+        return maximum;
     };
     const double at_1e6 = distance(1e-6);
     EXPECT_GT(at_1e6, 1e-7);  // it does something: ½ a t² is 2·10⁻⁵
@@ -279,7 +281,7 @@ TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
     EXPECT_NEAR(distance(1e-9) / at_1e6, 1e-3, 1e-5);
 
     const auto rolling_share = [](double deceleration) {
-        Simulation simulation(sphere_dish(5, deceleration));
+        Simulation simulation(sphere_container(5, deceleration));
         int rolls = 0, all = 0;
         for (int k = 1; k <= 400; ++k) {
             simulation.advance_to(k / 40, paper_period * (k % 40) / 40.0 + 0.013);
@@ -298,8 +300,8 @@ TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
 
 /// The same sphere by small steps: no events, the friction of the floor as a force.
 TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
-    InitialState scene = sphere_dish(1, 0.7);
-    scene.discs[0].position = scene.path.legs[0].start + Vec2{-1.0, 0.5};
+    InitialState scene = sphere_container(1, 0.7);
+    scene.discs[0].position = scene.path.segments[0].start + Vec2{-1.0, 0.5};
     scene.discs[0].velocity = {0.9, -0.2};
     scene.discs[0].rolling_spin = {0.4, -0.8};
     Simulation simulation(scene);
@@ -309,7 +311,7 @@ TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
         Disc d = scene.discs[0];
         const double dt = 0.9 / steps;
         for (int k = 0; k < steps; ++k) {
-            const Vec2 c = slip_on_floor(d, scene.path.leg_at((k + 0.5) * dt).velocity);
+            const Vec2 c = slip_on_floor(d, scene.path.segment_at((k + 0.5) * dt).velocity);
             const double slip = std::hypot(c.x, c.y);
             // No further than to rest: c falls by 3.5 times what v changes.
             const double push = std::min(0.7 * dt, slip / 3.5) / slip;
@@ -328,17 +330,17 @@ TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
 // error; a contact there that changes nothing would be repeated for ever, at the same instant.
 TEST(Spheres, ThatDoNotBounceDoNotMeetForEverAtTheSameInstant) {
     for (const std::size_t n : {2u, 20u, 48u}) {
-        Simulation simulation(sphere_dish(n, 1.92, 0.2, 0.0));
-        int at_once = 0, most_at_once = 0;
+        Simulation simulation(sphere_container(n, 1.92, 0.2, 0.0));
+        int at_once = 0, max_at_once = 0;
         double before = 0.0;
         for (int k = 0; k < 60000; ++k) {
             const double now = simulation.step().clock;
             at_once = now == before ? at_once + 1 : 0;
-            most_at_once = std::max(most_at_once, at_once);
+            max_at_once = std::max(max_at_once, at_once);
             before = now;
         }
-        EXPECT_LT(most_at_once, 200) << n;
-        EXPECT_GT(simulation.clock() + paper_period * double(simulation.swirls()),
+        EXPECT_LT(max_at_once, 200) << n;
+        EXPECT_GT(simulation.clock() + paper_period * double(simulation.periods()),
                   0.5 * paper_period)
             << n;
     }

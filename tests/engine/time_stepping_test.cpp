@@ -31,7 +31,7 @@ struct Sphere {
 constexpr double inertia = 0.4;
 constexpr Vec3 up{0.0, 0.0, 1.0};
 
-struct Dish {
+struct Container {
     ContainerPath path;
     double radius, mu, restitution, floor_deceleration, rolling_resistance;
     std::vector<Sphere> spheres;
@@ -85,39 +85,41 @@ void rub_at_contact(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, doubl
 }
 
 /// Who overlaps and comes nearer has met during the step. Returns how many did.
-int collide_all(Dish& dish, const Vec3& centre, const Vec3& wall) {
+int collide_all(Container& container, const Vec3& centre, const Vec3& wall) {
     int met = 0;
-    for (std::size_t i = 0; i < dish.spheres.size(); ++i) {
-        Sphere& s = dish.spheres[i];
+    for (std::size_t i = 0; i < container.spheres.size(); ++i) {
+        Sphere& s = container.spheres[i];
         const Vec3 out = s.position - centre;
-        if (norm(out) > dish.radius - 1.0 && inner(s.velocity - wall, out) > 0.0) {
-            rub_at_contact(s, nullptr, wall, (1.0 / norm(out)) * out, dish.mu, dish.restitution);
+        if (norm(out) > container.radius - 1.0 && inner(s.velocity - wall, out) > 0.0) {
+            rub_at_contact(s, nullptr, wall, (1.0 / norm(out)) * out, container.mu,
+                           container.restitution);
             ++met;
         }
-        for (std::size_t j = i + 1; j < dish.spheres.size(); ++j) {
-            Sphere& t = dish.spheres[j];
+        for (std::size_t j = i + 1; j < container.spheres.size(); ++j) {
+            Sphere& t = container.spheres[j];
             const Vec3 apart = t.position - s.position;
             if (inner(apart, apart) > 4.0 || inner(t.velocity - s.velocity, apart) >= 0.0) continue;
-            rub_at_contact(s, &t, {}, (1.0 / norm(apart)) * apart, dish.mu, dish.restitution);
+            rub_at_contact(s, &t, {}, (1.0 / norm(apart)) * apart, container.mu,
+                           container.restitution);
             ++met;
         }
     }
     return met;
 }
 
-int step_to(Dish& dish, double end, double dt) {
+int step_to(Container& container, double end, double dt) {
     int met = 0;
     const auto steps = std::int64_t(std::llround(end / dt));
     for (std::int64_t k = 0; k < steps; ++k) {
         const double t = end * (double(k) + 0.5) / double(steps);
-        const Leg& leg = dish.path.leg_at(t);
-        const Vec2 c = leg.position_at(t + 0.5 * dt), u = leg.velocity_at(t);
+        const Segment& segment = container.path.segment_at(t);
+        const Vec2 c = segment.position_at(t + 0.5 * dt), u = segment.velocity_at(t);
         const Vec3 floor{u.x, u.y, 0.0};
-        for (Sphere& s : dish.spheres) {
-            rub_on_floor(s, floor, dish.floor_deceleration, dish.rolling_resistance, dt);
+        for (Sphere& s : container.spheres) {
+            rub_on_floor(s, floor, container.floor_deceleration, container.rolling_resistance, dt);
             s.position = s.position + dt * s.velocity;
         }
-        met += collide_all(dish, {c.x, c.y, 0.0}, floor);
+        met += collide_all(container, {c.x, c.y, 0.0}, floor);
     }
     return met;
 }
@@ -139,37 +141,37 @@ InitialState five_spheres() {
     return scene;
 }
 
-Dish dish_of(const InitialState& scene) {
-    Dish dish{scene.path,
-              scene.container_radius,
-              scene.disc_surface.mu,
-              scene.disc_surface.restitution,
-              scene.floor.deceleration,
-              scene.floor.rolling_resistance,
-              {}};
+Container container_of(const InitialState& scene) {
+    Container container{scene.path,
+                        scene.container_radius,
+                        scene.disc_surface.mu,
+                        scene.disc_surface.restitution,
+                        scene.floor.deceleration,
+                        scene.floor.rolling_resistance,
+                        {}};
     for (const Disc& d : scene.discs)
-        dish.spheres.push_back({{d.position.x, d.position.y, 0.0},
-                                {d.velocity.x, d.velocity.y, 0.0},
-                                {d.rolling_spin.x, d.rolling_spin.y, d.spin}});
-    return dish;
+        container.spheres.push_back({{d.position.x, d.position.y, 0.0},
+                                     {d.velocity.x, d.velocity.y, 0.0},
+                                     {d.rolling_spin.x, d.rolling_spin.y, d.spin}});
+    return container;
 }
 
 /// The largest difference of a place, a velocity or a spin.
-double difference(const Dish& dish, const Simulation& simulation, double time) {
-    double most = 0.0;
+double difference(const Container& container, const Simulation& simulation, double time) {
+    double maximum = 0.0;
     const Snapshot now = simulation.snapshot();
     Snapshot at = now;
     at.clock = time;
     at = at.up_to_date();
     for (std::size_t i = 0; i < at.size(); ++i) {
-        const Sphere& s = dish.spheres[i];
+        const Sphere& s = container.spheres[i];
         for (const double d :
              {s.position.x - at.x[i], s.position.y - at.y[i], s.velocity.x - at.vx[i],
               s.velocity.y - at.vy[i], s.spin.x - at.spin_x[i], s.spin.y - at.spin_y[i],
               s.spin.z - at.spin[i]})
-            most = std::max(most, std::abs(d));
+            maximum = std::max(maximum, std::abs(d));
     }
-    return most;
+    return maximum;
 }
 
 void expect_small_steps_come_to_the_same(const InitialState& scene) {
@@ -182,9 +184,9 @@ void expect_small_steps_come_to_the_same(const InitialState& scene) {
     ASSERT_GE(simulation.events().begins_to_roll, 3u);
     std::vector<double> errors;
     for (const double dt : {1e-3, 1e-4, 1e-5, 1e-6}) {
-        Dish dish = dish_of(scene);
-        const int met = step_to(dish, end, dt);
-        errors.push_back(difference(dish, simulation, end));
+        Container container = container_of(scene);
+        const int met = step_to(container, end, dt);
+        errors.push_back(difference(container, simulation, end));
         EXPECT_EQ(met, int(simulation.events().disc_disc + simulation.events().disc_wall)) << dt;
     }
     // The moment of a contact is wrong by up to dt, so the error goes with dt, though not evenly:

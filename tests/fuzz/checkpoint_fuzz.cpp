@@ -12,11 +12,11 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
 
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t maximum);
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
-    size = LLVMFuzzerMutate(data, size, most);
+                                               std::size_t maximum, unsigned seed) {
+    size = LLVMFuzzerMutate(data, size, maximum);
     if (size < 8 || seed % 16 == 0) return size;  // now and then a wrong one
     const std::uint64_t sum =
         swirl::checksum({reinterpret_cast<const char*>(data), size - sizeof sum});
@@ -44,6 +44,6 @@ void resume(const std::filesystem::path& path) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const FuzzedFile file(data, size);
-    read_or_refuse<FileError, WrongCall, Failure>([&] { resume(file.path()); });
+    read_or_reject<FileError, UsageError, Failure>([&] { resume(file.path()); });
     return 0;
 }

@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;
-    read_or_refuse<FileError, WrongCall>([&] {
+    read_or_reject<FileError, UsageError>([&] {
         const Config config =
             parse_config(std::string(reinterpret_cast<const char*>(data), size), "fuzzed.toml");
         ParameterTexts texts;

@@ -6,6 +6,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;
     const FuzzedFile file(data, size);
-    read_or_refuse<FileError>([&] { read_lammps_dump(file.path()); });
+    read_or_reject<FileError>([&] { read_lammps_dump(file.path()); });
     return 0;
 }

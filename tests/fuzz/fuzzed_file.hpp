@@ -33,9 +33,9 @@ class FuzzedFile {
 
 /// Runs the reader. It may refuse with a sentence, and must not end in any other way.
 template <class Refusal, class... Others, class Read>
-void read_or_refuse(const Read& read) {
+void read_or_reject(const Read& read) {
     if constexpr (sizeof...(Others) > 0) {
-        read_or_refuse<Others...>([&] {
+        read_or_reject<Others...>([&] {
             try {
                 read();
             } catch (const Refusal&) {

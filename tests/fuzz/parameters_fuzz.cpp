@@ -9,7 +9,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;
-    read_or_refuse<WrongCall>([&] {
+    read_or_reject<UsageError>([&] {
         const std::string text(reinterpret_cast<const char*>(data), size);
         const RunConfig config = resolve(parameters_in(text));
         const std::string written = config_json(config).dump();

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fs::create_directories(folder);
     std::ofstream(folder / "plan.json", std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    read_or_refuse<FileError, WrongCall>([&] {
+    read_or_reject<FileError, UsageError>([&] {
         const SweepPlan plan = read_plan(folder);
         for (std::size_t point = 0; point < plan.points() && point < 3; ++point) plan.config(point);
     });

@@ -30,7 +30,7 @@ inline Snapshot small_snapshot(bool spheres, std::uint64_t k) {
     if (spheres) s.turned.assign(3, {1.0, 0.0, 0.0, 0.0});
     s.period = 10.0;
     s.container_radius = 8.0;
-    s.swirls = std::int64_t(k / 4);
+    s.periods = std::int64_t(k / 4);
     s.clock = 2.5 * double(k % 4);
     for (std::size_t i = 0; i < 3; ++i)
         s.set(i,
@@ -100,10 +100,10 @@ inline constexpr RecordingKind kinds_of_good_recordings[] = {
 
 inline void read_recording(const std::filesystem::path& path, RecordingKind kind) {
     if (kind == RecordingKind::trajectory)
-        read_or_refuse<FileError>([&] {
+        read_or_reject<FileError>([&] {
             TrajectoryReader reader(path);
             for (const std::string& name : reader.provenance_names())
-                read_or_refuse<FileError>([&] { reader.provenance(name); });
+                read_or_reject<FileError>([&] { reader.provenance(name); });
             for (std::uint64_t k = 0; k < reader.frames() && k < 50; ++k) {
                 reader.frame(k);
                 reader.events_before(k);
@@ -112,7 +112,7 @@ inline void read_recording(const std::filesystem::path& path, RecordingKind kind
             reader.reach();
         });
     if (kind == RecordingKind::event_log)
-        read_or_refuse<FileError>([&] {
+        read_or_reject<FileError>([&] {
             EventLogReader log(path);
             log.provenance("parameters");
             Replay replay(log.initial(), log.swirl_end(), log.floor());
@@ -120,7 +120,7 @@ inline void read_recording(const std::filesystem::path& path, RecordingKind kind
                 replay.apply(event);
         });
     if (kind == RecordingKind::tracks)
-        read_or_refuse<FileError>([&] { read_track_recording(path); });
+        read_or_reject<FileError>([&] { read_track_recording(path); });
 }
 
 }  // namespace swirl

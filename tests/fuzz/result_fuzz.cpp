@@ -19,6 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fs::create_directories(folder / "results");
     std::ofstream(folder / "results" / "000000.json", std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    read_or_refuse<FileError>([&] { collect_sweep(folder, plan); });
+    read_or_reject<FileError>([&] { collect_sweep(folder, plan); });
     return 0;
 }

@@ -100,6 +100,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(state.data() + at, &word, field.width);
     }
     if (size % 8 == 1) state.resize(state.size() - data[size - 1] - 1);
-    read_or_refuse<FileError, Failure>([&] { run_on(std::move(state)); });
+    read_or_reject<FileError, Failure>([&] { run_on(std::move(state)); });
     return 0;
 }

@@ -28,8 +28,8 @@ void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simu
 }
 
 /// A mixture, so that no factor of 1 hides anything.
-InitialState mixed_dish() {
-    InitialState scene = paper_dish(20, 7);
+InitialState mixed_container() {
+    InitialState scene = paper_container(20, 7);
     scene.disc_surface.mu = 0.3;
     scene.path = polygon_path(1.892, 10.7, 7);  // 7 · (10.7/7) is not 10.7
     for (std::size_t i = 0; i < scene.discs.size(); i += 3) {
@@ -42,15 +42,15 @@ InitialState mixed_dish() {
 
 TEST(EventLog, ReplaysTheRunBitForBit) {
     const Scratch scratch;
-    const InitialState scene = mixed_dish();
+    const InitialState scene = mixed_container();
     Simulation simulation(scene);
     {
-        EventLogWriter log(scratch / "events.h5", simulation.snapshot(), scene.path.legs.back().end,
-                           {{"version", "1"}});
+        EventLogWriter log(scratch / "events.h5", simulation.snapshot(),
+                           scene.path.segments.back().end, {{"version", "1"}});
         for (int k = 0; k < 20'000; ++k) log.write(simulation.step());
         log.finish();
     }
-    ASSERT_GT(simulation.swirls(), 3);
+    ASSERT_GT(simulation.periods(), 3);
     EventLogReader log(scratch / "events.h5");
     ASSERT_EQ(log.events(), 20'000u);
     EXPECT_TRUE(log.complete());
@@ -65,7 +65,7 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
             replay.apply(event);
             if (first % 10'000 == 0 && event.i % 7 == 0) expect_same_discs(replay.discs(), again);
         }
-    EXPECT_EQ(replay.swirls(), simulation.swirls());
+    EXPECT_EQ(replay.periods(), simulation.periods());
     expect_same_discs(replay.discs(), simulation);
 }
 
@@ -73,7 +73,7 @@ TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
     for (const Floor floor :
          {Floor{1.92}, Floor{0.0}, Floor{1.92, true}, Floor{1.92, false, 0.5}}) {
         const Scratch scratch;
-        InitialState scene = mixed_dish();
+        InitialState scene = mixed_container();
         scene.shape = floor.bodies_lie_flat ? Shape::coin : Shape::sphere;
         scene.floor = floor;
         scene.disc_surface.restitution = scene.wall_surface.restitution = 0.9;
@@ -81,12 +81,12 @@ TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
         Simulation simulation(scene);
         {
             EventLogWriter log(scratch / "events.h5", simulation.snapshot(),
-                               scene.path.legs.back().end, {}, default_compression,
+                               scene.path.segments.back().end, {}, default_compression,
                                moving_floor(scene.floor, scene.path));
             for (int k = 0; k < 20'000; ++k) log.write(simulation.step());
             log.finish();
         }
-        ASSERT_GT(simulation.swirls(), 3);
+        ASSERT_GT(simulation.periods(), 3);
         EventLogReader log(scratch / "events.h5");
         Replay replay(log.initial(), log.swirl_end(), log.floor());
         for (const Event& event : log.read(0, 20'000)) replay.apply(event);
@@ -97,8 +97,8 @@ TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
 
 TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
     const Scratch scratch;
-    const InitialState scene = mixed_dish();
-    const double end = scene.path.legs.back().end;
+    const InitialState scene = mixed_container();
+    const double end = scene.path.segments.back().end;
     Simulation simulation(scene);
     std::vector<Event> happened;
     {
@@ -119,7 +119,7 @@ TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
 
 TEST(StateArchive, GivesBackWhatItGot) {
     ClusterRotation rotation;
-    Simulation simulation(paper_dish(9, 3));
+    Simulation simulation(paper_container(9, 3));
     for (int k = 0; k < 3'000; ++k) {
         const Event event = simulation.step();
         rotation.sample(simulation.snapshot(), event);
@@ -250,9 +250,9 @@ TEST(Checkpoint, EveryDamageIsRecognised) {
 
 TEST(Checkpoint, ForeignAndOlderFilesAreNamedAsSuch) {
     const Scratch scratch;
-    write_whole_file(scratch / "d", "{\"config\": 1}");
+    write_file_atomically(scratch / "d", "{\"config\": 1}");
     EXPECT_NE(refusal(scratch / "d").find("is not a checkpoint of swirl"), std::string::npos);
-    write_whole_file(scratch / "d", "swirl checkpoint 0\n0123456789012345678901234567890");
+    write_file_atomically(scratch / "d", "swirl checkpoint 0\n0123456789012345678901234567890");
     EXPECT_NE(refusal(scratch / "d").find("is a checkpoint in format 0"), std::string::npos);
     EXPECT_NE(refusal(scratch / "absent").find("could not be opened"), std::string::npos);
 }

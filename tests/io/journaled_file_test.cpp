@@ -31,17 +31,17 @@ TEST(WholeFile, OfManyWhoWriteANewFileAtOnceOneDoesAndTheOthersAreTold) {
     EXPECT_EQ(count, 20) << "something was left aside";
 }
 
-using Mode = StagedFile::Mode;
+using Mode = JournaledFile::Mode;
 
 std::string content(const std::filesystem::path& path) {
-    StagedFile file(path, Mode::read);
+    JournaledFile file(path, Mode::read);
     std::string bytes(file.size(), '\0');
     file.read(0, bytes.data(), bytes.size());
     return bytes;
 }
 
 /// A file whose commits overwrite old bytes and add new ones: generation g is all letters 'a' + g.
-void write_generation(StagedFile& file, int g, std::size_t size) {
+void write_generation(JournaledFile& file, int g, std::size_t size) {
     const std::string bytes(size, char('a' + g));
     // In pieces, across page borders.
     for (std::size_t at = 0; at < size; at += 1000)
@@ -63,7 +63,7 @@ TEST(Checksum, IsThePublishedCrc64) {
 
 TEST(StagedFile, ReadsBackWhatWasWrittenBeforeAndAfterTheCommit) {
     const Scratch scratch;
-    StagedFile file(scratch / "f", Mode::create);
+    JournaledFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
     file.commit();
     file.write(4090, "0123456789", 10);
@@ -79,7 +79,7 @@ TEST(StagedFile, ReadsBackWhatWasWrittenBeforeAndAfterTheCommit) {
 
 TEST(StagedFile, NothingOfAnUncommittedChangeReachesTheOldBytes) {
     const Scratch scratch;
-    StagedFile file(scratch / "f", Mode::create);
+    JournaledFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
     file.commit();
     write_generation(file, 1, 30'000);
@@ -96,7 +96,7 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
     const Scratch scratch;
     const std::size_t size = 3 * 4096;
     {
-        StagedFile file(scratch / "old", Mode::create);
+        JournaledFile file(scratch / "old", Mode::create);
         write_generation(file, 0, size);
         file.commit();
     }
@@ -115,7 +115,7 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
         write_quickly(scratch / "f", std::string(copied, 'b') + old_bytes.substr(copied));
         write_quickly(scratch / "f.journal", journal.substr(0, journal_size));
         const std::string seen = content(scratch / "f");
-        StagedFile file(scratch / "f", Mode::change);  // repairs
+        JournaledFile file(scratch / "f", Mode::change);  // repairs
         EXPECT_EQ(content(scratch / "f"), seen);
         return seen;
     };
@@ -129,15 +129,15 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
 TEST(StagedFile, IsEmptyUntilItsFirstCommitWhoeverOpensIt) {
     const Scratch scratch;
     const auto path = scratch / "f";
-    { StagedFile(path, Mode::create).commit(); }
+    { JournaledFile(path, Mode::create).commit(); }
     for (const std::size_t size : {20'000u, 50'000u}) {
-        StagedFile file(path, Mode::change);
+        JournaledFile file(path, Mode::change);
         write_generation(file, 0, size);
         EXPECT_EQ(std::filesystem::file_size(path), 0u);
     }
     EXPECT_EQ(content(path), "");
     {
-        StagedFile file(path, Mode::change);
+        JournaledFile file(path, Mode::change);
         write_generation(file, 1, 20'000);
         file.commit();
     }
@@ -147,11 +147,11 @@ TEST(StagedFile, IsEmptyUntilItsFirstCommitWhoeverOpensIt) {
 TEST(StagedFile, SurvivesKillsAtRandomMoments) {
     const Scratch scratch;
     const auto path = scratch / "f";
-    { StagedFile(path, Mode::create).commit(); }
+    { JournaledFile(path, Mode::create).commit(); }
     for (int round = 0; round < 20; ++round) {
         const pid_t child = ::fork();
         if (child == 0) {
-            StagedFile file(path, Mode::change);
+            JournaledFile file(path, Mode::change);
             for (int g = 0;; g = (g + 1) % 26) {
                 write_generation(file, g, 50'000 + 5'000 * std::size_t(g));
                 file.commit();
@@ -170,24 +170,24 @@ TEST(StagedFile, SurvivesKillsAtRandomMoments) {
 
 TEST(StagedFile, RefusesASecondWriter) {
     const Scratch scratch;
-    StagedFile file(scratch / "f", Mode::create);
-    EXPECT_THROW(StagedFile(scratch / "f", Mode::create), FileError);
-    EXPECT_THROW(StagedFile(scratch / "f", Mode::change), FileError);
-    EXPECT_NO_THROW(StagedFile(scratch / "f", Mode::read));
+    JournaledFile file(scratch / "f", Mode::create);
+    EXPECT_THROW(JournaledFile(scratch / "f", Mode::create), FileError);
+    EXPECT_THROW(JournaledFile(scratch / "f", Mode::change), FileError);
+    EXPECT_NO_THROW(JournaledFile(scratch / "f", Mode::read));
 }
 
 TEST(WholeFile, StandsUnderItsNameOnlyWhenItIsComplete) {
     const Scratch scratch;
-    write_whole_file(scratch / "f", "old");
+    write_file_atomically(scratch / "f", "old");
     {
-        WholeFile file(scratch / "f");
+        AtomicFile file(scratch / "f");
         file.append(std::string(3'000'000, 'x'));
         EXPECT_EQ(read_whole_file(scratch / "f"), "old");
     }
     EXPECT_EQ(read_whole_file(scratch / "f"), "old");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.folder()), {}), 1);
     {
-        WholeFile file(scratch / "f");
+        AtomicFile file(scratch / "f");
         file.append("new......");
         file.replace(0, "NEW");
         file.finish();
@@ -200,7 +200,7 @@ TEST(WholeFile, HoldsSmallAndLargePiecesInTheirOrder) {
     // Pieces wait in a buffer of a mebibyte; who does not fit goes past it.
     const Scratch scratch;
     std::string all;
-    WholeFile file(scratch / "f");
+    AtomicFile file(scratch / "f");
     for (const std::size_t size : {3, 1 << 20, 5, (1 << 20) - 5, 4, 3 << 20, 0, 700'000, 700'000}) {
         const std::string piece(size, char('a' + all.size() % 23));
         file.append(piece);
@@ -216,7 +216,7 @@ TEST(WholeFile, HoldsSmallAndLargePiecesInTheirOrder) {
 TEST(WholeFile, SaysWhereItCouldNotBeWritten) {
     const Scratch scratch;
     try {
-        write_whole_file(scratch / "absent/f", "x");
+        write_file_atomically(scratch / "absent/f", "x");
         FAIL();
     } catch (const FileError& error) {
         EXPECT_NE(std::string(error.what()).find("absent/f' could not be written: No such file"),

@@ -52,18 +52,18 @@ TEST(Recording, AnothersUnfinishedFileIsNotBegunAnew) {
         write_frames(a, 0, 20);
         a.flush();
     }
-    EXPECT_NE(refusal([&] { refuse_foreign_recording(path, "b"); }).find("--overwrite"),
+    EXPECT_NE(refusal([&] { reject_foreign_recording(path, "b"); }).find("--overwrite"),
               std::string::npos);
-    EXPECT_EQ(refusal([&] { refuse_foreign_recording(path, "a"); }), "");
-    EXPECT_EQ(refusal([&] { refuse_foreign_recording(scratch / "absent.h5", "b"); }), "");
+    EXPECT_EQ(refusal([&] { reject_foreign_recording(path, "a"); }), "");
+    EXPECT_EQ(refusal([&] { reject_foreign_recording(scratch / "absent.h5", "b"); }), "");
     // Killed before anything was kept, it is nobody's.
     write_quickly(scratch / "new.h5.partial", "");
-    EXPECT_EQ(refusal([&] { refuse_foreign_recording(scratch / "new.h5", "b"); }), "");
+    EXPECT_EQ(refusal([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
 }
 
 TEST(Recording, AnEventLogKnowsItsRunToo) {
     const Scratch scratch;
-    Simulation simulation(paper_dish(9, 3));
+    Simulation simulation(paper_container(9, 3));
     {
         EventLogWriter log(scratch / "e.h5", simulation.snapshot(), 11.0, of_run("a"));
         for (int k = 0; k < 100; ++k) log.write(simulation.step());
@@ -103,12 +103,12 @@ TEST(Recording, ColumnsOfDifferentLengthAreRefused) {
 TEST(Recording, ASmallFileThatPromisesALargeColumnIsRefusedBeforeMemoryIsAskedFor) {
     const Scratch scratch;
     {
-        Hdf5File file(scratch / "f.partial", StagedFile::Mode::create);
+        Hdf5File file(scratch / "f.partial", JournaledFile::Mode::create);
         file.create_column<double>("/long", {}, {1024}, Packing::none)
             .resize(std::uint64_t(1) << 45);
         file.finish(scratch / "f");
     }
-    const Hdf5File file(scratch / "f", StagedFile::Mode::read);
+    const Hdf5File file(scratch / "f", JournaledFile::Mode::read);
     EXPECT_NE(refusal([&] { file.column("/long").read<double>(); }).find("is damaged"),
               std::string::npos);
 }

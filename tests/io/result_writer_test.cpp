@@ -47,14 +47,14 @@ TEST(WholeFile, WhatAKillLeftBehindIsRemovedAndWhatIsBeingWrittenIsNot) {
     const Scratch scratch;
     const pid_t child = ::fork();
     if (child == 0) {
-        WholeFile killed(scratch / "f");
+        AtomicFile killed(scratch / "f");
         killed.append("half");
         killed.empty_buffer();
         ::_exit(1);
     }
     ::waitpid(child, nullptr, 0);
     ASSERT_EQ(files_in(scratch.folder()), 1u);
-    WholeFile alive(scratch / "f");
+    AtomicFile alive(scratch / "f");
     write_quickly(scratch / "f.my own.partial", "not ours");
     remove_leftovers_of(scratch / "other");
     EXPECT_EQ(files_in(scratch.folder()), 3u);
@@ -70,7 +70,7 @@ TEST(StagedFile, OnceSomethingFailedNothingMoreIsCommitted) {
     rlimit before;
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
     ::signal(SIGXFSZ, SIG_IGN);
-    StagedFile file(scratch / "f", StagedFile::Mode::create);
+    JournaledFile file(scratch / "f", JournaledFile::Mode::create);
     file.write(0, "first", 5);
     file.commit();
     rlimit small = before;

@@ -45,7 +45,7 @@ inline void write_quickly(const std::filesystem::path& path, const std::string& 
 }
 
 /// The paper's dish.
-inline InitialState paper_dish(int discs, std::uint64_t seed) {
+inline InitialState paper_container(int discs, std::uint64_t seed) {
     InitialState scene;
     const std::vector<double> radii(std::size_t(discs), 1.0);
     const auto places = place_discs(radii, paper_container_radius, seed);
@@ -53,8 +53,8 @@ inline InitialState paper_dish(int discs, std::uint64_t seed) {
     scene.path = polygon_path(paper_amplitude, paper_period, paper_sides);
     scene.container_radius = paper_container_radius;
     for (const Vec2& place : *places)
-        scene.discs.push_back({place + scene.path.legs[0].start,
-                               random.in_disc(0.1) + scene.path.legs[0].velocity, 0.0, 0.0, 0.0,
+        scene.discs.push_back({place + scene.path.segments[0].start,
+                               random.in_disc(0.1) + scene.path.segments[0].velocity, 0.0, 0.0, 0.0,
                                1.0, 1.0, paper_inertia});
     return scene;
 }
@@ -64,7 +64,7 @@ inline Snapshot known_frame(std::size_t discs, std::uint64_t k) {
     Snapshot s;
     s.resize(discs);
     s.period = 11.866071;
-    s.swirls = std::int64_t(k / 8);
+    s.periods = std::int64_t(k / 8);
     s.clock = s.period * double(k % 8) / 8.0;
     s.container_radius = 8.6;
     s.container_centre = {0.1 * double(k), -0.2};

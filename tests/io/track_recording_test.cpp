@@ -77,7 +77,7 @@ TEST(TrackRecording, NothingIsLeftOfOneThatCannotBeWritten) {
 TEST(TrackRecording, ADiscKeepsItsPlaceInTheRowAndStepAndTimeAreThePictures) {
     const Scratch scratch;
     write(scratch / "tracks.h5");
-    const Hdf5File file(scratch / "tracks.h5", StagedFile::Mode::read);
+    const Hdf5File file(scratch / "tracks.h5", JournaledFile::Mode::read);
     EXPECT_EQ(file.integers_attribute("/h5md", "version"), (std::vector<std::int64_t>{1, 1}));
     EXPECT_EQ(file.column("/particles/tracks/id/value").read<std::int64_t>(),
               (std::vector<std::int64_t>{0, 2, 9, 0, -1, 9, 0, 2, 9}));
@@ -101,7 +101,7 @@ std::string refusal(const std::filesystem::path& path) {
 TEST(TrackRecording, WhatIsNoneIsRefusedInASentence) {
     const Scratch scratch;
     {
-        Hdf5File other(scratch / "other.h5.partial", StagedFile::Mode::create);
+        Hdf5File other(scratch / "other.h5.partial", JournaledFile::Mode::create);
         other.create_group("/particles");
         other.finish(scratch / "other.h5");
     }
@@ -116,7 +116,7 @@ TEST(TrackRecording, WhatIsNoneIsRefusedInASentence) {
 
     write(scratch / "twice.h5");
     {
-        Hdf5File file(scratch / "twice.h5", StagedFile::Mode::change);
+        Hdf5File file(scratch / "twice.h5", JournaledFile::Mode::change);
         Column ids = file.column("/particles/tracks/id/value");
         const std::vector<std::int64_t> same{0, 0, 9};
         ids.change<std::int64_t>(0, 1, same.data());

@@ -17,7 +17,7 @@ Tracks tracks_in(const std::string& text) {
     write_quickly(scratch / "tracks.csv", text);
     return read_trackpy_csv(scratch / "tracks.csv");
 }
-Tracks mended(const std::string& text, double radius) {
+Tracks repaired(const std::string& text, double radius) {
     Tracks tracks = tracks_in(text);
     mend(tracks, radius);
     return tracks;
@@ -73,30 +73,31 @@ TEST(TrackpyTable, ReadsWhatSpreadsheetsWrite) {
 }
 
 TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
-    const auto refused = [](const std::string& text) { return refusal(tracks_in, text); };
+    const auto rejected = [](const std::string& text) { return refusal(tracks_in, text); };
     const std::string head = "frame,particle,x,y\n";
-    EXPECT_NE(refused("").find("a header line with frame, particle, x, y"), std::string::npos);
-    EXPECT_NE(refused(head).find("holds no positions"), std::string::npos);
+    EXPECT_NE(rejected("").find("a header line with frame, particle, x, y"), std::string::npos);
+    EXPECT_NE(rejected(head).find("holds no positions"), std::string::npos);
     for (const char* missing : {"particle,x,y\n0,1,2\n", "frame,x,y\n0,1,2\n",
                                 "frame,particle,y\n0,0,1\n", "frame;particle;x;y\n0;0;1;2\n"})
-        EXPECT_NE(refused(missing).find("line 1: the header must name the columns"),
+        EXPECT_NE(rejected(missing).find("line 1: the header must name the columns"),
                   std::string::npos)
             << missing;
     for (const char* name : {"frame", "particle", "x", "y"})
-        EXPECT_NE(refused(fmt::format("frame,particle,x,y,{}\n0,0,1,2,0\n", name))
+        EXPECT_NE(rejected(fmt::format("frame,particle,x,y,{}\n0,0,1,2,0\n", name))
                       .find(fmt::format("line 1: there are two columns '{}'", name)),
                   std::string::npos);
     // Columns that are not read may have any name.
     EXPECT_EQ(tracks_in("frame,particle,x,y,,\n0,0,1,2,,\n").frames.size(), 1u);
-    EXPECT_NE(refused(head + "0,0,1,2\n0,1,nan,2\n").find("line 3: 'nan' is not a finite number"),
+    EXPECT_NE(rejected(head + "0,0,1,2\n0,1,nan,2\n").find("line 3: 'nan' is not a finite number"),
               std::string::npos);
-    EXPECT_NE(refused(head + "0,0,,2\n").find("line 2: '' is not a finite number"),
+    EXPECT_NE(rejected(head + "0,0,,2\n").find("line 2: '' is not a finite number"),
               std::string::npos);
-    EXPECT_NE(refused(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
-    EXPECT_NE(refused(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"), std::string::npos);
-    EXPECT_NE(refused(head + "0,0,1\n").find("line 2: 3 values, but the header names 4 columns"),
+    EXPECT_NE(rejected(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
+    EXPECT_NE(rejected(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"),
               std::string::npos);
-    EXPECT_NE(refused(head + "0,5,1,2\n1,5,1,2\n0,5,1,2\n")
+    EXPECT_NE(rejected(head + "0,0,1\n").find("line 2: 3 values, but the header names 4 columns"),
+              std::string::npos);
+    EXPECT_NE(rejected(head + "0,5,1,2\n1,5,1,2\n0,5,1,2\n")
                   .find("line 4: particle 5 appears twice "
                         "in frame 0"),
               std::string::npos);
@@ -104,10 +105,10 @@ TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
 
 TEST(MendedTracks, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
     // Missing in frames 2 … 6; and then in six frames.
-    const Tracks tracks = mended(
+    const Tracks tracks = repaired(
         "frame,particle,x,y\n0,0,-1,14\n1,0,0,12\n7,0,6,0\n8,0,6,0\n15,0,6,0\n16,0,6,0\n", 100.0);
-    EXPECT_EQ(tracks.mended.filled, 5u);
-    EXPECT_EQ(tracks.mended.renamed, 0u);
+    EXPECT_EQ(tracks.repaired.filled, 5u);
+    EXPECT_EQ(tracks.repaired.renamed, 0u);
     ASSERT_EQ(tracks.frames.size(), 11u);
     for (int k = 1; k <= 7; ++k) {
         EXPECT_EQ(tracks.frames[std::size_t(k)].number, k);
@@ -120,8 +121,8 @@ TEST(MendedTracks, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
 
 TEST(MendedTracks, EverySecondPictureIsNoGap) {
     const Tracks tracks =
-        mended("frame,particle,x,y\n0,0,0,0\n2,0,1,0\n4,0,2,0\n8,0,4,0\n10,0,5,0\n", 10.0);
-    EXPECT_EQ(tracks.mended.filled, 1u);  // frame 6
+        repaired("frame,particle,x,y\n0,0,0,0\n2,0,1,0\n4,0,2,0\n8,0,4,0\n10,0,5,0\n", 10.0);
+    EXPECT_EQ(tracks.repaired.filled, 1u);  // frame 6
     ASSERT_EQ(tracks.frames.size(), 6u);
     EXPECT_EQ(tracks.frames[3].number, 6);
     EXPECT_EQ(tracks.frames[3].position[0].x, 3.0);
@@ -149,43 +150,43 @@ void expect_two_whole_discs(const Tracks& tracks) {
 
 TEST(MendedTracks, ExchangedNamesAreGivenBack) {
     const Tracks tracks =
-        mended(two_discs([](int k, int d) { return (k < 17) == (d == 0) ? 3 : 8; },
-                         [](int, int) { return 0; }),
-               10.0);
+        repaired(two_discs([](int k, int d) { return (k < 17) == (d == 0) ? 3 : 8; },
+                           [](int, int) { return 0; }),
+                 10.0);
     expect_two_whole_discs(tracks);
-    EXPECT_EQ(tracks.mended.renamed, 2u);
-    EXPECT_EQ(tracks.mended.filled, 0u);
+    EXPECT_EQ(tracks.repaired.renamed, 2u);
+    EXPECT_EQ(tracks.repaired.filled, 0u);
 }
 
 TEST(MendedTracks, ADiscLostAndFoundAgainUnderAnotherNameIsTheSame) {
     const Tracks tracks =
-        mended(two_discs([](int k, int d) { return d == 0   ? 3
-                                                   : k < 20 ? 8
-                                                            : 11; },
-                         [](int k, int d) { return int(d == 1 && k >= 20 && k < 24); }),
-               10.0);
+        repaired(two_discs([](int k, int d) { return d == 0   ? 3
+                                                     : k < 20 ? 8
+                                                              : 11; },
+                           [](int k, int d) { return int(d == 1 && k >= 20 && k < 24); }),
+                 10.0);
     expect_two_whole_discs(tracks);
-    EXPECT_EQ(tracks.mended.renamed, 1u);
-    EXPECT_EQ(tracks.mended.filled, 4u);
+    EXPECT_EQ(tracks.repaired.renamed, 1u);
+    EXPECT_EQ(tracks.repaired.filled, 4u);
 }
 
 TEST(MendedTracks, WhatIsLostForLongerComesAsAnotherDisc) {
     const Tracks tracks =
-        mended(two_discs([](int k, int d) { return d == 0   ? 3
-                                                   : k < 20 ? 8
-                                                            : 11; },
-                         [](int k, int d) { return int(d == 1 && k >= 20 && k < 26); }),
-               10.0);
-    EXPECT_EQ(tracks.mended.renamed, 0u);
+        repaired(two_discs([](int k, int d) { return d == 0   ? 3
+                                                     : k < 20 ? 8
+                                                              : 11; },
+                           [](int k, int d) { return int(d == 1 && k >= 20 && k < 26); }),
+                 10.0);
+    EXPECT_EQ(tracks.repaired.renamed, 0u);
     EXPECT_EQ(tracks.frames[22].id, (std::vector<std::int64_t>{3}));
     EXPECT_EQ(tracks.frames[30].id, (std::vector<std::int64_t>{3, 11}));
     EXPECT_EQ(series_of(tracks, {}).breaks, (std::vector<std::uint64_t>{20, 26}));
 }
 
 TEST(MendedTracks, APositionFarFromAllOthersOfItsDiscHasNoVelocityAndIsLeftOut) {
-    const Tracks tracks = mended(
+    const Tracks tracks = repaired(
         "frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n9,0,9,0\n16,0,16,0\n17,0,17,0\n", 10.0);
-    EXPECT_EQ(tracks.mended.dropped, 1u);
+    EXPECT_EQ(tracks.repaired.dropped, 1u);
     ASSERT_EQ(tracks.frames.size(), 5u);
     EXPECT_EQ(tracks.frames[3].number, 16);
 }
@@ -199,18 +200,18 @@ TEST(MendedTracks, WhatTellsMoreThanPositionsIsLeftAsItIs) {
 
 TEST(MendedTracks, AFlashInASingleFrameIsNoDisc) {
     const Tracks tracks =
-        mended(two_discs([](int, int d) { return d == 0 ? 3 : 8; }, [](int, int) { return 0; }) +
-                   "12,99,300,0\n",
-               10.0);
+        repaired(two_discs([](int, int d) { return d == 0 ? 3 : 8; }, [](int, int) { return 0; }) +
+                     "12,99,300,0\n",
+                 10.0);
     expect_two_whole_discs(tracks);
-    EXPECT_EQ(tracks.mended.dropped, 1u);
+    EXPECT_EQ(tracks.repaired.dropped, 1u);
 }
 
 TEST(MendedTracks, WhereDiscsMoveFarFromFrameToFrameTheNamesAreBelieved) {
     std::string text = "frame,particle,x,y\n";
     for (int k = 0; k < 40; ++k)
         text += std::to_string(k) + ",3," + std::to_string(15 * k) + ",0\n";
-    const Tracks tracks = mended(text, 10.0);
+    const Tracks tracks = repaired(text, 10.0);
     EXPECT_EQ(tracks.frames.size(), 40u);
     EXPECT_TRUE(series_of(tracks, {}).same_discs());
 }
@@ -233,7 +234,7 @@ TEST(TrackScale, FramesPerTimeAndThePeriodGiveTheClock) {
     scale.frames_per_time = 10.0;
     scale.period = 4.0;
     const Snapshot s = seen(0.0, 0.0, scale, 93);  // at time 9.3
-    EXPECT_EQ(s.swirls, 2);
+    EXPECT_EQ(s.periods, 2);
     EXPECT_DOUBLE_EQ(s.clock, 1.3);
     EXPECT_EQ(s.period, 4.0);
 }
@@ -369,21 +370,23 @@ TEST(LammpsDump, ReadsWhatIsGiven) {
 }
 
 TEST(LammpsDump, RefusesWithTheLine) {
-    const auto refused = [](const std::string& text) { return refusal(dump_in, text); };
-    EXPECT_NE(refused("").find("holds no frames"), std::string::npos);
-    EXPECT_NE(refused("1,2,3\n").find("line 1: this is not a LAMMPS text dump"), std::string::npos);
-    EXPECT_NE(refused(dump_head + "ITEM: ATOMS type x y\n").find("columns id, x and y"),
+    const auto rejected = [](const std::string& text) { return refusal(dump_in, text); };
+    EXPECT_NE(rejected("").find("holds no frames"), std::string::npos);
+    EXPECT_NE(rejected("1,2,3\n").find("line 1: this is not a LAMMPS text dump"),
               std::string::npos);
-    EXPECT_NE(refused(dump_head + "ITEM: ATOMS id x y\n1 0 0\n").find("where an atom was expected"),
+    EXPECT_NE(rejected(dump_head + "ITEM: ATOMS type x y\n").find("columns id, x and y"),
               std::string::npos);
     EXPECT_NE(
-        refused(dump_head + "ITEM: ATOMS id x y\n1 0 0\n1 1 1\n").find("atom 1 appears twice"),
+        rejected(dump_head + "ITEM: ATOMS id x y\n1 0 0\n").find("where an atom was expected"),
         std::string::npos);
-    EXPECT_NE(refused(dump_head + "ITEM: ATOMS id x y\n1 0 inf\n2 1 1\n").find("line 10: 'inf'"),
+    EXPECT_NE(
+        rejected(dump_head + "ITEM: ATOMS id x y\n1 0 0\n1 1 1\n").find("atom 1 appears twice"),
+        std::string::npos);
+    EXPECT_NE(rejected(dump_head + "ITEM: ATOMS id x y\n1 0 inf\n2 1 1\n").find("line 10: 'inf'"),
               std::string::npos);
     const std::string frame = dump_head + "ITEM: ATOMS id x y\n1 0 0\n2 1 1\n";
-    EXPECT_NE(refused(frame + frame).find("the time steps do not ascend"), std::string::npos);
-    EXPECT_NE(refused("ITEM: TIMESTEP\n0\nITEM: ATOMS id x y\n").find("is missing before"),
+    EXPECT_NE(rejected(frame + frame).find("the time steps do not ascend"), std::string::npos);
+    EXPECT_NE(rejected("ITEM: TIMESTEP\n0\nITEM: ATOMS id x y\n").find("is missing before"),
               std::string::npos);
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t discs = 5;
 constexpr std::uint64_t frames = 20;
 
 void expect_same(const Snapshot& a, const Snapshot& b) {
-    EXPECT_EQ(a.swirls, b.swirls);
+    EXPECT_EQ(a.periods, b.periods);
     EXPECT_EQ(a.clock, b.clock);
     EXPECT_EQ(a.period, b.period);
     EXPECT_EQ(a.container_radius, b.container_radius);
@@ -166,7 +166,7 @@ TEST(Trajectory, AFinishedOneWhoseColumnsDifferInLengthIsRefused) {
             const Scratch scratch;
             const auto path = known_trajectory(scratch);
             {
-                Hdf5File file(path, StagedFile::Mode::change);
+                Hdf5File file(path, JournaledFile::Mode::change);
                 file.column(name).resize(frames - 1);
                 file.set_attribute("/parameters", "complete", std::vector<std::int64_t>{complete});
                 file.flush();
@@ -197,7 +197,7 @@ TEST(Trajectory, KilledAtRandomMomentsItLosesAtMostTheLastSecond) {
             for (std::uint64_t k = 0;; ++k) {
                 writer.write(known_frame(48, k), k);
                 if (k % 50 == 49) writer.flush();  // far more often than each second
-                if (k == 49) write_whole_file(begun, "flushed once");
+                if (k == 49) write_file_atomically(begun, "flushed once");
             }
         }
         // On a busy machine the child may not even have begun after any fixed time.
@@ -281,8 +281,8 @@ TEST(Trajectory, QuickIsAboutAsSmallAsDeflateWhereVelocitiesRepeat) {
 
 TEST(Trajectory, RefusesForeignAndDamagedFiles) {
     const Scratch scratch;
-    const auto refused = [&](const std::string& bytes) -> std::string {
-        write_whole_file(scratch / "f", bytes);
+    const auto rejected = [&](const std::string& bytes) -> std::string {
+        write_file_atomically(scratch / "f", bytes);
         try {
             TrajectoryReader reader(scratch / "f");
             for (std::uint64_t k = 0; k < reader.frames(); ++k) reader.frame(k);
@@ -291,12 +291,12 @@ TEST(Trajectory, RefusesForeignAndDamagedFiles) {
         }
         return "";
     };
-    EXPECT_NE(refused("").find("is not an HDF5 file"), std::string::npos);
-    EXPECT_NE(refused("frame,particle,x,y\n").find("is not an HDF5 file"), std::string::npos);
+    EXPECT_NE(rejected("").find("is not an HDF5 file"), std::string::npos);
+    EXPECT_NE(rejected("frame,particle,x,y\n").find("is not an HDF5 file"), std::string::npos);
     const std::string whole = read_whole_file(known_trajectory(scratch));
     for (std::size_t cut = 1; cut < whole.size(); cut += whole.size() / 40)
-        EXPECT_NE(refused(whole.substr(0, cut)), "") << cut;
-    EXPECT_EQ(refused(whole), "");
+        EXPECT_NE(rejected(whole.substr(0, cut)), "") << cut;
+    EXPECT_EQ(rejected(whole), "");
 }
 
 /// What other people's programs read, of discs and of spheres.

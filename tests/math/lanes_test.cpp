@@ -51,7 +51,7 @@ void expect_each_lane_is_the_scalar() {
     const Lanes<W> A = a.lanes(), B = b.lanes();
     const Numbers<W> sum = stored(A + B), difference = stored(A - B), product = stored(A * B),
                      quotient = stored(A / B), negative = stored(-A), root = stored(square_root(A)),
-                     least = stored(smaller(A, B)), most = stored(larger(A, B)),
+                     minimum = stored(smaller(A, B)), maximum = stored(larger(A, B)),
                      chosen = stored(select((A < B) & (A >= Lanes<W>(0.0)), A, B)),
                      equal = stored(select(A == B, A, Lanes<W>(-1.0)));
     for (int k = 0; k < W; ++k) {
@@ -62,8 +62,8 @@ void expect_each_lane_is_the_scalar() {
         RC_ASSERT(same_bits(quotient.value[k], x / y));
         RC_ASSERT(same_bits(negative.value[k], -x));
         RC_ASSERT(same_bits(root.value[k], square_root(x)));
-        RC_ASSERT(same_bits(least.value[k], smaller(x, y)));
-        RC_ASSERT(same_bits(most.value[k], larger(x, y)));
+        RC_ASSERT(same_bits(minimum.value[k], smaller(x, y)));
+        RC_ASSERT(same_bits(maximum.value[k], larger(x, y)));
         RC_ASSERT(same_bits(chosen.value[k], x < y && x >= 0.0 ? x : y));
         RC_ASSERT(same_bits(equal.value[k], x == y ? x : -1.0));
     }
@@ -77,12 +77,12 @@ RC_GTEST_PROP(Lanes, EachLaneIsTheScalarBitForBit, ()) {
 
 RC_GTEST_PROP(Lanes, SmallestAndWhereItIs, ()) {
     const Numbers<8> a = draw_numbers<8>();
-    double least = infinity;
-    for (const double x : a.value) least = x < least ? x : least;
-    RC_ASSERT(smallest(a.lanes()) == least);
+    double minimum = infinity;
+    for (const double x : a.value) minimum = x < minimum ? x : minimum;
+    RC_ASSERT(smallest(a.lanes()) == minimum);
     unsigned where = 0;
-    for (unsigned k = 0; k < 8; ++k) where |= a.value[k] == least ? 1u << k : 0u;
-    RC_ASSERT(lanes_equal(a.lanes(), least) == where);
+    for (unsigned k = 0; k < 8; ++k) where |= a.value[k] == minimum ? 1u << k : 0u;
+    RC_ASSERT(lanes_equal(a.lanes(), minimum) == where);
 }
 
 RC_GTEST_PROP(Lanes, ReplacingOneLaneKeepsTheOthers, ()) {

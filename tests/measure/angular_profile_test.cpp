@@ -34,7 +34,7 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
     // Discs at rest in the M-frame: ϖ_M,i = 0 there. The wall passes the centre of mass at
     // −Ω (d·p)/d², d = p − r_cm; for a slice at θ with the centre of mass at (0, −h).
     AngularProfile profile(4);
-    Snapshot s = empty_dish(0.2);
+    Snapshot s = empty_container(0.2);
     const MFrame f = m_frame(s);
     const double h = 3.0;
     const auto rest = [&](const Vec2& p) {
@@ -59,8 +59,8 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
 
 TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
     AngularProfile profile(8);
-    profile.sample(empty_dish());
-    Snapshot s = empty_dish();
+    profile.sample(empty_container());
+    Snapshot s = empty_container();
     add_disc(s, {3.0, 1.0}, {0.0, 0.0});
     profile.sample(s);
     profile.close_block();
@@ -69,7 +69,7 @@ TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
 
 /// Discs at places of the M-frame with velocities relative to the container.
 Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
-    Snapshot s = empty_dish(0.2);
+    Snapshot s = empty_container(0.2);
     const MFrame f = m_frame(s);
     for (const auto& [place, velocity] : discs)
         add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity));

@@ -9,7 +9,7 @@ namespace {
 
 /// A dish whose discs are at these places of the M-frame and rest in it.
 Snapshot resting_at(const std::vector<Vec2>& places, double u = 0.0) {
-    Snapshot s = empty_dish(u);
+    Snapshot s = empty_container(u);
     const MFrame frame = m_frame(s);
     for (const Vec2& p : places) add_disc(s, frame.lab_position(p), frame.lab_velocity(p, {}));
     return s;
@@ -51,7 +51,7 @@ TEST(ClusterCentre, ForcesOnADiscAtMAndOnOneThatTheWallDrags) {
     EXPECT_NEAR(at_M.centrifugal().mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
     EXPECT_NEAR(at_M.coriolis().mean, 0.0, 1e-9);
     // At rest relative to the container: with the wall's −Ω about C.
-    Snapshot dragged = empty_dish();
+    Snapshot dragged = empty_container();
     add_disc(dragged, dragged.container_centre + Vec2{0.0, 5.0}, dragged.container_velocity);
     ClusterCentre with_wall(1);
     with_wall.sample(dragged);
@@ -61,7 +61,7 @@ TEST(ClusterCentre, ForcesOnADiscAtMAndOnOneThatTheWallDrags) {
 
 TEST(ClusterCentre, NothingSeenIsNotKnown) {
     ClusterCentre centre(1);
-    centre.sample(empty_dish());
+    centre.sample(empty_container());
     centre.close_block();
     EXPECT_TRUE(std::isnan(centre.x().mean));
     EXPECT_TRUE(std::isnan(centre.direction().angle().mean));

@@ -110,7 +110,7 @@ TEST(ClusterRotation, EveryWidthGivesTheSameBits) {
 }
 
 TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
     EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
     add_disc(s, {1.0, 2.0}, {0.3, 0.4});
@@ -126,7 +126,7 @@ TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
 TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
     for (const int others : {6, 8, 12, 46}) {
         for (int place = 0; place <= others; ++place) {
-            Snapshot s = empty_dish();
+            Snapshot s = empty_container();
             for (int k = 0; k < others; ++k) {
                 if (k == place) add_disc(s, {0.0, 0.0}, {0.0, 0.0});
                 const Vec2 p = 4.0 * unit_circle(double(k) / others);
@@ -147,7 +147,7 @@ TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
 TEST(ClusterRotation, ADiscThatPassesTheCentreOfMassIsLeftOutWhereverItStandsInTheList) {
     constexpr int others = 46;
     for (int place = 0; place <= others; ++place) {
-        Snapshot s = empty_dish();
+        Snapshot s = empty_container();
         for (int k = 0; k < others; ++k) {
             if (k == place) add_disc(s, {0.0, 0.0}, {0.3, 0.4});
             const Vec2 p = 4.0 * unit_circle(double(k) / others);
@@ -230,7 +230,7 @@ TEST(ClusterRotation, WhereDiscsComeOrGoTheCentreOfMassIsFoundAnew) {
 
 TEST(ClusterRotation, AStateThatIsNotANumberShows) {
     Snapshot s = random_discs(20, 4);
-    s.vx[3] = not_known;
+    s.vx[3] = not_available;
     EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
     EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
 }

@@ -10,7 +10,7 @@ namespace swirl {
 namespace {
 
 TEST(DishFit, TheGapIsThatOfTheDiscNearestToTheWall) {
-    Snapshot s = empty_dish(0.2);
+    Snapshot s = empty_container(0.2);
     EXPECT_EQ(wall_gap(s), paper_container_radius);
     add_disc(s, s.container_centre + Vec2{0.0, 3.0}, {});
     add_disc(s, s.container_centre + Vec2{-7.0, 0.0}, {}, 0.0, 1.25);
@@ -21,18 +21,18 @@ TEST(DishFit, TheGapIsThatOfTheDiscNearestToTheWall) {
 }
 
 TEST(DishFit, TheClosestPairIsFoundAmongAll) {
-    EXPECT_EQ(closest_pair(empty_dish()), never);
+    EXPECT_EQ(closest_pair(empty_container()), never);
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         Snapshot s = random_discs(40, seed);
         Noise noise(seed);
         for (double& radius : s.radius) radius = 1.0 + 0.6 * noise();
-        double least = never;
+        double minimum = never;
         for (std::size_t i = 0; i < s.size(); ++i)
             for (std::size_t j = i + 1; j < s.size(); ++j) {
                 const Vec2 d = s.position(i) - s.position(j);
-                least = std::min(least, std::hypot(d.x, d.y) / (s.radius[i] + s.radius[j]));
+                minimum = std::min(minimum, std::hypot(d.x, d.y) / (s.radius[i] + s.radius[j]));
             }
-        EXPECT_NEAR(closest_pair(s), least, 1e-13);
+        EXPECT_NEAR(closest_pair(s), minimum, 1e-13);
     }
 }
 
@@ -41,7 +41,7 @@ TEST(DishFit, TheClosestPairIsFoundAmongAll) {
 FittingPhase seen(double degrees, double sense) {
     FittingPhase fit;
     for (int k = 0; k < 50; ++k) {
-        Snapshot s = empty_dish(k / 50.0);
+        Snapshot s = empty_container(k / 50.0);
         const Vec2 centre = paper_amplitude * unit_circle(degrees / 360.0 + sense * k / 50.0);
         for (int d = 0; d < 12; ++d)
             add_disc(s, centre + (paper_container_radius - 1.0) * unit_circle(d / 12.0), {});
@@ -65,7 +65,7 @@ TEST(DishFit, ThePhaseIsFoundWhereDiscsTouchTheWall) {
 
 TEST(DishFit, WhereDiscsLeaveRoomTheMiddleOfThePhasesThatFitIsTold) {
     FittingPhase fit;
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     add_disc(s, paper_amplitude * unit_circle(90.0 / 360.0) + 7.5 * unit_circle(0.25), {});
     fit.sample(s);
     EXPECT_NEAR(fit.best().phase * 180.0 / pi, 90.0, 1e-9);

@@ -15,7 +15,7 @@ TEST(DensityMap, UniformPointsGiveAFlatMap) {
     DensityMap map(R, 10);
     // A lattice of points, 5 × 5 in every cell, seen at many phases of the swirl.
     for (int k = 0; k < 8; ++k) {
-        Snapshot s = empty_dish(k / 8.0);
+        Snapshot s = empty_container(k / 8.0);
         const MFrame f = m_frame(s);
         for (int row = 0; row < 50; ++row)
             for (int column = 0; column < 50; ++column)
@@ -43,7 +43,7 @@ TEST(DensityMap, ADiscIsInItsCellAndTheSumIsTheNumberOfDiscs) {
     EXPECT_EQ(map.outside(), 0.0);
 
     DensityMap one(R, 20);
-    Snapshot s = empty_dish(0.7);
+    Snapshot s = empty_container(0.7);
     add_disc(s, m_frame(s).lab_position({3.0, -5.0}), {0.0, 0.0});
     one.sample(s);
     one.close_block();
@@ -58,10 +58,10 @@ TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
     EXPECT_EQ(grid.cell_at(-2.0, -2.0), 0u);
     EXPECT_EQ(grid.cell_at(1.999, 1.999), 15u);
     EXPECT_EQ(grid.cell_at(2.0, 0.0), SquareGrid::nowhere);
-    EXPECT_EQ(grid.cell_at(not_known, 0.0), SquareGrid::nowhere);
+    EXPECT_EQ(grid.cell_at(not_available, 0.0), SquareGrid::nowhere);
     EXPECT_EQ(grid.cell_at(1e300, 0.0), SquareGrid::nowhere);
-    const double x[] = {-2.0, 1.999, 2.0, not_known, 1e300, -1e300, 0.0};
-    const double y[] = {-2.0, 1.999, 0.0, 0.0, 0.0, 0.0, not_known};
+    const double x[] = {-2.0, 1.999, 2.0, not_available, 1e300, -1e300, 0.0};
+    const double y[] = {-2.0, 1.999, 0.0, 0.0, 0.0, 0.0, not_available};
     std::int32_t cells[7];
     grid.locate(7, x, y, cells);
     for (int k = 0; k < 7; ++k) {
@@ -70,7 +70,7 @@ TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
     }
     DensityMap map(R);
     EXPECT_TRUE(std::isnan(map.density(0).mean));
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     add_disc(s, {100.0, 0.0}, {0.0, 0.0});
     map.sample(s);
     map.close_block();

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int per_period = 8;
 
-Snapshot dish_at(int sample) {
-    Snapshot s = empty_dish(static_cast<double>(sample % per_period) / per_period);
-    s.swirls = sample / per_period;
+Snapshot container_at(int sample) {
+    Snapshot s = empty_container(static_cast<double>(sample % per_period) / per_period);
+    s.periods = sample / per_period;
     return s;
 }
 
@@ -21,7 +21,7 @@ TEST(Diffusion, OfUniformMotionGrowsWithTheSquareOfTheLag) {
     Diffusion diffusion(5);
     const double step = paper_period / per_period;
     for (int k = 0; k < 40; ++k) {
-        Snapshot s = dish_at(k);
+        Snapshot s = container_at(k);
         add_disc(s, s.container_centre + Vec2{0.03 * step * k, 0.04 * step * k}, {0.0, 0.0});
         s.angle[0] = 0.5 * step * k;
         diffusion.sample(s);
@@ -43,7 +43,7 @@ TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
     std::vector<Vec2> p(40);
     std::vector<double> angle(40, 0.0);
     for (int k = 0; k < 4000; ++k) {
-        Snapshot s = dish_at(k);
+        Snapshot s = container_at(k);
         for (std::size_t i = 0; i < p.size(); ++i) {
             p[i] = p[i] + Vec2{noise(), noise()};
             angle[i] += noise() + 0.1;
@@ -72,8 +72,8 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
         Noise noise(static_cast<std::uint64_t>(100 + walk));
         Vec2 p{};
         for (int k = 0; k < 200; ++k) {
-            Snapshot s = empty_dish();
-            s.swirls = k;
+            Snapshot s = empty_container();
+            s.periods = k;
             p = p + Vec2{noise(), noise()};
             add_disc(s, s.container_centre + p, {0.0, 0.0});
             diffusion.sample(s);
@@ -93,9 +93,9 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
 TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
     Diffusion diffusion(3);
     for (int k = 0; k < 20; ++k) {
-        Snapshot s = dish_at(k);
+        Snapshot s = container_at(k);
         add_disc(s, s.container_centre + Vec2{2.0, 1.0}, s.container_velocity);
-        s.angle[0] = s.spin[0] = not_known;
+        s.angle[0] = s.spin[0] = not_available;
         diffusion.sample(s);
     }
     diffusion.close_block();
@@ -106,7 +106,7 @@ TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
 TEST(Diffusion, UnsortedOrUnevenTimesBeginAnew) {
     Diffusion diffusion(3);
     const auto sample_at = [&](int k) {
-        Snapshot s = dish_at(k);
+        Snapshot s = container_at(k);
         add_disc(s, s.container_centre, {0.0, 0.0});
         diffusion.sample(s);
     };
@@ -114,7 +114,7 @@ TEST(Diffusion, UnsortedOrUnevenTimesBeginAnew) {
     EXPECT_EQ(diffusion.breaks(), 1.0);
     for (const int k : {2, 4}) sample_at(k);
     EXPECT_EQ(diffusion.breaks(), 2.0);
-    diffusion.sample(empty_dish());
+    diffusion.sample(empty_container());
     EXPECT_TRUE(std::isnan(Diffusion(3).square_displacement(0).mean));
 }
 

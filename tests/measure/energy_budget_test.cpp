@@ -20,7 +20,7 @@ struct Case {
 
 Case collide_at_random(std::uint64_t seed, bool wall, const Surface& surface) {
     Noise noise(seed);
-    Snapshot s = empty_dish(0.5 + 0.5 * noise());
+    Snapshot s = empty_container(0.5 + 0.5 * noise());
     const Vec2 n = unit_circle(noise());
     const double r0 = 1.0 + 0.5 * noise(), r1 = 1.0 + 0.5 * noise();
     const Vec2 at = s.container_centre + (wall ? (s.container_radius - r0) * n : Vec2{0, 0});
@@ -71,7 +71,7 @@ TEST(EnergyBudget, ClosesForEveryCollision) {
 
 TEST(EnergyBudget, GoldenCollisionLosesWhatPhysicsSays) {
     // Discs at (0,0) and (0,2), v = (0,1) and (0.5,−1), μ = 1: loses 0.0568181… = 5/88.
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     add_disc(s, {0.0, 0.0}, {0.0, 1.0});
     add_disc(s, {0.0, 2.0}, {0.5, -1.0});
     Body a{s.velocity(0), 0.0, 1.0, 1.0, 0.1}, b{s.velocity(1), 0.0, 1.0, 1.0, 0.1};
@@ -119,7 +119,7 @@ TEST(EnergyBudget, APathVertexCostsNothing) {
 TEST(EnergyBudget, ClosesForANormalThatIsNoUnitVector) {
     const Vec2 n{1.001, 0.0};
     constexpr double J = 0.9;
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     add_disc(s, {0.0, 0.0}, {1.0, 0.0});
     add_disc(s, {2.0, 0.0}, {0.0, 0.0}, 0.0, 1.0, 2.0);
     const double before = kinetic_energy(s);

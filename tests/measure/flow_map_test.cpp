@@ -33,7 +33,7 @@ TEST(FlowMap, RigidRotationAboutCGivesOmegaTimesThePosition) {
     const double rate = 0.3;
     FlowMap map(R, 20);
     for (int k = 0; k < 40; ++k) {
-        Snapshot s = empty_dish(k / 40.0);
+        Snapshot s = empty_container(k / 40.0);
         const MFrame f = m_frame(s);
         for (std::size_t cell = 0; cell < map.grid().cells(); ++cell) {
             const Vec2 p = map.grid().centre_of(cell);

@@ -13,7 +13,7 @@ constexpr double R = paper_container_radius;
 
 /// Discs on the cells' centres that move with the rigid flow plus ±(a, b).
 Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2.0) {
-    Snapshot s = empty_dish(u);
+    Snapshot s = empty_container(u);
     const MFrame f = m_frame(s);
     for (std::size_t c = 0; c < grid.cells(); ++c) {
         const Vec2 p = grid.centre_of(c);
@@ -41,7 +41,7 @@ TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
 // Two discs with the velocities ±2 in one cell, six with ±4 in another: temperatures of ½ 2² = 2
 // and ½ 4² = 8. Each disc counts the same, so the average is (2·2 + 6·8)/8.
 TEST(GranularTemperature, ACellCountsWithTheDiscsFoundInIt) {
-    Snapshot s = empty_dish(0.3);
+    Snapshot s = empty_container(0.3);
     const MFrame f = m_frame(s);
     const auto add = [&](const Vec2& place, double speed) {
         add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back({speed, 0.0}));
@@ -73,7 +73,7 @@ TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
 TEST(GranularTemperature, MissingSpinsAreStated) {
     GranularTemperature temperature(R, 5, 1);
     Snapshot s = random_discs(5, 1);
-    s.spin[2] = not_known;
+    s.spin[2] = not_available;
     temperature.sample(s);
     temperature.close_block();
     EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));

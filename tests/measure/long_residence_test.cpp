@@ -16,8 +16,8 @@ constexpr int samples = 511;  // of a period
 
 /// One disc, in the wall's layer or inside, at the k-th sample.
 MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {
-    Snapshot s = empty_dish(double(k % samples) / samples);
-    s.swirls = k / samples;
+    Snapshot s = empty_container(double(k % samples) / samples);
+    s.periods = k / samples;
     for (std::size_t i = 0; i < discs; ++i)
         add_disc(s, s.container_centre + (at_wall ? 7.5 : 5.0) * unit_circle(0.3 * double(i)), {});
     return MFrameView(s);
@@ -26,13 +26,13 @@ MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {
 /// At which of `count` samples the disc is found to be on a long stay, each asked for as soon as
 /// that is known.
 std::vector<int> found(int count, const std::function<bool(int)>& at_wall) {
-    LongStays stays;
+    LongResidences residences;
     std::vector<int> result;
     int asked = 0;
     for (int k = 0; k < count; ++k) {
-        stays.sample(at_sample(k, at_wall(k)));
-        for (; asked <= k && stays.knows(at_sample(asked, true).time); ++asked)
-            if (stays.pinned(0, at_sample(asked, true).time)) result.push_back(asked);
+        residences.sample(at_sample(k, at_wall(k)));
+        for (; asked <= k && residences.knows(at_sample(asked, true).time); ++asked)
+            if (residences.pinned(0, at_sample(asked, true).time)) result.push_back(asked);
     }
     return result;
 }
@@ -61,32 +61,32 @@ TEST(LongStays, OneAfterTheOtherAndShortOnesBetween) {
 
 TEST(LongStays, TheShareIsThatOfTheMeasurementOfStays) {
     const auto at_wall = [](int k) { return (k / 37) % 3 == 0 || (k / 61) % 4 == 1; };
-    WallStays stays;
-    for (int k = 0; k < 3000; ++k) stays.sample(at_sample(k, at_wall(k)));
-    stays.close_block();
+    WallResidences residences;
+    for (int k = 0; k < 3000; ++k) residences.sample(at_sample(k, at_wall(k)));
+    residences.close_block();
     // Up to what is not known at the end.
-    EXPECT_NEAR(stays.share().mean * 3000, double(found(3000, at_wall).size()), 41.0);
+    EXPECT_NEAR(residences.share().mean * 3000, double(found(3000, at_wall).size()), 41.0);
 }
 
 TEST(LongStays, OtherDiscsOrTimesThatFallBackBeginAnew) {
     for (const int how : {0, 1, 2}) {
-        LongStays stays;
-        for (int k = 0; k < 60; ++k) stays.sample(at_sample(k, true));
+        LongResidences residences;
+        for (int k = 0; k < 60; ++k) residences.sample(at_sample(k, true));
         const double before = at_sample(10, true).time;
-        EXPECT_TRUE(stays.knows(before));
-        EXPECT_TRUE(stays.pinned(0, before));
-        if (how == 0) stays.begin_anew();
-        stays.sample(how == 1 ? at_sample(60, true, 2) : at_sample(how == 2 ? 5 : 60, true));
+        EXPECT_TRUE(residences.knows(before));
+        EXPECT_TRUE(residences.pinned(0, before));
+        if (how == 0) residences.begin_anew();
+        residences.sample(how == 1 ? at_sample(60, true, 2) : at_sample(how == 2 ? 5 : 60, true));
         // It never will be known: nobody waits for it.
-        EXPECT_TRUE(stays.knows(before)) << how;
-        EXPECT_FALSE(stays.pinned(0, before)) << how;
-        EXPECT_FALSE(stays.pinned(7, at_sample(60, true).time));
+        EXPECT_TRUE(residences.knows(before)) << how;
+        EXPECT_FALSE(residences.pinned(0, before)) << how;
+        EXPECT_FALSE(residences.pinned(7, at_sample(60, true).time));
     }
 }
 
 // R = 8.6. Of a disc of radius 2 the layer begins at 8.6 − 1.5·2 = 5.6, of one of radius ½ at 7.85.
 TEST(WallLayer, IsOneAndAHalfOfTheDiscsOwnRadii) {
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     for (const auto& [radius, distance] :
          {std::pair{2.0, 5.61}, std::pair{2.0, 5.59}, std::pair{0.5, 7.86}, std::pair{0.5, 7.84}})
         add_disc(s, s.container_centre + Vec2{0.0, distance}, {}, 0.0, radius);

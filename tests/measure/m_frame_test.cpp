@@ -25,13 +25,13 @@ TEST(TurnsOf, IsTheInverseOfTheUnitCircle) {
     EXPECT_EQ(turns_of({0.0, 0.0}), 0.0);
     EXPECT_GE(turns_of({1.0, -1e-300}), 0.0);
     EXPECT_LT(turns_of({1.0, -1e-300}), 1.0);
-    EXPECT_TRUE(std::isnan(turns_of({not_known, 1.0})));
-    EXPECT_TRUE(std::isnan(turns_of({1.0, not_known})));
+    EXPECT_TRUE(std::isnan(turns_of({not_available, 1.0})));
+    EXPECT_TRUE(std::isnan(turns_of({1.0, not_available})));
 }
 
 TEST(MFrame, TheSwirlCentreIsAboveAndMIsAtTheBottom) {
     for (int k = 0; k < 30; ++k) {
-        const Snapshot s = empty_dish(k / 30.0);
+        const Snapshot s = empty_container(k / 30.0);
         const MFrame f = m_frame(s);
         const Vec2 S = f.position({0.0, 0.0});
         EXPECT_NEAR(S.x, 0.0, 1e-15);
@@ -62,7 +62,7 @@ TEST(MFrame, ThereAndBackIsTheIdentity) {
 }
 
 TEST(MFrame, ADiscCarriedByTheContainerMovesLikeItsWall) {
-    Snapshot s = empty_dish(0.3);
+    Snapshot s = empty_container(0.3);
     add_disc(s, s.container_centre + Vec2{3.0, 4.0}, s.container_velocity);
     const MFrame f = m_frame(s);
     const Vec2 p = f.position(s.position(0)), v = f.velocity(s.position(0), s.velocity(0));
@@ -74,11 +74,11 @@ TEST(MFrame, ADiscCarriedByTheContainerMovesLikeItsWall) {
 TEST(MFrame, ADiscAtRestThereStaysWhereItIs) {
     // Two instants of a disc that is fixed in the turning frame.
     for (const double u : {0.1, 0.6}) {
-        Snapshot s = empty_dish(u);
+        Snapshot s = empty_container(u);
         const MFrame f = m_frame(s);
         add_disc(s, f.lab_position({2.0, -3.0}), f.lab_velocity({2.0, -3.0}, {0.0, 0.0}));
         const Snapshot later = [&] {
-            Snapshot t = empty_dish(u + 1e-7);
+            Snapshot t = empty_container(u + 1e-7);
             add_disc(t, s.position(0) + (1e-7 * paper_period) * s.velocity(0), s.velocity(0));
             return t;
         }();
@@ -102,7 +102,7 @@ TEST(MFrame, RotationThereIsRotationInTheLabLessOmega) {
 }
 
 TEST(MFrame, AStillContainerTurnsWithTheClock) {
-    Snapshot s = empty_dish(0.0);
+    Snapshot s = empty_container(0.0);
     s.container_centre = s.container_velocity = {0.0, 0.0};
     s.clock = 0.25 * s.period;
     EXPECT_NEAR(m_frame(s).down.x, 0.0, 1e-15);
@@ -129,7 +129,7 @@ TEST(MFrameView, HoldsWhatTheFrameSays) {
 }
 
 TEST(MFrameView, OfNothingAndOfOneDisc) {
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     EXPECT_EQ(MFrameView(s).size(), 0u);
     add_disc(s, {1.0, 2.0}, {0.0, 0.0});
     const MFrameView view(s);
@@ -138,7 +138,7 @@ TEST(MFrameView, OfNothingAndOfOneDisc) {
 }
 
 TEST(MFrameView, TheCentreOfMassIsWeightedWithTheMasses) {
-    Snapshot s = empty_dish(0.4);
+    Snapshot s = empty_container(0.4);
     const MFrame f = m_frame(s);
     const auto add = [&](const Vec2& place, const Vec2& velocity, double mass) {
         add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity), 0.0, 1.0,

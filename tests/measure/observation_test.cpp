@@ -32,7 +32,7 @@ void observe(Observation& observation, int periods, int per_period) {
     for (int period = 0; period < periods; ++period) {
         for (int k = 0; k < per_period; ++k) {
             Snapshot s = random_discs(12, 7, static_cast<double>(k) / per_period);
-            s.swirls = period;
+            s.periods = period;
             observation.sample(s);
         }
         observation.close_block();
@@ -166,7 +166,7 @@ TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {
 // shorter recordings.
 TEST(Observation, OtherDiscsBeginNewTracks) {
     const auto moving = [](double time, double begin) {
-        Snapshot s = empty_dish();
+        Snapshot s = empty_container();
         for (int i = 0; i < 12; ++i)
             add_disc(s, s.container_centre + 6.0 * unit_circle(begin + i / 12.0 - time), {});
         s.clock = time * s.period;
@@ -199,7 +199,7 @@ TEST(SampleTimes, AreEquallySpacedAndTheEndOfAPeriodBelongsToTheNext) {
     for (const double until : {0.4, 0.5, 2.0})
         while (times.next(s, path, until)) found.push_back(s.clock);
     EXPECT_THAT(found, testing::ElementsAre(0.0, 0.5, 1.0, 1.5));
-    s.swirls = 1;
+    s.periods = 1;
     ASSERT_TRUE(times.next(s, path, 0.0));
     EXPECT_EQ(s.clock, 0.0);
 }
@@ -210,7 +210,7 @@ TEST(SampleTimes, AnIntervalGoesOnThroughThePeriods) {
     Snapshot s;
     s.period = 2.0;
     std::vector<double> found;
-    for (s.swirls = 0; s.swirls < 3; ++s.swirls)
+    for (s.periods = 0; s.periods < 3; ++s.periods)
         while (times.next(s, path, 2.0)) found.push_back(s.time());
     EXPECT_THAT(found, testing::ElementsAre(0.0, 1.5, 3.0, 4.5));
 }

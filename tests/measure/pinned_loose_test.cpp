@@ -16,8 +16,8 @@ const double omega = 2.0 * pi / paper_period;
 /// The dish at frame `k`, with discs where path(k) has them in the M-frame.
 template <class Path>
 Snapshot frame_of(int k, std::size_t discs, Path&& path) {
-    Snapshot s = empty_dish(static_cast<double>(k % frames) / frames);
-    s.swirls = k / frames;
+    Snapshot s = empty_container(static_cast<double>(k % frames) / frames);
+    s.periods = k / frames;
     const MFrame f = m_frame(s);
     for (std::size_t i = 0; i < discs; ++i) add_disc(s, f.lab_position(path(i, k)), {0.0, 0.0});
     return s;
@@ -144,7 +144,7 @@ TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
     EXPECT_EQ(pinning.pinned().at(0), 0);
     pinning.sample(frame_of(51, 3, circle));  // other discs
     EXPECT_EQ(pinning.pinned().size(), 3u);
-    pinning.sample(empty_dish());
+    pinning.sample(empty_container());
     EXPECT_TRUE(pinning.pinned().empty());
 }
 
@@ -174,7 +174,7 @@ Event collision_at(EventKind kind, std::uint32_t i, std::uint32_t j) {
 TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
     PinnedByCollisions pinning;
     const auto at = [&](double u, double theta) {
-        Snapshot s = empty_dish(u);
+        Snapshot s = empty_container(u);
         const MFrame f = m_frame(s);
         add_disc(s, f.lab_position(7.0 * unit_circle(theta)), {0.0, 0.0});
         return s;
@@ -198,13 +198,13 @@ TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
 
 TEST(PinnedByCollisions, BothPartnersCollideAndFlightsCrossTheEndOfTheSwirl) {
     PinnedByCollisions pinning;
-    Snapshot s = empty_dish(0.95);
+    Snapshot s = empty_container(0.95);
     const MFrame f = m_frame(s);
     add_disc(s, f.lab_position({1.0, 0.0}), {0.0, 0.0});
     add_disc(s, f.lab_position({3.0, 0.0}), {0.0, 0.0});
     pinning.sample(collision_at(EventKind::disc_disc, 0, 1), s);
-    Snapshot t = empty_dish(0.05);
-    t.swirls = 1;
+    Snapshot t = empty_container(0.05);
+    t.periods = 1;
     const MFrame g = m_frame(t);
     add_disc(t, g.lab_position({0.0, 1.0}), {0.0, 0.0});
     add_disc(t, g.lab_position({0.0, 3.0}), {0.0, 0.0});

@@ -12,7 +12,7 @@ namespace {
 TEST(RadialDensity, UniformPointsAreFlat) {
     RadialDensity density(10.0, 10);
     // In ring k, 2k + 1 points for every point in ring 0: as the areas.
-    Snapshot s = empty_dish(0.3);
+    Snapshot s = empty_container(0.3);
     s.container_radius = 10.0;
     for (int ring = 0; ring < 10; ++ring)
         for (int k = 0; k < 4 * (2 * ring + 1); ++k)
@@ -34,7 +34,7 @@ TEST(RadialDensity, UniformPointsAreFlat) {
 TEST(RadialDensity, NothingSeenIsNotANumberAndNobodyThereIsZero) {
     RadialDensity density(8.6);
     EXPECT_TRUE(std::isnan(density.density(0).mean));
-    density.sample(empty_dish());
+    density.sample(empty_container());
     density.close_block();
     EXPECT_EQ(density.density(0).mean, 0.0);
 }

@@ -28,7 +28,7 @@ Rolling seen(const Snapshot& s) {
 }
 
 TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     const Vec2 u = s.container_velocity, C = s.container_centre;
     add_rolling(s, C, {0.3, 0.1});
     add_rolling(s, C + Vec2{4.0, 0.0}, u);
@@ -44,7 +44,7 @@ TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
 // contact rubs with both speeds. Towards each other: it does not rub at all.
 TEST(Rolling, CorrelationsAreThoseOfTwo) {
     const auto pair = [](const Vec2& a, const Vec2& b) {
-        Snapshot s = empty_dish();
+        Snapshot s = empty_container();
         const Vec2 u = s.container_velocity, C = s.container_centre;
         add_rolling(s, C, u + a);
         add_rolling(s, C + Vec2{2.05, 0.0}, u + b);
@@ -64,7 +64,7 @@ TEST(Rolling, CorrelationsAreThoseOfTwo) {
 // as it takes 2/7 of its spin are left. What it had more, ½ I ω² (1 − 4/49), is lost, the part that
 // lifted it with it.
 TEST(Rolling, VerticalRubbingAtTheWallTakesTheEnergyOfTheSpin) {
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     const Vec2 n{1.0, 0.0};
     add_sphere(s, s.container_centre + (s.container_radius - 1.0) * n, {0.8, 0.0}, {0.0, 0.8});
     s.container_velocity = {0.0, 0.0};

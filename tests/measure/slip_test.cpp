@@ -15,7 +15,7 @@ constexpr double R = paper_container_radius;
 
 /// A full rim of discs along the wall that follows the wall with the fraction `grip` of its speed.
 Snapshot rim(double u, double grip, int discs = 23) {
-    Snapshot s = empty_dish(u);
+    Snapshot s = empty_container(u);
     const MFrame f = m_frame(s);
     for (int k = 0; k < discs; ++k) {
         const Vec2 p = (R - 1.0) * unit_circle(static_cast<double>(k) / discs);
@@ -122,7 +122,7 @@ TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
     constexpr int samples = 511;
     for (const bool long_enough : {true, false}) {
         Slip slip(1), rims(1);
-        LongStays stays;
+        LongResidences residences;
         for (int k = 0; k < 60; ++k) {
             const double u = static_cast<double>(k) / samples;
             Snapshot s = rim(u, 1.0, k < (long_enough ? 45 : 30) ? 23 : 0);
@@ -131,9 +131,9 @@ TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
                 const Vec2 p = 3.0 * unit_circle(0.25 * static_cast<double>(s.size()));
                 add_disc(s, f.lab_position(p), f.lab_velocity(p, {}));
             }
-            stays.sample(s);
+            residences.sample(s);
             slip.sample(s, std::vector<std::uint8_t>(27, 1));
-            slip.sample_stays(stays);
+            slip.sample_residences(residences);
         }
         rims.sample(rim(0.0, 1.0));
         slip.close_block();
@@ -141,9 +141,9 @@ TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
         // Four discs at rest inside, as far on the one side as on the other, leave the rim's ϖ as
         // it is.
         if (long_enough) {
-            EXPECT_NEAR(slip.on_stays().mean, rims.cluster().mean, 1e-9);
+            EXPECT_NEAR(slip.on_residences().mean, rims.cluster().mean, 1e-9);
         } else {
-            EXPECT_TRUE(std::isnan(slip.on_stays().mean));
+            EXPECT_TRUE(std::isnan(slip.on_residences().mean));
         }
         EXPECT_LT(slip.pinned_region().mean, 0.9 * rims.cluster().mean);
     }
@@ -157,15 +157,15 @@ TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
 
 TEST(Slip, NobodyAndOneDiscAndNonsense) {
     Slip slip(1);
-    slip.sample(empty_dish());
+    slip.sample(empty_container());
     slip.close_block();
     EXPECT_TRUE(std::isnan(slip.cluster().mean));
-    EXPECT_TRUE(std::isnan(cluster_perimeter(empty_dish())));
-    Snapshot s = empty_dish();
+    EXPECT_TRUE(std::isnan(cluster_perimeter(empty_container())));
+    Snapshot s = empty_container();
     add_disc(s, {1.0, 1.0}, {0.0, 0.0});
     EXPECT_NEAR(cluster_perimeter(s), 2.0 * pi, 1e-15);
     slip.sample(s);
-    s.x[0] = not_known;
+    s.x[0] = not_available;
     slip.sample(s);
     slip.close_block();
     EXPECT_TRUE(std::isnan(slip.cluster().mean));

@@ -26,7 +26,7 @@ class Noise {
 };
 
 /// The paper's dish, at the moment when the container is at the angle 2πu on its circle.
-inline Snapshot empty_dish(double u = 0.0) {
+inline Snapshot empty_container(double u = 0.0) {
     Snapshot s;
     s.period = paper_period;
     const double omega = 2.0 * pi / s.period;
@@ -58,7 +58,7 @@ inline Snapshot held_earlier(const Snapshot& s, std::uint64_t seed = 1) {
 
 /// Points and velocities all over the dish.
 inline Snapshot random_discs(std::size_t n, std::uint64_t seed, double u = 0.0) {
-    Snapshot s = empty_dish(u);
+    Snapshot s = empty_container(u);
     Noise noise(seed);
     while (s.size() < n) {
         const Vec2 p{7.6 * noise(), 7.6 * noise()};

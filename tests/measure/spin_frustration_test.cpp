@@ -14,7 +14,7 @@ const double omega = 2.0 * pi / paper_period;
 
 /// A square lattice whose discs spin like gears.
 Snapshot gears(double sign = -1.0) {
-    Snapshot s = empty_dish(0.2);
+    Snapshot s = empty_container(0.2);
     for (int row = -1; row <= 1; ++row)
         for (int column = -1; column <= 1; ++column) {
             const bool odd = ((row + column) & 1) != 0;
@@ -26,7 +26,7 @@ Snapshot gears(double sign = -1.0) {
 
 /// A disc and its six neighbours, all touching, all with the same spin.
 Snapshot hexagon(double spin) {
-    Snapshot s = empty_dish(0.4);
+    Snapshot s = empty_container(0.4);
     add_disc(s, s.container_centre, {0.0, 0.0}, spin);
     for (int k = 0; k < 6; ++k)
         add_disc(s, s.container_centre + 2.0 * unit_circle(k / 6.0), {0.0, 0.0}, spin);
@@ -65,7 +65,7 @@ TEST(SpinFrustration, IndependentSpinsHaveNone) {
 }
 
 TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
-    Snapshot s = empty_dish(0.7);
+    Snapshot s = empty_container(0.7);
     add_disc(s, s.container_centre + 7.6 * unit_circle(0.1), {0.0, 0.0}, -2.0 * omega);
     add_disc(s, s.container_centre + 7.55 * unit_circle(0.4), {0.0, 0.0}, 0.0);
     add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * omega);
@@ -96,12 +96,12 @@ TEST(SpinFrustration, CountsTheCollisionsThatStick) {
 
 TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
     SpinFrustration frustration(0.1, 1);
-    frustration.sample(empty_dish());
+    frustration.sample(empty_container());
     frustration.close_block();
     EXPECT_TRUE(std::isnan(frustration.wall_spin().mean));
     EXPECT_TRUE(std::isnan(frustration.triangles().mean));
     Snapshot s = hexagon(0.3);
-    s.spin[2] = not_known;
+    s.spin[2] = not_available;
     frustration.sample(s);
     frustration.close_block();
     EXPECT_TRUE(std::isnan(frustration.correlation().mean));
@@ -140,7 +140,7 @@ TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
 // Two hard hits of gears and one soft one of discs that spin alike: (−2·2 + 1·1)/(2·2 + 1·1).
 TEST(SpinFrustration, StrongContactsCountWithTheirImpulse) {
     SpinFrustration frustration;
-    Snapshot pair = empty_dish();
+    Snapshot pair = empty_container();
     add_disc(pair, {0.0, 0.0}, {}, 0.5);
     add_disc(pair, {2.0, 0.0}, {}, -0.5);
     Event hit{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {2.0, 0.0, false}, 0.0};
@@ -157,7 +157,7 @@ TEST(SpinFrustration, StrongContactsCountWithTheirImpulse) {
 
 /// Three in a chain along the wall that stay there, and one more that touches the last from inside.
 Snapshot along_the_wall(int k) {
-    Snapshot s = empty_dish(k / 511.0);
+    Snapshot s = empty_container(k / 511.0);
     const MFrame f = m_frame(s);
     const auto add = [&](double radius, double angle, double spin) {
         const Vec2 p = radius * unit_circle(angle / (2.0 * pi));
@@ -173,24 +173,24 @@ Snapshot along_the_wall(int k) {
 
 TEST(SpinFrustration, OfDiscsOnAStayItIsKnownWhenTheStayHasLastedLongEnough) {
     SpinFrustration frustration(0.1, 1);
-    LongStays stays;
+    LongResidences residences;
     for (int k = 0; k < 45; ++k) {
-        stays.sample(along_the_wall(k));
+        residences.sample(along_the_wall(k));
         frustration.sample(along_the_wall(k));
-        frustration.sample_stays(stays);
+        frustration.sample_residences(residences);
         frustration.close_block();
-        EXPECT_EQ(std::isnan(frustration.stay_spin().mean), k < 40) << k;
+        EXPECT_EQ(std::isnan(frustration.residence_spin().mean), k < 40) << k;
     }
-    EXPECT_NEAR(frustration.stay_spin().mean, 0.5, 1e-12);
+    EXPECT_NEAR(frustration.residence_spin().mean, 0.5, 1e-12);
     // The fourth, which spins like its neighbour, is on no stay.
     EXPECT_NEAR(frustration.along_wall().mean, -1.0, 1e-12);
-    EXPECT_NEAR(frustration.stay_correlation().mean, -1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(frustration.residence_correlation().mean, -1.0 / 3.0, 1e-12);
     EXPECT_NEAR(frustration.correlation().mean, -1.0 / 3.0, 1e-12);
 }
 
 TEST(SpinFrustration, PairsOfPinnedDiscsAreToldApart) {
     SpinFrustration frustration(0.1, 1);
-    Snapshot chain = empty_dish();
+    Snapshot chain = empty_container();
     add_disc(chain, {0.0, 0.0}, {}, 0.5);
     add_disc(chain, {2.05, 0.0}, {}, -0.5);
     add_disc(chain, {4.1, 0.0}, {}, -0.5);

@@ -15,7 +15,7 @@ constexpr double R = paper_container_radius;
 
 /// A triangular lattice of touching discs, as many rings as `rings`, about C.
 Snapshot lattice(int rings) {
-    Snapshot s = empty_dish(0.15);
+    Snapshot s = empty_container(0.15);
     s.container_radius = 2.0 * rings + 1.0;
     for (int a = -rings; a <= rings; ++a)
         for (int b = -rings; b <= rings; ++b) {
@@ -65,12 +65,12 @@ TEST(Voronoi, EveryPointBelongsToTheDiscOfSmallestPower) {
             const Vec2 p{(column + 0.5) * step - R, (row + 0.5) * step - R};
             if (dot(p, p) > R * R) continue;
             std::size_t best = 0;
-            double least = never;
+            double minimum = never;
             for (std::size_t i = 0; i < s.size(); ++i) {
                 const Vec2 d = p - view.position(i);
                 const double power = dot(d, d) - s.radius[i] * s.radius[i];
-                if (power < least) {
-                    least = power;
+                if (power < minimum) {
+                    minimum = power;
                     best = i;
                 }
             }
@@ -96,15 +96,15 @@ TEST(Voronoi, NeighboursAreMutual) {
 
 TEST(Voronoi, OneDiscHasTheWholeDishAndNothingHasNothing) {
     Voronoi cells;
-    cells.find(empty_dish());
+    cells.find(empty_container());
     EXPECT_EQ(cells.size(), 0u);
-    Snapshot s = empty_dish();
+    Snapshot s = empty_container();
     add_disc(s, {1.0, 2.0}, {0.0, 0.0});
     cells.find(s);
     EXPECT_NEAR(cells.area(0), pi * R * R, 1e-12);
     EXPECT_EQ(cells.begin(0), cells.end(0));
     add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // on one point
-    add_disc(s, {not_known, 2.0}, {0.0, 0.0});
+    add_disc(s, {not_available, 2.0}, {0.0, 0.0});
     cells.find(s);
     EXPECT_NEAR(cells.area(1), pi * R * R, 1e-12);
     EXPECT_EQ(cells.area(2), 0.0);
@@ -121,7 +121,7 @@ TEST(HexaticOrder, OfAPerfectHexagonIsOne) {
 }
 
 TEST(HexaticOrder, OfASquareLatticeIsZero) {
-    Snapshot s = empty_dish(0.4);
+    Snapshot s = empty_container(0.4);
     for (int row = -2; row <= 2; ++row)
         for (int column = -2; column <= 2; ++column)
             add_disc(s, s.container_centre + Vec2{2.0 * column, 2.0 * row}, {0.0, 0.0});
@@ -169,7 +169,7 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
     EXPECT_EQ(share(lattice(2)).first, 1.0);
     EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // which are pinned is not known
     // In a ring of five, one disc has five neighbours and five have three.
-    Snapshot five = empty_dish(0.15);
+    Snapshot five = empty_container(0.15);
     add_disc(five, five.container_centre, {0.0, 0.0});
     for (int k = 0; k < 5; ++k)
         add_disc(five, five.container_centre + 2.5 * unit_circle(k / 5.0), {0.0, 0.0});
@@ -200,7 +200,7 @@ TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
     // cells.
     HexaticOrder order;
     LocalPacking packing;
-    LongStays stays;
+    LongResidences residences;
     const auto seen = [](double time) {
         Snapshot s = lattice(1);
         s.clock = time * s.period;
@@ -211,11 +211,11 @@ TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
     const MFrameView first(seen(0.0));
     cells.find(first);
     for (int k = 0; k <= 41; ++k) {
-        stays.sample(MFrameView(seen(k / 511.0)));
+        residences.sample(MFrameView(seen(k / 511.0)));
         if (k == 0) order.sample(first, cells);
         if (k == 0) packing.sample(first, cells);
-        order.sample_stays(stays);
-        packing.sample_stays(stays);
+        order.sample_residences(residences);
+        packing.sample_residences(residences);
     }
     order.close_block();
     packing.close_block();
@@ -225,8 +225,8 @@ TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
         psi6 += hexatic_order(first, cells, i) / 6.0;
         phi += pi / cells.area(i) / 6.0;
     }
-    EXPECT_NEAR(order.on_stays().mean, psi6, 1e-14);
-    EXPECT_NEAR(packing.on_stays().mean, phi, 1e-14);
+    EXPECT_NEAR(order.on_residences().mean, psi6, 1e-14);
+    EXPECT_NEAR(packing.on_residences().mean, phi, 1e-14);
     EXPECT_GT(std::abs(packing.all().mean - phi), 1e-3);
 }
 

@@ -11,8 +11,8 @@ constexpr int samples = 511;  // of a period
 
 /// A disc at a place of the M-frame, at the k-th sample.
 Snapshot at_sample(int k, const std::vector<Vec2>& places) {
-    Snapshot s = empty_dish(double(k % samples) / samples);
-    s.swirls = k / samples;
+    Snapshot s = empty_container(double(k % samples) / samples);
+    s.periods = k / samples;
     const MFrame frame = m_frame(s);
     for (const Vec2& p : places) add_disc(s, frame.lab_position(p), frame.lab_velocity(p, {}));
     return s;
@@ -26,80 +26,81 @@ Vec2 rounds(int k, double from = 240.0, double to = 120.0) {
 }
 
 TEST(WallStays, AStayBeginsWhereTheDiscComesAndEndsWhereItLeaves) {
-    WallStays stays;
+    WallResidences residences;
     for (int k = 0; k < 10 * samples; ++k) {
-        stays.sample(at_sample(k, {rounds(k)}));
-        if (k % samples == samples - 1) stays.close_block();
+        residences.sample(at_sample(k, {rounds(k)}));
+        if (k % samples == samples - 1) residences.close_block();
     }
     const double a_sample = 360.0 / samples;
-    EXPECT_NEAR(stays.becoming_pinned().angle().mean * degrees_per_radian, 240.0, a_sample);
-    EXPECT_NEAR(stays.becoming_free().angle().mean * degrees_per_radian, 120.0, a_sample);
-    EXPECT_NEAR(stays.becoming_free().concentration(), 1.0, 1e-9);
-    EXPECT_EQ(stays.becoming_free().count(), 10.0);
+    EXPECT_NEAR(residences.becoming_pinned().angle().mean * degrees_per_radian, 240.0, a_sample);
+    EXPECT_NEAR(residences.becoming_free().angle().mean * degrees_per_radian, 120.0, a_sample);
+    EXPECT_NEAR(residences.becoming_free().concentration(), 1.0, 1e-9);
+    EXPECT_EQ(residences.becoming_free().count(), 10.0);
     // All of the stay counts, from its first sample on: 120° of 360°.
-    EXPECT_NEAR(stays.share().mean, 1.0 / 3.0, 1.0 / samples);
-    EXPECT_NEAR(stays.length().mean, 1.0 / 3.0, 2.0 / samples);
+    EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples);
+    EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
 }
 
 TEST(WallStays, AShortTouchIsNoStay) {
-    WallStays stays;
+    WallResidences residences;
     // 20° are 28 samples: enough for the least of the thresholds, not for the standard.
-    for (int k = 0; k < 3 * samples; ++k) stays.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
-    stays.close_block();
-    EXPECT_EQ(stays.becoming_free().count(), 0.0);
-    EXPECT_EQ(stays.share().mean, 0.0);
-    EXPECT_EQ(stays.becoming_free(WallStays::standard, 0).count(), 3.0);
-    EXPECT_NEAR(stays.share(WallStays::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
+    for (int k = 0; k < 3 * samples; ++k)
+        residences.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
+    residences.close_block();
+    EXPECT_EQ(residences.becoming_free().count(), 0.0);
+    EXPECT_EQ(residences.share().mean, 0.0);
+    EXPECT_EQ(residences.becoming_free(WallResidences::standard, 0).count(), 3.0);
+    EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
 // The least length is 40 steps: from the first to the last of 41 samples.
 TEST(WallStays, AStayOfExactlyTheLeastLengthCountsAndAShorterOneDoesNot) {
     for (const int length : {41, 40}) {
-        WallStays stays;
+        WallResidences residences;
         for (int k = 0; k < 200; ++k) {
             const bool at_wall = k >= 50 && k < 50 + length;
-            stays.sample(at_sample(k, {{0.0, at_wall ? 7.6 : 3.0}}));
+            residences.sample(at_sample(k, {{0.0, at_wall ? 7.6 : 3.0}}));
         }
-        stays.close_block();
-        EXPECT_EQ(stays.becoming_free().count(), length == 41 ? 1.0 : 0.0);
-        EXPECT_EQ(stays.becoming_pinned().count(), length == 41 ? 1.0 : 0.0);
-        EXPECT_NEAR(stays.share().mean, length == 41 ? 41.0 / 200.0 : 0.0, 1e-15);
+        residences.close_block();
+        EXPECT_EQ(residences.becoming_free().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_EQ(residences.becoming_pinned().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_NEAR(residences.share().mean, length == 41 ? 41.0 / 200.0 : 0.0, 1e-15);
     }
 }
 
 // What the SI's criterion takes for pinned: along the wall, but far from it.
 TEST(WallStays, ADiscThatFliesAlongTheWallFarFromItIsNotPinned) {
-    WallStays stays;
+    WallResidences residences;
     for (int k = 0; k < 2 * samples; ++k)
-        stays.sample(at_sample(k, {7.0 * unit_circle(1.0 - double(k % samples) / samples)}));
-    stays.close_block();
-    EXPECT_EQ(stays.share().mean, 0.0);            // r > 7.1 is asked for
-    EXPECT_NEAR(stays.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
+        residences.sample(at_sample(k, {7.0 * unit_circle(1.0 - double(k % samples) / samples)}));
+    residences.close_block();
+    EXPECT_EQ(residences.share().mean, 0.0);            // r > 7.1 is asked for
+    EXPECT_NEAR(residences.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
 }
 
 TEST(WallStays, AStayUnderWayAtTheBeginningHasNoKnownBeginning) {
-    WallStays stays;
+    WallResidences residences;
     for (int k = 0; k < 200; ++k)
-        stays.sample(at_sample(k, {(k < 100 ? 7.6 : 3.0) * unit_circle(0.25)}));
-    stays.close_block();
-    EXPECT_EQ(stays.becoming_pinned().count(), 0.0);
-    EXPECT_EQ(stays.becoming_free().count(), 1.0);
-    EXPECT_NEAR(stays.share().mean, 0.5, 1e-12);
+        residences.sample(at_sample(k, {(k < 100 ? 7.6 : 3.0) * unit_circle(0.25)}));
+    residences.close_block();
+    EXPECT_EQ(residences.becoming_pinned().count(), 0.0);
+    EXPECT_EQ(residences.becoming_free().count(), 1.0);
+    EXPECT_NEAR(residences.share().mean, 0.5, 1e-12);
 }
 
 TEST(WallStays, AChangeOfTheNumberOfDiscsBeginsAnew) {
-    WallStays stays;
-    for (int k = 0; k < 30; ++k) stays.sample(at_sample(k, {{0.0, 7.6}}));
-    for (int k = 30; k < 60; ++k) stays.sample(at_sample(k, {{0.0, 7.6}, {0.0, 0.0}}));
-    for (int k = 60; k < 70; ++k) stays.sample(at_sample(k, {{0.0, 0.0}, {3.0, 0.0}}));
-    stays.close_block();
-    EXPECT_EQ(stays.becoming_free().count(), 0.0);  // 30 samples each time
+    WallResidences residences;
+    for (int k = 0; k < 30; ++k) residences.sample(at_sample(k, {{0.0, 7.6}}));
+    for (int k = 30; k < 60; ++k) residences.sample(at_sample(k, {{0.0, 7.6}, {0.0, 0.0}}));
+    for (int k = 60; k < 70; ++k) residences.sample(at_sample(k, {{0.0, 0.0}, {3.0, 0.0}}));
+    residences.close_block();
+    EXPECT_EQ(residences.becoming_free().count(), 0.0);  // 30 samples each time
 }
 
 TEST(WallStays, MergedIsTheSameAsOneAfterTheOther) {
-    WallStays a, b, both;
+    WallResidences a, b, both;
     for (int k = 0; k < 4 * samples; ++k) {
-        WallStays& one = k < 2 * samples ? a : b;
+        WallResidences& one = k < 2 * samples ? a : b;
         const Snapshot s = at_sample(k, {rounds(k)});
         one.sample(s);
         both.sample(s);

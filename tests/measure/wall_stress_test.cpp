@@ -13,7 +13,7 @@ constexpr double R = paper_container_radius;
 
 /// A disc hits the wall at the angle 2πu_M in the M-frame, at phase u of the swirl.
 void hit(WallStress& stress, double u, double u_M, const Impulse& J) {
-    Snapshot s = empty_dish(u);
+    Snapshot s = empty_container(u);
     const MFrame f = m_frame(s);
     const Vec2 n = f.turn_back(unit_circle(u_M));
     add_disc(s, s.container_centre + (R - 1.0) * n, {0.0, 0.0});

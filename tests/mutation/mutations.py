@@ -10,7 +10,7 @@ RATES = "src/swirl/measure/collision_rates.hpp"
 TEMPERATURE = "src/swirl/measure/granular_temperature.hpp"
 SLIP = "src/swirl/measure/slip.cpp"
 PINNED = "src/swirl/measure/pinned_loose.cpp"
-STAYS = "src/swirl/measure/wall_residence.cpp"
+RESIDENCES = "src/swirl/measure/wall_residence.cpp"
 LONG = "src/swirl/measure/long_residence.hpp"
 FRAME_HPP = "src/swirl/measure/m_frame.hpp"
 FRAME = "src/swirl/measure/m_frame.cpp"
@@ -56,7 +56,7 @@ MUTATIONS = [
     (STEADY, "if (d > n / 2 || n - d < 2) continue;", "if (n - d < 2) continue;",
      "MSER-5 may cut more than half"),
     (STEADY, "squares / (left * left)", "squares / left", "MSER-5 minimises the variance"),
-    (STEADY, "if (score <= least) {", "if (score < least) {",
+    (STEADY, "if (score <= minimum) {", "if (score < minimum) {",
      "MSER-5 prefers the later of two equal cuts"),
     (STEADY, "batch[i] += blocks[5 * i + k] / 5.0;", "batch[i] += blocks[5 * i] / 5.0;",
      "MSER-5 uses one block of five"),
@@ -116,7 +116,7 @@ MUTATIONS = [
     (SLIP, "pinned_.add((omega - pinned_ones.mean()) * factor);",
      "pinned_.add((omega - all.mean()) * factor);", "the pinned region is the whole cluster"),
     (SLIP, "held_factor_ = factor, held_omega_ = omega;", "held_factor_ = 1.0, held_omega_ = omega;",
-     "discs on a stay have another perimeter"),
+     "discs on a residence have another perimeter"),
     (HULL, "p - hull.back()) <= 0.0)", "p - hull.back()) < 0.0)",
      "points on a side remain corners of the hull"),
     (HULL, "(k + 1) % polygon.size()", "k + 1 < polygon.size() ? k + 1 : k",
@@ -141,21 +141,21 @@ MUTATIONS = [
     (PINNED, "becoming_free_.add(flight.begin);\n            becoming_pinned_.add(flight.end);",
      "becoming_free_.add(flight.end);\n            becoming_pinned_.add(flight.begin);",
      "begin and end of a flight are exchanged"),
-    # Stays at the wall.
-    (STAYS, "held[d] += lasted - step < wanted ? stay.samples : 1.0;", "held[d] += 1.0;",
-     "the beginning of a stay does not count"),
-    (STAYS, "if (length < least[d] * period - 0.5 * step) continue;",
-     "if (length < least[d] * period + 1.5 * step) continue;", "stays must be longer by two samples"),
-    (STAYS, "if (stay.knows_begin != 0.0) kind.begin.add(stay.begin);", "kind.begin.add(stay.begin);",
+    # Residences at the wall.
+    (RESIDENCES, "held[d] += lasted - step < wanted ? residence.samples : 1.0;", "held[d] += 1.0;",
+     "the beginning of a residence does not count"),
+    (RESIDENCES, "if (length < minimum[d] * period - 0.5 * step) continue;",
+     "if (length < minimum[d] * period + 1.5 * step) continue;", "residences must be longer by two samples"),
+    (RESIDENCES, "if (residence.knows_begin != 0.0) kind.begin.add(residence.begin);", "kind.begin.add(residence.begin);",
      "a beginning that was not seen counts"),
-    (STAYS, "kind.end.add(stay.last);", "kind.end.add(stay.begin);", "a stay ends where it began"),
-    (STAYS, "length_.add(length / period);", "length_.add(length);", "lengths are not in periods"),
+    (RESIDENCES, "kind.end.add(residence.last);", "kind.end.add(residence.begin);", "a residence ends where it began"),
+    (RESIDENCES, "length_.add(length / period);", "length_.add(length);", "lengths are not in periods"),
     (LONG, "const double inner = view.container_radius - radii * view.radius[i];",
      "const double inner = view.container_radius - radii;", "the layer ignores the disc's radius"),
-    (LONG, "if (last_ - begin_[i] >= least_) long_begin_[i]", "long_begin_[i]",
-     "a short stay is remembered as a long one"),
-    (LONG, "return !sees(time) || last_ - time >= least_;", "return !sees(time) || last_ > time;",
-     "stays are known too early"),
+    (LONG, "if (last_ - begin_[i] >= minimum_) long_begin_[i]", "long_begin_[i]",
+     "a short residence is remembered as a long one"),
+    (LONG, "return !sees(time) || last_ - time >= minimum_;", "return !sees(time) || last_ > time;",
+     "residences are known too early"),
     # The M-frame.
     (FRAME_HPP, "return relative_velocity(lab_velocity) - omega *",
      "return relative_velocity(lab_velocity) + omega *", "the frame turns the wrong way"),
@@ -185,7 +185,7 @@ MUTATIONS = [
      "the last discs count twice"),
     (KERNEL, "const Eight half_square = Eight::all(0.5) * elapsed * elapsed;",
      "const Eight half_square = elapsed * elapsed;", "spheres are accelerated twice"),
-    (KERNEL, "least = smaller_of(b.q, smaller_of(a.q, least));", "least = smaller_of(a.q, least);",
+    (KERNEL, "minimum = smaller_of(b.q, smaller_of(a.q, minimum));", "minimum = smaller_of(a.q, minimum);",
      "a disc on the centre of mass is overlooked"),
     # Profiles, shape and structure.
     (PROFILE, "if (square < view.radius[i] * view.radius[i]) continue;", "",
@@ -245,10 +245,10 @@ MUTATIONS = [
      "a later contact on the circle is taken for the first"),
     (TIME, "const double c = f.c - (room + start.c);", "const double c = f.c;",
      "a disc at the wall of a circle has no room"),
-    (PATH, "if (t < leg.end) return leg;", "if (t <= leg.end) return leg;",
-     "the end of a leg belongs to the leg before"),
+    (PATH, "if (t < segment.end) return segment;", "if (t <= segment.end) return segment;",
+     "the end of a segment belongs to the segment before"),
     (PATH, "(1.0 / turning) * (u.y * velocity + (1.0 - u.x) * across)",
-     "(1.0 / turning) * (u.y * velocity - (1.0 - u.x) * across)", "a turning leg bends the wrong way"),
+     "(1.0 / turning) * (u.y * velocity - (1.0 - u.x) * across)", "a turning segment bends the wrong way"),
     (DISC, "d.angle = angle + (t - time) * spin;", "", "a disc that is brought up to date does not turn"),
     (DISC, "d.inertia * dot(d.rolling_spin, d.rolling_spin)", "0.0",
      "the energy of rolling is missing"),
@@ -264,7 +264,7 @@ MUTATIONS = [
      "const double half_square = elapsed * elapsed;", "a sphere is accelerated twice"),
     (SNAPSHOT, "angle[i] + (clock - held_at[i]) * spin[i]", "angle[i]",
      "an orientation is not brought up to date"),
-    (SNAPSHOT, "static_cast<double>(swirls) * period + clock", "clock",
+    (SNAPSHOT, "static_cast<double>(periods) * period + clock", "clock",
      "time begins again in every period"),
     (BALL, "double rotation_in_m_frame() const { return -gamma(); }",
      "double rotation_in_m_frame() const { return gamma(); }", "the ball turns the wrong way"),

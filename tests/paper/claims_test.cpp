@@ -24,7 +24,7 @@ Estimate rotation(std::int64_t discs, double mu_disc, double mu_wall, std::int64
 std::vector<RotationPoint> curve(const std::vector<std::int64_t>& discs, double mu_disc,
                                  double mu_wall, std::int64_t events) {
     std::vector<RotationPoint> points(discs.size());
-    on_all_cores(discs.size(), [&](std::size_t k) {
+    parallel_for(discs.size(), [&](std::size_t k) {
         const Estimate e = rotation(discs[k], mu_disc, mu_wall, events);
         points[k] = {static_cast<double>(discs[k]), e.mean, e.error};
     });

@@ -132,14 +132,14 @@ TEST_F(Paper, AFigureThatCannotBeMadeDoesNotKeepTheOthersFromBeingMade) {
 }
 
 TEST_F(Paper, EventsShortenWhatIsCountedInSwirlsLikewise) {
-    EXPECT_EQ(settings.swirls(600, 20), 600);
+    EXPECT_EQ(settings.periods(600, 20), 600);
     settings.events = 100'000;
-    EXPECT_EQ(settings.swirls(600, 20), 60);
+    EXPECT_EQ(settings.periods(600, 20), 60);
     settings.events = 1000;
-    EXPECT_EQ(settings.swirls(600, 20), 20);
+    EXPECT_EQ(settings.periods(600, 20), 20);
     settings.quick = true;
     settings.events = 400'000;
-    EXPECT_EQ(settings.swirls(100, 1), 200);
+    EXPECT_EQ(settings.periods(100, 1), 200);
 }
 
 PaperTask short_run(std::uint64_t seed) {

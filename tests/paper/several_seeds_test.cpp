@@ -16,10 +16,10 @@ Json average(double mean, double error) {
 }
 
 /// A run of 120 swirls, 20 of them warm-up.
-Json run_of(double rotation, const char* verdict = "steady", double swirls = 120.0) {
+Json run_of(double rotation, const char* verdict = "steady", double periods = 120.0) {
     Json json{{"config", {{"seed", 1}, {"warmup", nullptr}}},
               {"events", {{"total", 1000}}},
-              {"periods", swirls},
+              {"periods", periods},
               {"warmup", {{"periods", 20}}},
               {"state_hash", "0123456789abcdef"},
               {"steady_state", {{"verdict", verdict}}}};
@@ -29,7 +29,7 @@ Json run_of(double rotation, const char* verdict = "steady", double swirls = 120
 }
 
 TEST(SeveralSeeds, AveragesAreThoseOfTheRunsAndHaveTheErrorOfAll) {
-    const Json all = several_seeds({run_of(0.1), run_of(0.3)});
+    const Json all = replicates({run_of(0.1), run_of(0.3)});
     EXPECT_NEAR(number(at(all, {"rotation", "by_event", "mean"})), 0.2, 1e-12);
     // Within: 0.1/√2; between: 0.1. A factor of Student's comes on top.
     EXPECT_GT(number(at(all, {"rotation", "by_event", "error"})), 0.1);
@@ -46,58 +46,58 @@ TEST(SeveralSeeds, ACellThatAllHaveStaysAsItIsToTheBit) {
         return run;
     };
     // (1.3 + 1.3 + 1.3) / 3 is another number.
-    const Json all = several_seeds({with(1.3), with(1.3), with(1.3), with(1.3), with(1.3)});
+    const Json all = replicates({with(1.3), with(1.3), with(1.3), with(1.3), with(1.3)});
     EXPECT_EQ(all["measured"]["wall"]["sensitivity"]["layer"][0], 1.3);
-    const Json later = several_seeds({with(not_known), with(1.7), with(1.7)});
+    const Json later = replicates({with(not_available), with(1.7), with(1.7)});
     EXPECT_EQ(later["measured"]["wall"]["sensitivity"]["layer"][0], 1.7);
 }
 
 TEST(SeveralSeeds, ByTimeLongRunsCountMore) {
-    const Json all = several_seeds({run_of(0.0, "steady", 120.0), run_of(0.4, "steady", 320.0)});
+    const Json all = replicates({run_of(0.0, "steady", 120.0), run_of(0.4, "steady", 320.0)});
     EXPECT_NEAR(number(at(all, {"rotation", "by_time", "mean"})), 0.3, 1e-12);
     EXPECT_NEAR(number(at(all, {"rotation", "by_event", "mean"})), 0.2, 1e-12);
 }
 
 TEST(SeveralSeeds, SeedsThatScatterTooMuchAreSaidToDisagree) {
-    const Json all = several_seeds({run_of(0.0), run_of(1.0), run_of(0.0), run_of(1.0)});
+    const Json all = replicates({run_of(0.0), run_of(1.0), run_of(0.0), run_of(1.0)});
     EXPECT_EQ(all["seeds"]["disagree"], true);
     EXPECT_NEAR(number(all["seeds"]["scatter"]), 0.5 / 0.1 * std::sqrt(4.0 / 3.0), 1e-12);
 }
 
 TEST(SeveralSeeds, ARunThatDriftsMakesThePointDrift) {
-    const Json all = several_seeds({run_of(0.0), run_of(0.0, "drifting"), run_of(0.0)});
+    const Json all = replicates({run_of(0.0), run_of(0.0, "drifting"), run_of(0.0)});
     EXPECT_EQ(steadiness(all), "drifting");
     EXPECT_EQ(all["seeds"]["steady"], 2);
-    EXPECT_EQ(steadiness(several_seeds({run_of(0.0), run_of(0.0, "too short to tell")})),
+    EXPECT_EQ(steadiness(replicates({run_of(0.0), run_of(0.0, "too short to tell")})),
               "too short to tell");
 }
 
 TEST(SeveralSeeds, WhatEndedInItsWarmupIsNotAveragedAndCounted) {
     Json short_run = run_of(5.0, "too short to tell", 3.0);
     short_run["warmup"]["periods"] = 0;
-    const Json all = several_seeds({run_of(0.1), short_run, run_of(0.3), {{"failed", "why"}}});
+    const Json all = replicates({run_of(0.1), short_run, run_of(0.3), {{"failed", "why"}}});
     EXPECT_NEAR(number(at(all, {"rotation", "by_event", "mean"})), 0.2, 1e-12);
     EXPECT_EQ(all["seeds"]["too_short_to_average"], 1);
     EXPECT_EQ(all["seeds"]["failed"], 1);
     EXPECT_EQ(all["seeds"]["averaged"], 2);
-    EXPECT_TRUE(failed(several_seeds({short_run, short_run})));
+    EXPECT_TRUE(failed(replicates({short_run, short_run})));
     // Who asks for no warm-up has none to end.
     short_run["config"]["warmup"] = 0;
-    EXPECT_FALSE(failed(several_seeds({short_run, short_run})));
-    EXPECT_EQ(several_seeds({{{"failed", "why"}}})["failed"], "why");
+    EXPECT_FALSE(failed(replicates({short_run, short_run})));
+    EXPECT_EQ(replicates({{{"failed", "why"}}})["failed"], "why");
 }
 
 TEST(SeveralSeeds, FourSwirlsAfterTheWarmupAreNoAverageAndFiveAre) {
-    const auto lasting = [](int swirls) {
-        Json run = run_of(1.04, "too short to tell", 20.0 + swirls);
-        run["rotation"]["by_event"]["blocks"] = swirls;
+    const auto lasting = [](int periods) {
+        Json run = run_of(1.04, "too short to tell", 20.0 + periods);
+        run["rotation"]["by_event"]["blocks"] = periods;
         return run;
     };
-    const Json all = several_seeds({run_of(1.0), lasting(4), run_of(1.0)});
+    const Json all = replicates({run_of(1.0), lasting(4), run_of(1.0)});
     EXPECT_EQ(number(at(all, {"rotation", "by_event", "mean"})), 1.0);
     EXPECT_EQ(all["seeds"]["too_short_to_average"], 1);
-    EXPECT_EQ(several_seeds({run_of(1.0), lasting(5)})["seeds"]["averaged"], 2);
-    const Json none = several_seeds({lasting(4), lasting(4)});
+    EXPECT_EQ(replicates({run_of(1.0), lasting(5)})["seeds"]["averaged"], 2);
+    const Json none = replicates({lasting(4), lasting(4)});
     EXPECT_EQ(none["failed"], "no run had 5 swirls after its warm-up, so nothing is averaged.");
 }
 
@@ -121,7 +121,7 @@ TEST(SeveralSeeds, MeasuredRowsTablesCountsAndDirections) {
                        {"visits", {1, 2}},
                        {"varpi_m", {-1.1, -2.0}},
                        {"varpi_m_error", {0.1, 0.3}}}}};
-    const Json all = several_seeds({a, b})["measured"];
+    const Json all = replicates({a, b})["measured"];
     const double free = number(all["pinned"]["becoming_free"]["mean"]);
     EXPECT_NEAR(std::remainder(free, 360.0), 0.0, 1e-9);
     EXPECT_EQ(all["pinned"]["becoming_free"]["count"], 40.0);
@@ -134,7 +134,7 @@ TEST(SeveralSeeds, MeasuredRowsTablesCountsAndDirections) {
 
 TEST(SeveralSeeds, WhatIsNoRunStaysAsItIs) {
     const Json other{{"energy", {1, 2, 3}}};
-    EXPECT_EQ(several_seeds({other}), other);
+    EXPECT_EQ(replicates({other}), other);
 }
 
 }  // namespace

@@ -150,19 +150,19 @@ struct Inside {
     Disc disc;
     double radius;
 };
-Inside draw_inside(const Leg& leg) {
+Inside draw_inside(const Segment& segment) {
     Disc d{{}, {}, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
-    d.time = leg.begin + (leg.end - leg.begin) * draw(0.0, 0.9);
+    d.time = segment.begin + (segment.end - segment.begin) * draw(0.0, 0.9);
     const double container_radius = draw(3.0, 9.0);
     d.radius = draw(0.3, 1.5);
     const double out = (container_radius - d.radius) * draw(0.0, 0.999);
-    d.position = leg.position_at(d.time) + out * unit_circle(draw(0.0, 1.0));
+    d.position = segment.position_at(d.time) + out * unit_circle(draw(0.0, 1.0));
     d.velocity = draw_vector(2.0);
     return {d, container_radius};
 }
 
-double wall_distance(const Inside& in, const Leg& leg, double t) {
-    const Vec2 s = in.disc.flight().position_at(t) - leg.position_at(t);
+double wall_distance(const Inside& in, const Segment& segment, double t) {
+    const Vec2 s = in.disc.flight().position_at(t) - segment.position_at(t);
     return in.radius - in.disc.radius - std::hypot(s.x, s.y);
 }
 
@@ -170,41 +170,41 @@ double wall_distance(const Inside& in, const Leg& leg, double t) {
 // leg's end are not used by anybody.
 RC_GTEST_PROP(TimeOfWallContact, OnASideTheDiscTouchesThenAndNotBefore, ()) {
     const ContainerPath path = polygon_path(1.892, 11.866071, *rc::gen::inRange(3, 31));
-    const Leg& leg = path.legs[*rc::gen::inRange<std::size_t>(0, path.legs.size())];
-    const Inside in = draw_inside(leg);
-    const double t = time_of_wall_contact(in.disc, leg, in.radius);
+    const Segment& segment = path.segments[*rc::gen::inRange<std::size_t>(0, path.segments.size())];
+    const Inside in = draw_inside(segment);
+    const double t = time_of_wall_contact(in.disc, segment, in.radius);
     RC_ASSERT(t >= in.disc.time);
-    const double until = std::min(t, leg.end + 20.0);
+    const double until = std::min(t, segment.end + 20.0);
     for (int k = 0; k <= 1000; ++k)
-        RC_ASSERT(wall_distance(in, leg, in.disc.time + (until - in.disc.time) * k / 1000) >
+        RC_ASSERT(wall_distance(in, segment, in.disc.time + (until - in.disc.time) * k / 1000) >
                   -1e-12);
-    if (t < leg.end + 20.0) RC_ASSERT(std::abs(wall_distance(in, leg, t)) < 1e-12);
+    if (t < segment.end + 20.0) RC_ASSERT(std::abs(wall_distance(in, segment, t)) < 1e-12);
 }
 
 RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheDiscTouchesThenAndNotBefore, ()) {
     const ContainerPath path = circular_path(draw(0.1, 3.0), 11.866071);
-    const Leg& leg = path.legs[0];
-    const Inside in = draw_inside(leg);
-    const double t = time_of_wall_contact(in.disc, leg, in.radius);
+    const Segment& segment = path.segments[0];
+    const Inside in = draw_inside(segment);
+    const double t = time_of_wall_contact(in.disc, segment, in.radius);
     RC_ASSERT(t >= in.disc.time);
-    const double until = std::min(t, leg.end);
+    const double until = std::min(t, segment.end);
     for (int k = 0; k <= 2000; ++k)
-        RC_ASSERT(wall_distance(in, leg, in.disc.time + (until - in.disc.time) * k / 2000) >
+        RC_ASSERT(wall_distance(in, segment, in.disc.time + (until - in.disc.time) * k / 2000) >
                   -1e-12);
-    if (t < leg.end) RC_ASSERT(std::abs(wall_distance(in, leg, t)) < 1e-12);
+    if (t < segment.end) RC_ASSERT(std::abs(wall_distance(in, segment, t)) < 1e-12);
 }
 
 // Whoever asks for the wall up to some time is told the same bits, or a time before which the disc
 // does not reach it.
 RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
     const ContainerPath path = circular_path(draw(0.1, 30.0), 11.866071);
-    const Leg& leg = path.legs[0];
-    const Inside in = draw_inside(leg);
+    const Segment& segment = path.segments[0];
+    const Inside in = draw_inside(segment);
     const double clearance = in.radius - in.disc.radius;
-    const double t = time_of_wall_contact(in.disc, leg, in.radius);
-    const double latest = in.disc.time + draw(0.0, 1.5) * (std::min(t, leg.end) - in.disc.time);
-    const WallContact asked =
-        turning_wall_contact(in.disc.flight(), leg.flight_at(in.disc.time), leg, clearance, latest);
+    const double t = time_of_wall_contact(in.disc, segment, in.radius);
+    const double latest = in.disc.time + draw(0.0, 1.5) * (std::min(t, segment.end) - in.disc.time);
+    const WallContact asked = turning_wall_contact(
+        in.disc.flight(), segment.flight_at(in.disc.time), segment, clearance, latest);
     if (t <= latest) {
         RC_ASSERT(asked.time == t);
         RC_ASSERT(!asked.is_later);
@@ -218,12 +218,12 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
 
 // What is left at τ + δ is told by the terms at τ, but for what follows the eighth.
 RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheTermsNearAMomentTellWhatFollows, ()) {
-    const Leg leg = circular_path(draw(0.1, 3.0), 11.866071).legs[0];
-    const Inside in = draw_inside(leg);
-    const TurningWall wall(in.disc.flight(), leg.flight_at(in.disc.time), leg.turning,
+    const Segment segment = circular_path(draw(0.1, 3.0), 11.866071).segments[0];
+    const Inside in = draw_inside(segment);
+    const TurningWall wall(in.disc.flight(), segment.flight_at(in.disc.time), segment.turning,
                            in.radius - in.disc.radius);
-    const double tau = draw(0.0, 1.0) / leg.turning, phi = draw(-0.5, 0.5);
-    const double x = phi / leg.turning;
+    const double tau = draw(0.0, 1.0) / segment.turning, phi = draw(-0.5, 0.5);
+    const double x = phi / segment.turning;
     const TurningWall::Near f = wall.at(tau);
     const double told =
         f.c + x * (2.0 * f.b +
@@ -242,23 +242,24 @@ TEST(TimeOfWallContact, OnTheCircleTheQuickWayFindsWhatTheParabolasFind) {
     const auto draw_in = [&random](double from, double to) {
         return from + (to - from) * random.uniform();
     };
-    const Leg leg = circular_path(1.892, 11.866071).legs[0];
-    const double clearance = 7.6, eighth = (0.25 * pi) / leg.turning;
+    const Segment segment = circular_path(1.892, 11.866071).segments[0];
+    const double clearance = 7.6, eighth = (0.25 * pi) / segment.turning;
     int quick = 0;
     constexpr int asked = 20000;
     for (int k = 0; k < asked; ++k) {
         Disc d{{}, {}, 0.0, 0.0, draw_in(0.0, 6.0), 1.0, 1.0, 1.0, {}, 0.0};
-        d.position = leg.position_at(d.time) +
+        d.position = segment.position_at(d.time) +
                      draw_in(0.7, 0.999) * clearance * unit_circle(random.uniform());
-        d.velocity = leg.velocity_at(d.time) + draw_in(0.0, 1.0) * unit_circle(random.uniform());
-        const TurningWall wall(d.flight(), leg.flight_at(d.time), leg.turning, clearance);
+        d.velocity =
+            segment.velocity_at(d.time) + draw_in(0.0, 1.0) * unit_circle(random.uniform());
+        const TurningWall wall(d.flight(), segment.flight_at(d.time), segment.turning, clearance);
         const double wait = quick_turning_wall_contact(wall, wall.first());
         if (wait == never) continue;
         ++quick;
         const double t = slow_turning_wall_contact(wall, d.time, eighth, never, never).time;
         // Where the disc grazes the wall its distance is what is known, not the time.
         const Inside in{d, clearance + d.radius};
-        EXPECT_LT(std::abs(wall_distance(in, leg, 0.5 * (d.time + wait + t))), 1e-12) << k;
+        EXPECT_LT(std::abs(wall_distance(in, segment, 0.5 * (d.time + wait + t))), 1e-12) << k;
         EXPECT_NEAR(d.time + wait, t, 1e-5) << k;
     }
     EXPECT_GT(quick, asked / 4);
@@ -267,14 +268,14 @@ TEST(TimeOfWallContact, OnTheCircleTheQuickWayFindsWhatTheParabolasFind) {
 // A disc that overlaps the wall a little and leaves it counts as just inside: the quick way leads
 // it to where it overlaps as much again.
 TEST(TimeOfWallContact, OnTheCircleTheQuickWayLeadsFromAnOverlapToTheSameOverlap) {
-    const Leg leg = circular_path(1.892, 11.866071).legs[0];
+    const Segment segment = circular_path(1.892, 11.866071).segments[0];
     constexpr double clearance = 7.6, overlap = 1e-8;
     int quick = 0;
     for (int k = 0; k < 64; ++k) {
         const Vec2 out = unit_circle(k / 64.0);
-        const Flyer disc{leg.start + (clearance + overlap) * out,
-                         leg.velocity - 0.3 * out + 0.5 * perpendicular(out), 0.0};
-        const TurningWall wall(disc, leg.flight_at(0.0), leg.turning, clearance);
+        const Flyer disc{segment.start + (clearance + overlap) * out,
+                         segment.velocity - 0.3 * out + 0.5 * perpendicular(out), 0.0};
+        const TurningWall wall(disc, segment.flight_at(0.0), segment.turning, clearance);
         const TurningWall::Near start = wall.first();
         const double wait = quick_turning_wall_contact(wall, start);
         if (wait == never) continue;
@@ -289,24 +290,24 @@ TEST(TimeOfWallContact, OnTheCircleTheQuickWayLeadsFromAnOverlapToTheSameOverlap
 // a parabola, but for the turning of the push.
 TEST(TimeOfWallContact, OnTheCircleAShortHopKeepsItsDigits) {
     const double amplitude = 2.0, period = 12.0, omega = 2.0 * pi / period;
-    const Leg leg = circular_path(amplitude, period).legs[0];
+    const Segment segment = circular_path(amplitude, period).segments[0];
     const double push = amplitude * omega * omega;
     for (double speed = 1e-2; speed > 1e-9; speed *= 0.1) {
         // At the wall, outwards of the path, and leaving it straight inwards.
-        Disc d{leg.start, leg.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
+        Disc d{segment.start, segment.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
         d.position.x += 7.6;
         d.velocity.x -= speed;
-        const double hop = time_of_wall_contact(d, leg, 8.6);
+        const double hop = time_of_wall_contact(d, segment, 8.6);
         EXPECT_NEAR(hop, 2.0 * speed / push, 1e-3 * hop * (speed / 1e-2) + 6e-8) << speed;
     }
 }
 
 /// When the disc touches the wall of radius `container_radius` on any leg of the polygon.
 double contact_on_polygon(const Disc& disc, const ContainerPath& path, double container_radius) {
-    for (const Leg& leg : path.legs) {
-        if (leg.end <= disc.time) continue;
-        const double t = time_of_wall_contact(disc, leg, container_radius);
-        if (t < leg.end) return t;
+    for (const Segment& segment : path.segments) {
+        if (segment.end <= disc.time) continue;
+        const double t = time_of_wall_contact(disc, segment, container_radius);
+        if (t < segment.end) return t;
     }
     return never;
 }
@@ -315,26 +316,26 @@ RC_GTEST_PROP(TimeOfWallContact, TheCircleIsThePolygonWithManySides, ()) {
     static const int sides = 10000;
     static const ContainerPath circle = circular_path(1.892, 11.866071);
     static const ContainerPath polygon = polygon_path(1.892, 11.866071, sides);
-    const Inside in = draw_inside(circle.legs[0]);
+    const Inside in = draw_inside(circle.segments[0]);
     // The polygon's centre is never farther from the circle's than the sagitta, so the contact
     // with the turning wall lies between those with a polygon's wall that much nearer and farther.
     const double sagitta = 1.0001 * 1.892 * (pi / sides) * (pi / sides) / 2.0;
-    RC_PRE(wall_distance(in, circle.legs[0], in.disc.time) > 2.0 * sagitta);
-    const double t = time_of_wall_contact(in.disc, circle.legs[0], in.radius);
+    RC_PRE(wall_distance(in, circle.segments[0], in.disc.time) > 2.0 * sagitta);
+    const double t = time_of_wall_contact(in.disc, circle.segments[0], in.radius);
     RC_ASSERT(contact_on_polygon(in.disc, polygon, in.radius - sagitta) <= t);
     const double later = contact_on_polygon(in.disc, polygon, in.radius + sagitta);
     RC_ASSERT(later >= t);
 }
 
 TEST(TimeOfWallContact, AcrossAStillDishIsTheChordOverTheSpeed) {
-    const Leg leg = still_path(100.0).legs[0];
+    const Segment segment = still_path(100.0).segments[0];
     const Disc d{{-7.6, 0}, {0.5, 0}, 0, 0, 0, 1.0, 1.0, 10.0};
-    EXPECT_NEAR(time_of_wall_contact(d, leg, 8.6), 15.2 / 0.5, 1e-13);
+    EXPECT_NEAR(time_of_wall_contact(d, segment, 8.6), 15.2 / 0.5, 1e-13);
 }
 
 TEST(TimeOfWallContact, AtTheWallAndApproachingMeansNow) {
-    const Leg still = still_path(100.0).legs[0];
-    const Leg turning = circular_path(1.0, 10.0).legs[0];
+    const Segment still = still_path(100.0).segments[0];
+    const Segment turning = circular_path(1.0, 10.0).segments[0];
     Disc d{{7.6, 0}, {0.5, 0.1}, 0, 0, 0, 1.0, 1.0, 10.0};
     EXPECT_EQ(time_of_wall_contact(d, still, 8.6), 0.0);
     d.position.x += 1.0;
@@ -343,16 +344,16 @@ TEST(TimeOfWallContact, AtTheWallAndApproachingMeansNow) {
 
 TEST(TimeOfWallContact, ADiscThatMovesWithTheDishNeverTouchesIt) {
     const ContainerPath path = polygon_path(1.892, 11.866071, 30);
-    const Leg& leg = path.legs[0];
-    const Disc d{leg.start, leg.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
-    EXPECT_EQ(time_of_wall_contact(d, leg, 8.6), never);
+    const Segment& segment = path.segments[0];
+    const Disc d{segment.start, segment.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
+    EXPECT_EQ(time_of_wall_contact(d, segment, 8.6), never);
 }
 
 TEST(TimeOfWallContact, ADiscSlidingAlongTheWallHitsItLater) {
     // b = 0 at the wall exactly: it must not collide for ever at one instant.
-    const Leg leg = still_path(100.0).legs[0];
+    const Segment segment = still_path(100.0).segments[0];
     const Disc d{{7.6, 0}, {0, 1}, 0, 0, 0, 1.0, 1.0, 10.0};
-    const double t = time_of_wall_contact(d, leg, 8.6);
+    const double t = time_of_wall_contact(d, segment, 8.6);
     EXPECT_GT(t, 0.0);
     EXPECT_LT(t, 1e-6);  // 2⁻²⁶ clearance/speed: within the rounding error of the wall
 }
@@ -435,15 +436,15 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, WithoutRelativeAccelerationItIsTheDiscsB
 }
 
 RC_GTEST_PROP(TimeOfWallContactOnParabolas, IsTheFirstAtWhichItTouches, ()) {
-    const Leg leg{0.0, 1000.0, draw_vector(1.0), draw_vector(1.0), 0.0};
+    const Segment segment{0.0, 1000.0, draw_vector(1.0), draw_vector(1.0), 0.0};
     const double clearance = 7.6;
     const Vec2 inside = draw_vector(5.0);
-    const Parabola<double> sphere{leg.position_at(1.5) + inside, draw_vector(3.0), draw_vector(2.0),
-                                  1.5};
+    const Parabola<double> sphere{segment.position_at(1.5) + inside, draw_vector(3.0),
+                                  draw_vector(2.0), 1.5};
     const double rolls = 1.5 + draw(0.01, 3.0);
-    const double found = time_of_wall_contact(sphere, rolls, leg, clearance);
+    const double found = time_of_wall_contact(sphere, rolls, segment, clearance);
     const auto from_centre = [&](double t) {
-        const Vec2 s = sphere.position_at(t) - leg.position_at(t);
+        const Vec2 s = sphere.position_at(t) - segment.position_at(t);
         return dot(s, s);
     };
     const double end = std::min(found, rolls);

@@ -56,12 +56,12 @@ TEST(Floor, ASphereThatRollsStaysRolling) {
 TEST(Floor, AtTheEndOfALegARollingSphereGainsTwoSeventhsOfTheJump) {
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     Disc d = rolling_sphere({0.1, 0.2});
-    d = settled(d, {1.92}, path.legs[0].velocity);
-    for (std::size_t k = 1; k < path.legs.size(); ++k) {
-        const Vec2 jump = path.legs[k].velocity - path.legs[k - 1].velocity;
+    d = settled(d, {1.92}, path.segments[0].velocity);
+    for (std::size_t k = 1; k < path.segments.size(); ++k) {
+        const Vec2 jump = path.segments[k].velocity - path.segments[k - 1].velocity;
         const Disc before = d;
-        d = settled(moved_to(d, {}, path.legs[k].begin), {1.92}, path.legs[k].velocity);
-        EXPECT_LT(d.time, path.legs[k].end);
+        d = settled(moved_to(d, {}, path.segments[k].begin), {1.92}, path.segments[k].velocity);
+        EXPECT_LT(d.time, path.segments[k].end);
         EXPECT_NEAR(d.velocity.x, before.velocity.x + 2.0 / 7.0 * jump.x, rounding);
         EXPECT_NEAR(d.velocity.y, before.velocity.y + 2.0 / 7.0 * jump.y, rounding);
     }

@@ -50,7 +50,7 @@ TEST(RollingBall, IsOppositeTheSwirlCentreWithoutLag) {
     const Snapshot s = snapshot_at({8.6, 5.0, 1.0, 0.0}, A, T, 4.0);
     EXPECT_NEAR(cross(s.container_centre, s.position(0)), 0.0, 1e-14);
     EXPECT_GT(dot(s.container_centre, s.position(0)), 0.0);
-    EXPECT_EQ(snapshot_at({}, A, T, 3.0 * T + 1.0).swirls, 3);
+    EXPECT_EQ(snapshot_at({}, A, T, 3.0 * T + 1.0).periods, 3);
 }
 
 TEST(RollingBall, TurnsAgainstTheSwirlInTheMFrame) {

@@ -22,7 +22,7 @@ TEST(Snapshot, SpheresOfAnotherNumberHaveAllTheirColumns) {
 // Every number has a short binary form, so nothing is rounded.
 Snapshot two_bodies(bool spheres) {
     Snapshot s;
-    s.swirls = 3;
+    s.periods = 3;
     s.clock = 3.0;
     s.period = 8.0;
     if (spheres) s.resize_for_spheres(2);

@@ -277,7 +277,7 @@ Vec2 integrated_friction(const Slip& slip, double coulomb) {
 // all directions and from weak friction to such as sticks: within the bounds that the law states.
 TEST(SphereCollision, SlidingFrictionIsCloseToThatWhichOpposesTheSlipThroughoutTheContact) {
     const auto worst = [](double inertia_factor) {
-        double most = 0.0;
+        double maximum = 0.0;
         for (const double other_mass : {0.0, 1.0, 100.0, 0.01})
             for (int angle = 0; angle < 36; ++angle)
                 for (double part = 0.1; part < 1.05; part += 0.1) {
@@ -300,9 +300,9 @@ TEST(SphereCollision, SlidingFrictionIsCloseToThatWhichOpposesTheSlipThroughoutT
                     const double coulomb = part * slip.sticking();
                     const Vec2 off =
                         Vec2{J.tangential, J.vertical} - integrated_friction(slip, coulomb);
-                    most = std::max(most, std::hypot(off.x, off.y) / coulomb);
+                    maximum = std::max(maximum, std::hypot(off.x, off.y) / coulomb);
                 }
-        return most;
+        return maximum;
     };
     EXPECT_LT(worst(0.4), 0.02);
     EXPECT_LT(worst(2.0 / 3.0), 0.035);

@@ -21,7 +21,7 @@ std::string without_number(std::string text) {
 }
 
 std::string drawn(PictureFormat format) {
-    Snapshot s = dish(0.2);
+    Snapshot s = container(0.2);
     add_disc(s, {1.0, 1.0}, 0.4);
     Canvas canvas(Size{320, 240}, format);
     canvas.fill_page(dark_theme().page);

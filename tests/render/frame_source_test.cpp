@@ -55,11 +55,11 @@ TEST(FrameSource, IsTheStateOfTheEngineAtExactlyThatTime) {
     const RunConfig config = small_run();
     const Reel reel = simulated(config).open();
     Simulation simulation(make_initial_state(config));
-    for (double swirls : {0.0, 0.3, 0.31, 2.0, 5.75}) {
-        const double whole = std::floor(swirls);
-        simulation.advance_to(static_cast<std::int64_t>(whole), (swirls - whole) * config.period);
-        const Snapshot expected = simulation.snapshot(), found = reel(swirls);
-        EXPECT_EQ(found.swirls, expected.swirls);
+    for (double periods : {0.0, 0.3, 0.31, 2.0, 5.75}) {
+        const double whole = std::floor(periods);
+        simulation.advance_to(static_cast<std::int64_t>(whole), (periods - whole) * config.period);
+        const Snapshot expected = simulation.snapshot(), found = reel(periods);
+        EXPECT_EQ(found.periods, expected.periods);
         EXPECT_EQ(found.clock, expected.clock);
         EXPECT_EQ(found.x, expected.x);
         EXPECT_EQ(found.y, expected.y);
@@ -183,11 +183,11 @@ TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
     source.period = 10.0;
     source.container_radius = 8.6;
     source.open = [] {
-        return [](double swirls) {
+        return [](double periods) {
             Snapshot s;
             s.period = 10.0;
-            s.swirls = static_cast<std::int64_t>(swirls);
-            const double phase = swirls - std::floor(swirls);
+            s.periods = static_cast<std::int64_t>(periods);
+            const double phase = periods - std::floor(periods);
             s.clock = phase * s.period;
             s.container_radius = 8.6;
             s.container_centre = 1.9 * unit_circle(phase);

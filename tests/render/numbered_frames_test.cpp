@@ -15,14 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Film, KnowsTheNamesOfItsPictures) {
-    EXPECT_TRUE(is_of_film("film.mp4", "film.mp4"));
-    EXPECT_FALSE(is_of_film("film.mp4", "other.mp4"));
+    EXPECT_TRUE(is_of_video("film.mp4", "film.mp4"));
+    EXPECT_FALSE(is_of_video("film.mp4", "other.mp4"));
     for (const char* name : {"a/00007.png", "a/12345.png", "a/123456.png"})
-        EXPECT_TRUE(is_of_film("a/%05d.png", name)) << name;
+        EXPECT_TRUE(is_of_video("a/%05d.png", name)) << name;
     for (const char* name : {"a/7.png", "a/0000x.png", "b/00007.png", "a/00007.svg", "a/.png", ""})
-        EXPECT_FALSE(is_of_film("a/%05d.png", name)) << name;
-    EXPECT_TRUE(is_of_film("a/%d.png", "a/7.png"));
-    EXPECT_FALSE(is_of_film("a/%d.png", "a/.png"));
+        EXPECT_FALSE(is_of_video("a/%05d.png", name)) << name;
+    EXPECT_TRUE(is_of_video("a/%d.png", "a/7.png"));
+    EXPECT_FALSE(is_of_video("a/%d.png", "a/.png"));
 }
 
 class Pictures : public ::testing::Test {
@@ -50,35 +50,35 @@ class Pictures : public ::testing::Test {
 TEST_F(Pictures, AreFoundByTheirNumber) {
     for (int k : {3, 4, 12})
         take(path("a").append(std::to_string(1000 + k)).append(".png"), k / 15.0);
-    Film film(path("a%04d.png"));
-    EXPECT_EQ(film.name(7), path("a0007.png"));
-    EXPECT_FALSE(film.may_have(3));
-    EXPECT_TRUE(film.may_have(1003));
-    EXPECT_EQ(grey_of(*film.picture(1003)), 51);
-    EXPECT_EQ(grey_of(*film.picture(1004)), 68);
-    EXPECT_EQ(grey_of(*film.picture(1012)), 204);  // gaps do no harm
-    EXPECT_EQ(film.picture(1012)->size().width, 8);
-    EXPECT_EQ(film.picture(1012)->size().height, 6);
-    EXPECT_THROW(film.picture(1013), DrawFailure);
+    NumberedFrames video(path("a%04d.png"));
+    EXPECT_EQ(video.name(7), path("a0007.png"));
+    EXPECT_FALSE(video.may_have(3));
+    EXPECT_TRUE(video.may_have(1003));
+    EXPECT_EQ(grey_of(*video.picture(1003)), 51);
+    EXPECT_EQ(grey_of(*video.picture(1004)), 68);
+    EXPECT_EQ(grey_of(*video.picture(1012)), 204);  // gaps do no harm
+    EXPECT_EQ(video.picture(1012)->size().width, 8);
+    EXPECT_EQ(video.picture(1012)->size().height, 6);
+    EXPECT_THROW(video.picture(1013), DrawFailure);
 }
 
 TEST(Film, NumbersStandWhereTheMarkIsAndMayBeLonger) {
-    EXPECT_EQ(Film("x/%d.png").name(12), "x/12.png");
-    EXPECT_EQ(Film("%03d_b.png").name(5), "005_b.png");
-    EXPECT_EQ(Film("%03d_b.png").name(12345), "12345_b.png");
-    EXPECT_EQ(Film("dish.avi").name(12), "dish.avi");
+    EXPECT_EQ(NumberedFrames("x/%d.png").name(12), "x/12.png");
+    EXPECT_EQ(NumberedFrames("%03d_b.png").name(5), "005_b.png");
+    EXPECT_EQ(NumberedFrames("%03d_b.png").name(12345), "12345_b.png");
+    EXPECT_EQ(NumberedFrames("dish.avi").name(12), "dish.avi");
 }
 
 TEST(Film, NamesThatMakeNoSenseAreRefused) {
     for (const char* good : {"", "%d.png", "a%05d.jpg", "dish.avi", "%3d.tif"})
-        EXPECT_FALSE(film_problem(good)) << good;
+        EXPECT_FALSE(video_problem(good)) << good;
     for (const char* bad : {"one.png", "%d/%d.png", "%s.png", "%", "%99d.png", "%05x.jpg"})
-        EXPECT_TRUE(film_problem(bad)) << bad;
+        EXPECT_TRUE(video_problem(bad)) << bad;
 }
 
 TEST(Backdrop, LiesWhereItsPixelsAre) {
     // One white pixel of a picture of 9 x 7, in both frames, mirrored or not.
-    Snapshot s = dish(0.3);
+    Snapshot s = container(0.3);
     const SceneStyle style{.orientation = false, .points = false, .path = false};
     for (const double mirror : {1.0, -1.0})
         for (const Frame frame : {Frame::lab, Frame::m}) {

@@ -27,17 +27,17 @@ TEST(Painters, FramesComeOutInTheOrderTheyWentIn) {
 }
 
 TEST(Painters, OnlyAFewFramesAreUnderWay) {
-    std::atomic<int> under_way = 0, most = 0;
+    std::atomic<int> under_way = 0, maximum = 0;
     Painters painters(2, [&](const Painters::Bytes&) {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
         --under_way;
     });
     for (int k = 0; k < 60; ++k) {
         painters.submit([](unsigned, Painters::Bytes& bytes) { bytes.assign(1, 0); });
-        most = std::max(most.load(), ++under_way);
+        maximum = std::max(maximum.load(), ++under_way);
     }
     painters.finish();
-    EXPECT_LE(most, 2 * 2 + 2 + 1);
+    EXPECT_LE(maximum, 2 * 2 + 2 + 1);
 }
 
 TEST(Painters, WhatAPainterThrowsArrivesAtTheCaller) {

@@ -13,7 +13,7 @@
 namespace swirl {
 
 /// A dish of radius 8.6 at the given phase (in turns) of a swirl of amplitude 1.892.
-inline Snapshot dish(double turns) {
+inline Snapshot container(double turns) {
     Snapshot s;
     s.period = 12.0;
     s.clock = turns * s.period;

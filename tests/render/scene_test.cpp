@@ -30,7 +30,7 @@ double direction(const Vec2& from, const Vec2& to) {
 double turned_by(double from, double to) { return std::remainder(to - from, 2.0 * pi); }
 
 TEST(Scene, ADiscIsDrawnWhereItIsAndAsLargeAsItIs) {
-    Snapshot s = dish(0.1);
+    Snapshot s = container(0.1);
     add_disc(s, {3.25, -2.5});
     Canvas canvas(Size{600, 600});
     const SceneStyle style = plain_style();
@@ -55,7 +55,7 @@ TEST(Scene, ADiscStaysPutInTheMFrameIfItTurnsWithTheSwirl) {
     Canvas canvas(Size{400, 400});
     const View view = view_of(canvas, Frame::m);
     for (double turns : {0.0, 0.2, 0.55, 0.9}) {
-        Snapshot s = dish(turns);
+        Snapshot s = container(turns);
         // Three units from C towards M.
         add_disc(s, (1.892 + 3.0) * unit_circle(turns));
         canvas.fill_page(style.theme.page);
@@ -73,7 +73,7 @@ TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
     Canvas canvas(Size{800, 800});
     const View view = view_of(canvas, Frame::lab);
     for (double angle : {0.0, 0.5, 1.7, 3.0, -2.0}) {
-        Snapshot s = dish(0.0);
+        Snapshot s = container(0.0);
         add_disc(s, {1.0, 2.0}, angle);
         canvas.fill_page(style.theme.page);
         draw_scene(canvas, view, style, {s});
@@ -93,7 +93,7 @@ TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
 
 /// A sphere in the middle of the dish's page, turned like that.
 Pixel top_of_ball(const Quaternion& turned) {
-    Snapshot s = dish(0.0);
+    Snapshot s = container(0.0);
     s.resize_for_spheres(1);
     s.set(0, {{2.0, 1.0}, {0.0, 0.0}, 0.0, 0.0, s.clock, 1.0, 1.0, 0.4});
     s.turned = {turned};
@@ -118,7 +118,7 @@ TEST(Scene, ASpheresPatternRollsWithIt) {
 }
 
 TEST(Scene, ADiscOfUnknownOrientationHasNoMark) {
-    Snapshot s = dish(0.0);
+    Snapshot s = container(0.0);
     add_disc(s, {0.0, 0.0}, std::nan(""));
     SceneStyle style = plain_style();
     style.orientation = true;
@@ -139,7 +139,7 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
         double before = 0.0;
         for (int k = 0; k < 9; ++k) {
             const double turns = k / 8.0;
-            const Snapshot s = dish(turns);
+            const Snapshot s = container(turns);
             Canvas canvas(Size{500, 500});
             const View view = view_of(canvas, frame);
             canvas.fill_page(style.theme.page);
@@ -160,7 +160,7 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
 
 TEST(Scene, MIsAtTheBottomAndSStraightAboveCInTheMFrame) {
     for (int k = 0; k < 16; ++k) {
-        const Snapshot s = dish(k / 16.0);
+        const Snapshot s = container(k / 16.0);
         const FrameAt at = FrameAt(s, Frame::m);
         const Vec2 m = s.container_centre + (8.6 / 1.892) * s.container_centre;
         EXPECT_NEAR(at.position(m).x, 0.0, 1e-14 * 20.0);
@@ -177,7 +177,7 @@ TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
     // A disc on a straight line in the lab, seen at two moments: central difference, error ~ h².
     const Vec2 start{2.0, -1.0}, v{0.3, 0.7};
     const auto at = [&](double turns) {
-        Snapshot s = dish(turns);
+        Snapshot s = container(turns);
         add_disc(s, start + (turns * s.period) * v);
         s.vx[0] = v.x;
         s.vy[0] = v.y;
@@ -194,7 +194,7 @@ TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
 }
 
 TEST(Scene, ColoursTellWhatTheySay) {
-    Snapshot s = dish(0.0);
+    Snapshot s = container(0.0);
     add_disc(s, {-3.0, 0.0}, 0.0, 1.0, -2.0);
     add_disc(s, {0.0, 0.0}, 0.0, 1.0, 0.0);
     add_disc(s, {3.0, 0.0}, 0.0, 1.0, 2.0);
@@ -223,9 +223,9 @@ TEST(Scene, ColoursTellWhatTheySay) {
 }
 
 TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
-    std::vector<Snapshot> past(9, dish(0.0));
+    std::vector<Snapshot> past(9, container(0.0));
     for (int k = 0; k < 9; ++k) add_disc(past[k], {-6.0 + 0.5 * k, 1.0});
-    Snapshot now = dish(0.0);
+    Snapshot now = container(0.0);
     add_disc(now, {-1.5, 1.0});
     std::vector<const Snapshot*> pointers;
     for (const Snapshot& s : past) pointers.push_back(&s);
@@ -244,7 +244,7 @@ TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
 }
 
 TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
-    Snapshot s = dish(0.0);
+    Snapshot s = container(0.0);
     add_disc(s, {1.892, -4.0});  // right of C in the M-frame of phase 0? C + (0, −4): to the left
     const FrameAt at = FrameAt(s, Frame::m);
     // At rest in the lab it moves clockwise in the M-frame: v' = −Ω ẑ × p', less the swirl itself.
@@ -265,7 +265,7 @@ TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
 }
 
 TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotation) {
-    const Snapshot s = dish(0.25);
+    const Snapshot s = container(0.25);
     const SceneStyle style = plain_style();
     Canvas canvas(Size{500, 500});
     const View view = fitting_view({0, 0, 500, 500}, Frame::lab, 8.6, 1.892, 0.1);
@@ -284,7 +284,7 @@ TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotat
 }
 
 TEST(Scene, GhostsLieBeneathTheDiscs) {
-    Snapshot now = dish(0.0), before = dish(0.0);
+    Snapshot now = container(0.0), before = container(0.0);
     add_disc(now, {2.0, 0.0});
     add_disc(before, {-2.0, 0.0});
     const Snapshot* ghosts[] = {&before, &now};
@@ -300,7 +300,7 @@ TEST(Scene, GhostsLieBeneathTheDiscs) {
 }
 
 TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
-    Snapshot s = dish(0.4);
+    Snapshot s = container(0.4);
     SceneStyle style = plain_style();
     style.slice = 0.75 * pi;  // up and to the left
     Canvas canvas(Size{400, 400});
@@ -317,7 +317,7 @@ TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
 }
 
 TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
-    Snapshot s = dish(0.13);
+    Snapshot s = container(0.13);
     add_disc(s, {5.0, 0.0});
     const Theme theme = light_theme();
     Canvas canvas(Size{1200, 450});
@@ -330,7 +330,7 @@ TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
 }
 
 TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
-    Snapshot s = dish(0.3);
+    Snapshot s = container(0.3);
     add_disc(s, {0.0, 0.0});
     const std::vector<Vec2> path{{1.892, 0.0}, {0.0, 1.892}, {-1.892, 0.0}, {0.0, -1.892}};
     for (const Theme& theme : {dark_theme(), light_theme()}) {
@@ -361,7 +361,7 @@ TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
 TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
     // Painters share out the frames of a movie as they come free, so a frame may be the first of
     // its canvas or the hundredth, and must be the same to the byte.
-    Snapshot s = dish(0.3), before = dish(0.25);
+    Snapshot s = container(0.3), before = container(0.25);
     add_disc(s, {1.0, 2.0}, 0.4);
     add_disc(before, {0.5, 2.0}, 0.2);
     const Snapshot* past[] = {&before};
@@ -431,7 +431,7 @@ TEST(Scene, ThePointsAreNamedInASmallDishToo) {
     Canvas canvas(Size{220, 220});
     canvas.fill_page(dark_theme().page);
     const View view = view_of(canvas, Frame::m);
-    const Snapshot s = dish(0.0);
+    const Snapshot s = container(0.0);
     SceneStyle style = plain_style();
     style.points = true;
     draw_scene(canvas, view, style, {.now = s});

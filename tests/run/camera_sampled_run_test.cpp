@@ -11,7 +11,7 @@
 namespace swirl {
 namespace {
 
-RunConfig small_dish() {
+RunConfig small_container() {
     RunConfig config;
     config.discs = 20;
     config.container_radius = 6.5;
@@ -26,15 +26,15 @@ double mean(const nlohmann::ordered_json& run, const char* which) {
 }
 
 TEST(SeenRun, ManyExactPicturesSayWhatTheRunSays) {
-    const auto exact = result_json(run(small_dish()));
-    const auto seen = seen_run(small_dish(), {511, 0.0}, {"temperature"});
+    const auto exact = result_json(run(small_container()));
+    const auto seen = seen_run(small_container(), {511, 0.0}, {"temperature"});
     EXPECT_EQ(seen["state_hash"], exact["state_hash"]);  // looking changes no bit
     // Velocities between collisions are exact but for the frames with a collision in them.
     EXPECT_NEAR(mean(seen, "rigid_by_time"), mean(exact, "rigid_by_time"), 0.003);
 }
 
 TEST(SeenRun, PoorPlacesHeatTheDiscsByWhatTheyAdd) {
-    RunConfig config = small_dish();
+    RunConfig config = small_container();
     config.path = PathShape::polygon;
     const auto temperature = [&config](double error) {
         return seen_run(config, {64, error},

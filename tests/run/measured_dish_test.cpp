@@ -21,23 +21,24 @@ namespace {
 constexpr double R = paper_container_radius;
 constexpr int frames = 511;
 
-InitialState dish(std::size_t discs, const Surface& disc_surface, const Surface& wall_surface) {
+InitialState container(std::size_t discs, const Surface& disc_surface,
+                       const Surface& wall_surface) {
     const auto places = place_discs(std::vector<double>(discs, 1.0), R, 3);
     InitialState scene{{},
                        polygon_path(paper_amplitude, paper_period, paper_sides),
                        R,
                        disc_surface,
                        wall_surface};
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     for (const Vec2& p : *places)
         scene.discs.push_back(
-            {leg.start + p, leg.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
+            {segment.start + p, segment.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
     return scene;
 }
 
 TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
     for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.5, 0.97, 0.3}}) {
-        Simulation simulation(dish(30, surface, surface));
+        Simulation simulation(container(30, surface, surface));
         Snapshot s = simulation.snapshot();
         const double before = kinetic_energy(s);
         EnergyBudget budget;
@@ -55,18 +56,18 @@ TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
 
 TEST(MeasuredDish, TractionObeysCoulombAndRatesAddUp) {
     const double mu = 0.3;
-    Simulation simulation(dish(40, {mu, 1.0, 0.0}, {mu, 1.0, 0.0}));
+    Simulation simulation(container(40, {mu, 1.0, 0.0}, {mu, 1.0, 0.0}));
     simulation.advance_to(3, 0.0);
     Snapshot s = simulation.snapshot();
     WallStress stress(R, 36);
     CollisionRates rates;
     const EventCounts before = simulation.events();
-    while (simulation.swirls() < 23) {
+    while (simulation.periods() < 23) {
         const Event event = simulation.step();
         simulation.refresh(s, event);
         stress.sample(event, s);
         rates.sample(event);
-        if (simulation.swirls() == event.swirls) continue;
+        if (simulation.periods() == event.periods) continue;
         stress.close_block(s.period);
         rates.close_block(s.period, s.size());
     }
@@ -100,14 +101,14 @@ double nearest_to_the_centre_of_mass(const Snapshot& s) {
 
 // The centre of mass that is followed from event to event is that of the discs.
 TEST(MeasuredDish, ALookAfterEveryEventSeesWhatALookAtAllDiscsSees) {
-    InitialState mixture = dish(30, Surface{0.7}, Surface{0.4});
+    InitialState mixture = container(30, Surface{0.7}, Surface{0.4});
     for (std::size_t i = 0; i < mixture.discs.size(); ++i) mixture.discs[i].mass = 0.3 + double(i);
-    InitialState circle = dish(28, Surface{1.0}, Surface{1.0});
+    InitialState circle = container(28, Surface{1.0}, Surface{1.0});
     circle.path = circular_path(paper_amplitude, paper_period);
     const Surface dissipates{0.5, 0.97, 0.3, 1e-3};
-    const InitialState scenes[] = {dish(48, Surface{1.0}, Surface{1.0}),
-                                   dish(5, Surface{1.0}, Surface{1.0}),
-                                   dish(30, dissipates, dissipates), mixture, circle};
+    const InitialState scenes[] = {container(48, Surface{1.0}, Surface{1.0}),
+                                   container(5, Surface{1.0}, Surface{1.0}),
+                                   container(30, dissipates, dissipates), mixture, circle};
     for (const InitialState& scene : scenes) {
         Simulation simulation(scene);
         Snapshot s = simulation.snapshot();
@@ -144,20 +145,20 @@ struct Seen {
 };
 
 Seen watch(std::size_t discs, const Surface& surface, int periods) {
-    const InitialState scene = dish(discs, surface, surface);
+    const InitialState scene = container(discs, surface, surface);
     Simulation simulation(scene);
     simulation.advance_to(40, 0.0);
     Snapshot s = simulation.snapshot();
     MFrameView view;
     Seen seen;
     int next = 0;
-    while (simulation.swirls() < 40 + periods) {
+    while (simulation.periods() < 40 + periods) {
         const Event event = simulation.step();
         for (; next < frames && paper_period * next / frames <= event.clock; ++next) {
             s.clock = paper_period * next / frames;
-            const Leg& leg = scene.path.leg_at(s.clock);
-            s.container_centre = leg.position_at(s.clock);
-            s.container_velocity = leg.velocity_at(s.clock);
+            const Segment& segment = scene.path.segment_at(s.clock);
+            s.container_centre = segment.position_at(s.clock);
+            s.container_velocity = segment.velocity_at(s.clock);
             view.update(s);
             seen.rotation.sample_by_time(s);
             seen.tracks.sample(view);
@@ -177,7 +178,7 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
         seen.rotation.sample(s, event);
         seen.collisions.sample(event, s);
         seen.frustration.sample(event, s);
-        if (simulation.swirls() == event.swirls) continue;
+        if (simulation.periods() == event.periods) continue;
         next = 0;
         seen.rotation.close_block();
         seen.tracks.close_block();

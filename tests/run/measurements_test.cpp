@@ -116,13 +116,13 @@ TEST(Measurements, TheWallIsPressedWhereTheDiscsAreAndDraggedAtMostByFriction) {
 TEST(Measurements, OrderAndPackingLieBetweenNothingAndTheClosestPacking) {
     const auto measured = measured_run(short_run(), {"order", "packing"}).measured;
     // The mean over discs of π/(area) is at least π over the mean area, by Jensen's inequality.
-    const double over_the_dish = 30.0 / (paper_container_radius * paper_container_radius);
+    const double over_the_container = 30.0 / (paper_container_radius * paper_container_radius);
     for (const char* whose : {"all", "pinned"}) {
         EXPECT_GT(mean_of(measured["order"][whose]), 0.0);
         EXPECT_LT(mean_of(measured["order"][whose]), 1.0);
         EXPECT_LT(mean_of(measured["packing"][whose]), 1.0);
     }
-    EXPECT_GT(mean_of(measured["packing"]["all"]), over_the_dish);
+    EXPECT_GT(mean_of(measured["packing"]["all"]), over_the_container);
 }
 
 TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
@@ -175,7 +175,7 @@ TEST(Measurements, UnknownNameIsRefusedWithThoseThereAre) {
         try {
             read_measurement_list(list);
             FAIL() << list;
-        } catch (const WrongCall& wrong) {
+        } catch (const UsageError& wrong) {
             EXPECT_THAT(wrong.what(), HasSubstr("density, flow, profile"));
         }
     }

@@ -28,7 +28,7 @@ std::vector<std::string> names_of(const Part& part) {
     return names;
 }
 
-RunConfig dish(const Part& part, std::uint64_t seed) {
+RunConfig container(const Part& part, std::uint64_t seed) {
     RunConfig config;
     config.discs = 28;
     config.restitution = 0.99;  // or one loss of the energy budget is 0
@@ -39,20 +39,20 @@ RunConfig dish(const Part& part, std::uint64_t seed) {
 
 /// All of a run from its first event on, period by period.
 void observe(const Part& part, std::uint64_t seed, std::initializer_list<Observation*> observers) {
-    swirl::Run run(dish(part, seed));
+    swirl::Run run(container(part, seed));
     SampleTimes times = run.sample_times(part.samples);
     std::uint64_t events = 0;
     while (run.next_event()) {
         while (run.next_sample(times))
             for (Observation* o : observers) o->sample(run.snapshot());
-        const std::int64_t swirls = run.event().swirls;
+        const std::int64_t periods = run.event().periods;
         run.pass_event();
-        const bool last = run.snapshot().swirls == part.periods;
+        const bool last = run.snapshot().periods == part.periods;
         // The corner that ends the last period is seen once, or until the number is round.
         do
             for (Observation* o : observers) o->sample(run.event(), run.snapshot());
         while (++events % events_per_sample != 0 && last);
-        if (run.snapshot().swirls > swirls)
+        if (run.snapshot().periods > periods)
             for (Observation* o : observers) o->close_block();
     }
 }
@@ -74,7 +74,7 @@ class MergedObservation : public testing::TestWithParam<Part> {};
 TEST_P(MergedObservation, HasEveryNumberOfTheObservationOfBothDishes) {
     const Part part = GetParam();
     const auto observation = [&] {
-        const RunConfig config = dish(part, 1);
+        const RunConfig config = container(part, 1);
         return Observation(config.container_radius, config.period, names_of(part));
     };
     Observation whole = observation(), first = observation(), second = observation();

@@ -12,14 +12,14 @@ namespace {
 TEST(OnAllCores, EveryPieceIsDoneOnce) {
     for (const unsigned threads : {0u, 1u, 3u, 64u}) {
         std::vector<std::atomic<int>> done(1000);
-        on_all_cores(
+        parallel_for(
             done.size(), [&](std::size_t k) { ++done[k]; }, threads);
         for (const auto& times : done) EXPECT_EQ(times, 1);
     }
 }
 
 TEST(OnAllCores, NothingToDoIsDoneAtOnce) {
-    on_all_cores(0, [](std::size_t) { FAIL(); });
+    parallel_for(0, [](std::size_t) { FAIL(); });
 }
 
 TEST(OnAllCores, AFailureReachesTheCallerAndEndsTheWork) {
@@ -28,7 +28,7 @@ TEST(OnAllCores, AFailureReachesTheCallerAndEndsTheWork) {
         ++begun;
         if (k == 3) throw std::runtime_error("three");
     };
-    EXPECT_THROW(on_all_cores(100'000, work, 2), std::runtime_error);
+    EXPECT_THROW(parallel_for(100'000, work, 2), std::runtime_error);
     EXPECT_LT(begun, 100'000);
 }
 

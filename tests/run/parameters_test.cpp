@@ -19,7 +19,7 @@ namespace {
 std::string refusal(const ParameterTexts& given) {
     try {
         resolve(given);
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         return wrong.what();
     }
     return "";
@@ -255,7 +255,7 @@ TEST(Overridden, OfAmplitudePeriodAndSpeedTheOneGoesThatNobodyAskedForByHand) {
     EXPECT_EQ(slower.period, 9.0);
     EXPECT_EQ(slower.amplitude, 1.0);
     EXPECT_THROW(resolve(overridden({}, {{"speed", "1"}, {"period", "1"}, {"amplitude", "1"}})),
-                 WrongCall);
+                 UsageError);
 }
 
 TEST(Overridden, NamesOfInertiaAndTheMaterialOfAMixtureFollowAnotherMass) {

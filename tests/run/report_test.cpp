@@ -94,8 +94,8 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Incomplete")));
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
-    result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .most_size = 4.6};
-    result.steady_spin.change = {.size = 1.0, .most_size = 4.7, .effective_samples = 10.0};
+    result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .max_size = 4.6};
+    result.steady_spin.change = {.size = 1.0, .max_size = 4.7, .effective_samples = 10.0};
     EXPECT_THAT(report(result),
                 testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
                                    "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
@@ -109,7 +109,7 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
                                       "Not steady: the mean spin drifts from 0.3 to 1.")));
     result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.steady.verdict = SteadyState::Verdict::jumping;
-    result.steady.change = {.before = 0.72, .after = 1.0, .size = 9.0, .most_size = 4.6};
+    result.steady.change = {.before = 0.72, .after = 1.0, .size = 9.0, .max_size = 4.6};
     result.steady.period = 812.0;
     EXPECT_EQ(steady_state_found(result), "the rotation jumps at period 812 from 0.72 to 1");
     EXPECT_STREQ(verdict(result.steady_state()), "jumping");
@@ -124,7 +124,7 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
     // What is steady then is not the dish, and the line of the report says no such thing.
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
-    result.steady.change = result.steady_spin.change = {.size = 1.0, .most_size = 4.6};
+    result.steady.change = result.steady_spin.change = {.size = 1.0, .max_size = 4.6};
     EXPECT_THAT(report(result),
                 testing::HasSubstr("  steady      rotation and spins are, the energy is not; "));
     result.config.path = PathShape::circle;

@@ -136,7 +136,7 @@ TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
     try {
         stopped_run("density");
         FAIL();
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         EXPECT_NE(std::string(wrong.what()).find("measures [\"density,flow\"] there"),
                   std::string::npos)
             << wrong.what();
@@ -162,10 +162,10 @@ RunResult recorded(const RunConfig& config, const RunFiles& files) {
     return run_recorded(config, files, control, {});
 }
 
-std::string trouble_with(const RunConfig& config, const RunFiles& files) {
+std::string problem_with(const RunConfig& config, const RunFiles& files) {
     try {
         recorded(config, files);
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         return wrong.what();
     }
     return "";
@@ -192,9 +192,9 @@ TEST(Resume, AFinishedRunGoesOnToMoreEventsBitForBit) {
     config.periods = std::int64_t(run(config).periods) + 30;
     EXPECT_EQ(result_without_time(recorded(config, files)), result_without_time(run(config)));
     config.periods = 30;
-    EXPECT_NE(trouble_with(config, files).find("more than is asked for"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("more than is asked for"), std::string::npos);
     config.discs = 11;
-    EXPECT_NE(trouble_with(config, files).find("discs is 10 there and 11 here"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("discs is 10 there and 11 here"), std::string::npos);
 }
 
 TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
@@ -207,7 +207,7 @@ TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
     config.periods = 20;
     ASSERT_EQ(recorded(config, files).warmup, 4);
     config.periods = 40;
-    EXPECT_NE(trouble_with(config, files).find("only 4 swirls"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("only 4 swirls"), std::string::npos);
     std::filesystem::remove(files.checkpoint);
     config.warmup = 4;
     config.periods = 20;
@@ -216,7 +216,7 @@ TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
     EXPECT_EQ(result_without_time(recorded(config, files)), result_without_time(run(config)));
     files.trajectory = scratch / "t.h5";
     config.periods = 41;
-    EXPECT_NE(trouble_with(config, files), "");
+    EXPECT_NE(problem_with(config, files), "");
 }
 
 TEST(Resume, RefusesTheStateOfAnotherRun) {

@@ -24,7 +24,7 @@ TEST(MakeInitialState, NoTwoDiscsOverlapAndNoneIsOutside) {
         config.discs = n;
         const InitialState scene = make_initial_state(config);
         ASSERT_EQ(scene.discs.size(), static_cast<std::size_t>(n));
-        const Vec2 centre = scene.path.legs.front().start;
+        const Vec2 centre = scene.path.segments.front().start;
         for (std::size_t i = 0; i < scene.discs.size(); ++i) {
             const Vec2 from_centre = scene.discs[i].position - centre;
             EXPECT_LE(std::sqrt(dot(from_centre, from_centre)), 7.6);
@@ -40,7 +40,7 @@ TEST(MakeInitialState, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToD
     RunConfig config;
     config.discs = 30;
     const InitialState scene = make_initial_state(config);
-    const Vec2 container = scene.path.legs.front().velocity;
+    const Vec2 container = scene.path.segments.front().velocity;
     for (const Disc& d : scene.discs) {
         const Vec2 relative = d.velocity - container;
         const double speed = std::sqrt(dot(relative, relative));
@@ -77,7 +77,7 @@ TEST(MakeInitialState, MoreDiscsThanFitAreRefusedWithTheNumber) {
     try {
         make_initial_state(config);
         FAIL();
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         EXPECT_THAT(wrong.what(), testing::HasSubstr("60 discs"));
     }
 }
@@ -91,8 +91,9 @@ TEST(ContainerSpeed, IsThatOfTheLegs) {
         RunConfig config;
         config.path = shape;
         config.sides = 7;
-        const Leg leg = make_path(config).legs.back();
-        EXPECT_NEAR(std::sqrt(dot(leg.velocity, leg.velocity)), container_speed(config), 1e-14);
+        const Segment segment = make_path(config).segments.back();
+        EXPECT_NEAR(std::sqrt(dot(segment.velocity, segment.velocity)), container_speed(config),
+                    1e-14);
     }
 }
 
@@ -136,7 +137,7 @@ TEST(Run, SamplesAreTheStatesAtTheirTimes) {
             beside.advance_to(k / 16, config.period * (k % 16) / 16);
             const Snapshot expected = beside.snapshot();
             const Snapshot& s = run.snapshot();
-            ASSERT_EQ(s.swirls, expected.swirls);
+            ASSERT_EQ(s.periods, expected.periods);
             ASSERT_EQ(s.clock, expected.clock);
             EXPECT_EQ(s.container_centre.x, expected.container_centre.x);
             EXPECT_EQ(s.container_centre.y, expected.container_centre.y);
@@ -157,7 +158,7 @@ TEST(Run, WarmupIsLeftOutOfTheAverages) {
     swirl::Run run(config);
     while (run.next_event()) {
         run.pass_event();
-        const auto swirl = static_cast<std::size_t>(run.event().swirls);
+        const auto swirl = static_cast<std::size_t>(run.event().periods);
         sums[swirl] += cluster_rotation(run.snapshot()).individual / config.omega();
         counts[swirl] += 1.0;
     }

@@ -33,7 +33,7 @@ TEST(Soak, ABillionEventsWithoutOverlapOrDriftOfTheEnergyBudget) {
     }
     std::printf("deepest overlap %.2g, budget off by %.2g (at most %.2g) after %llu swirls\n",
                 deepest, residual, largest_residual,
-                static_cast<unsigned long long>(simulation.swirls()));
+                static_cast<unsigned long long>(simulation.periods()));
     EXPECT_LT(deepest, 1e-12);
     EXPECT_GT(deepest, -1e-12);  // the contacts were looked at
     // An event rounds energies of order 1 by some 10⁻¹⁶; √10⁹ of that, without preference, is

@@ -172,7 +172,7 @@ TEST(RunOfSpheres, TheEnergyThatWallAndFloorPutInIsLostInContactsAndOnTheFloor) 
     const auto of = [&](const char* name) {
         for (const MeasuredNumber& number : measured_numbers(measured.measured))
             if (number.name == std::string("energy.") + name) return number.estimate.mean;
-        return not_known;
+        return not_available;
     };
     const double in = of("wall_power") + of("floor_power");
     const double out = of("disc_friction_power") + of("wall_friction_power") +
@@ -302,7 +302,7 @@ std::vector<ParameterTexts> extremes_of_every_parameter() {
     return all;
 }
 
-enum class Fate { ran, refused, collapsed, hung };
+enum class Fate { ran, rejected, collapsed, hung };
 
 /// Hung is what takes more than a minute of processor time for a million events; the slowest of
 /// these, coins on a swirl of 10⁶ radii, took eight seconds.
@@ -322,8 +322,8 @@ Fate fate_of(ParameterTexts texts, std::int64_t events) {
         // Positions are of the order of the amplitude, 10⁶ at most, and have its rounding errors.
         EXPECT_LT(run.result().max_overlap, 1e-9);
         return Fate::ran;
-    } catch (const WrongCall&) {
-        return Fate::refused;
+    } catch (const UsageError&) {
+        return Fate::rejected;
     } catch (const Failure& failure) {
         EXPECT_THAT(failure.what(), testing::HasSubstr("time all but stands still"));
         return Fate::collapsed;

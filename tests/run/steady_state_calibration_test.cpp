@@ -30,7 +30,7 @@ struct Setting {
 /// ϖ by event, period by period (or block by block), of runs of the paper's length.
 std::vector<Series> recorded(const Setting& setting, std::size_t seeds) {
     std::vector<Series> all(seeds);
-    on_all_cores(seeds, [&](std::size_t k) {
+    parallel_for(seeds, [&](std::size_t k) {
         RunConfig config;
         config.discs = setting.discs;
         config.mu_disc = config.mu_wall = setting.mu;
@@ -38,7 +38,7 @@ std::vector<Series> recorded(const Setting& setting, std::size_t seeds) {
         config.seed = 1000 + k;
         BareRun run(config, make_initial_state(config, nullptr));
         for (;;) {
-            if (run.is_time_to_look() && (run.complete() || run.trouble())) break;
+            if (run.is_time_to_look() && (run.complete() || run.problem())) break;
             run.find_event();
             run.pass_event();
         }
@@ -80,7 +80,7 @@ int found(const std::vector<Series>& all, const Planted& plant, double size) {
 // share of 0 to 0.95 of the block before.
 TEST(SlowSteadyStateCalibration, FalseAlarmsAreNotMoreThanIsSaid) {
     struct Bin {
-        double least;
+        double minimum;
         int series = 0, alarms = 0;
         double said = 0.0;
     };
@@ -95,18 +95,18 @@ TEST(SlowSteadyStateCalibration, FalseAlarmsAreNotMoreThanIsSaid) {
                 const SteadyState state = find_steady_state(series);
                 Bin* bin = &bins.front();
                 for (Bin& b : bins)
-                    if (state.change.effective_samples >= b.least) bin = &b;
+                    if (state.change.effective_samples >= b.minimum) bin = &b;
                 ++bin->series;
                 bin->alarms += state.verdict != Verdict::steady ? 1 : 0;
                 bin->said = std::max(bin->said, false_alarm_rate(state.change));
             }
         }
     for (const Bin& bin : bins) {
-        fmt::print("| {} or more | {} | {:.2f} |\n", bin.least, bin.series,
+        fmt::print("| {} or more | {} | {:.2f} |\n", bin.minimum, bin.series,
                    100.0 * bin.alarms / bin.series);
         // Three standard deviations of a Poisson count.
         const double expected = bin.said * bin.series;
-        EXPECT_LE(bin.alarms, expected + 3.0 * std::sqrt(expected)) << bin.least;
+        EXPECT_LE(bin.alarms, expected + 3.0 * std::sqrt(expected)) << bin.minimum;
     }
 }
 
@@ -126,7 +126,7 @@ TEST(SlowSteadyStateCalibration, RecordedRunsThatAreSteadyAreCalledSo) {
         for (const Series& series : recorded(setting, 48)) {
             const SteadyState state = find_steady_state(series);
             here += state.verdict != Verdict::steady ? 1 : 0;
-            largest = std::max(largest, std::fabs(state.change.size) / state.change.most_size);
+            largest = std::max(largest, std::fabs(state.change.size) / state.change.max_size);
             ++runs;
         }
         fmt::print("| {} | {} | {} of 48 |\n", setting.discs, setting.mu, here);

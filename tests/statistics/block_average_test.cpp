@@ -43,7 +43,7 @@ TEST(Statistics, EmptyAndSingleAndNaNAreStated) {
     one.add(4.0, 2.0);
     EXPECT_DOUBLE_EQ(one.estimate().mean, 2.0);
     EXPECT_TRUE(std::isnan(one.estimate().error));
-    one.add(not_known, 2.0);
+    one.add(not_available, 2.0);
     EXPECT_TRUE(std::isnan(one.estimate().mean));
 }
 
@@ -136,7 +136,7 @@ TEST(Statistics, VeryLongRunsAreCoarsenedWithoutChangingTheMean) {
         series.add(i % 7, 1.0);
         sum += i % 7;
     }
-    EXPECT_LT(series.size(), BlockSeries::most_blocks_per_run);
+    EXPECT_LT(series.size(), BlockSeries::max_blocks_per_run);
     EXPECT_EQ(series.periods_per_block(), 8u);
     EXPECT_EQ(series.size(), 1280u);
     EXPECT_DOUBLE_EQ(series.mean(), sum / 10240.0);

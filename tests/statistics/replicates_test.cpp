@@ -43,7 +43,7 @@ TEST(SeveralRuns, TooMuchScatterIsBeyondThreeDeviations) {
 
 TEST(SeveralRuns, OneRunKeepsItsOwnError) {
     const std::vector<Estimate> one{run_of(2.0, 0.5)};
-    const SeveralRuns all = several_runs(one);
+    const Ensemble all = ensemble(one);
     EXPECT_EQ(all.estimate.mean, 2.0);
     EXPECT_EQ(all.estimate.error, 0.5);
     EXPECT_EQ(all.runs, 1u);
@@ -53,7 +53,7 @@ TEST(SeveralRuns, OneRunKeepsItsOwnError) {
 TEST(SeveralRuns, RunsThatAgreeHaveTheErrorOfTheirBlocks) {
     const std::vector<Estimate> runs{run_of(1.0, 0.2), run_of(1.1, 0.2), run_of(0.9, 0.2),
                                      run_of(1.0, 0.2)};
-    const SeveralRuns all = several_runs(runs);
+    const Ensemble all = ensemble(runs);
     EXPECT_DOUBLE_EQ(all.estimate.mean, 1.0);
     EXPECT_NEAR(all.estimate.error, 0.1, 1e-6);
     EXPECT_LT(all.scatter, 1.0);
@@ -64,7 +64,7 @@ TEST(SeveralRuns, RunsThatAgreeHaveTheErrorOfTheirBlocks) {
 TEST(SeveralRuns, RunsThatDisagreeHaveTheErrorBetweenThem) {
     const std::vector<Estimate> runs{run_of(1.0, 0.01), run_of(3.0, 0.01), run_of(1.0, 0.01),
                                      run_of(3.0, 0.01)};
-    const SeveralRuns all = several_runs(runs);
+    const Ensemble all = ensemble(runs);
     EXPECT_DOUBLE_EQ(all.estimate.mean, 2.0);
     EXPECT_TRUE(all.disagree);
     EXPECT_NEAR(all.between, std::sqrt(4.0 / 12.0), 1e-12);
@@ -75,7 +75,7 @@ TEST(SeveralRuns, RunsThatDisagreeHaveTheErrorBetweenThem) {
 TEST(SeveralRuns, WeightsAreLengths) {
     const std::vector<Estimate> runs{run_of(0.0, 0.4), run_of(0.4, 0.2)};
     const std::vector<double> lengths{1.0, 3.0};
-    const SeveralRuns all = several_runs(runs, lengths);
+    const Ensemble all = ensemble(runs, lengths);
     EXPECT_DOUBLE_EQ(all.estimate.mean, 0.3);
     // Within: (0.4² + 0.6²)/16 = 0.0325. Between: of two runs 0.4² = 0.4² + 0.2² + 2 τ², so that
     // τ² = −0.02, and 0.0325 + τ² (1² + 3²)/16 = 0.02.
@@ -85,20 +85,21 @@ TEST(SeveralRuns, WeightsAreLengths) {
 }
 
 TEST(SeveralRuns, WhatIsNotKnownIsLeftOut) {
-    const std::vector<Estimate> runs{run_of(not_known, not_known), run_of(1.0, 0.1)};
-    EXPECT_EQ(several_runs(runs).estimate.mean, 1.0);
-    EXPECT_EQ(several_runs(runs).runs, 1u);
-    EXPECT_TRUE(std::isnan(several_runs({}).estimate.mean));
-    const std::vector<Estimate> without_errors{run_of(1.0, not_known), run_of(2.0, not_known)};
-    const SeveralRuns all = several_runs(without_errors);
+    const std::vector<Estimate> runs{run_of(not_available, not_available), run_of(1.0, 0.1)};
+    EXPECT_EQ(ensemble(runs).estimate.mean, 1.0);
+    EXPECT_EQ(ensemble(runs).runs, 1u);
+    EXPECT_TRUE(std::isnan(ensemble({}).estimate.mean));
+    const std::vector<Estimate> without_errors{run_of(1.0, not_available),
+                                               run_of(2.0, not_available)};
+    const Ensemble all = ensemble(without_errors);
     EXPECT_NEAR(all.estimate.error, 0.5 * 12.7062 / 1.959964, 1e-4);
     EXPECT_FALSE(all.disagree);
 }
 
 TEST(SeveralRuns, DirectionsPassThroughZero) {
-    const std::vector<Estimate> runs{run_of(350.0, 2.0), run_of(10.0, 2.0), run_of(not_known, 1.0),
-                                     run_of(357.0, 2.0)};
-    const SeveralRuns all = several_directions(runs);
+    const std::vector<Estimate> runs{run_of(350.0, 2.0), run_of(10.0, 2.0),
+                                     run_of(not_available, 1.0), run_of(357.0, 2.0)};
+    const Ensemble all = several_directions(runs);
     EXPECT_NEAR(all.estimate.mean, 359.0, 1e-9);
     EXPECT_EQ(all.runs, 3u);
     EXPECT_TRUE(std::isnan(several_directions({}).estimate.mean));
@@ -106,8 +107,8 @@ TEST(SeveralRuns, DirectionsPassThroughZero) {
 
 TEST(SeveralRuns, ExactRunsThatAgreeAreExact) {
     const std::vector<Estimate> runs{run_of(1.0, 0.0), run_of(1.0, 0.0)};
-    EXPECT_EQ(several_runs(runs).estimate.error, 0.0);
-    EXPECT_FALSE(several_runs(runs).disagree);
+    EXPECT_EQ(ensemble(runs).estimate.error, 0.0);
+    EXPECT_FALSE(ensemble(runs).disagree);
 }
 
 // How often the 95 % interval holds the truth, over 4000 repetitions: a binomial deviate with a
@@ -123,13 +124,13 @@ TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
                 std::vector<Estimate> runs;
                 for (int s = 0; s < seeds; ++s)
                     runs.push_back(run_of(deviate(random), 1.0 / understated, 200.0));
-                const Estimate e = several_runs(runs).estimate;
+                const Estimate e = ensemble(runs).estimate;
                 held += std::fabs(e.mean) <= 1.96 * e.error ? 1 : 0;
             }
             const double share = double(held) / repetitions;
             // Two runs cannot tell an error that is understated by 2 from chance.
-            const double least = understated == 1.0 ? 0.935 : seeds == 8 ? 0.90 : 0.75;
-            EXPECT_GT(share, least) << seeds << " seeds, understated by " << understated;
+            const double minimum = understated == 1.0 ? 0.935 : seeds == 8 ? 0.90 : 0.75;
+            EXPECT_GT(share, minimum) << seeds << " seeds, understated by " << understated;
         }
 }
 
@@ -137,7 +138,7 @@ TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
 // V_w = (2 · 0.01² + 10²)/9.
 TEST(SeveralRuns, TheErrorIsNotBelowThatOfTheBlocksWhereSeedsDisagree) {
     const std::vector<Estimate> runs{run_of(0.0, 0.01), run_of(1.0, 0.01), run_of(0.5, 10.0)};
-    const SeveralRuns all = several_runs(runs);
+    const Ensemble all = ensemble(runs);
     EXPECT_TRUE(all.disagree);
     EXPECT_GE(all.estimate.error, std::sqrt((2e-4 + 100.0) / 9.0));
 }
@@ -158,9 +159,9 @@ Shares shares_of(const std::vector<double>& lengths, double between, bool with_e
         for (const double length : lengths) {
             const double own = std::sqrt(lengths.front() / length);
             const double mean = std::hypot(own, between) * deviate(random);
-            runs.push_back(run_of(mean, with_errors ? own : not_known, 50.0));
+            runs.push_back(run_of(mean, with_errors ? own : not_available, 50.0));
         }
-        const Estimate e = several_runs(runs, lengths).estimate;
+        const Estimate e = ensemble(runs, lengths).estimate;
         shares.held += std::fabs(e.mean) <= 1.96 * e.error ? 1.0 / repetitions : 0.0;
         shares.beyond_three += std::fabs(e.mean) > 3.0 * e.error ? 1.0 / repetitions : 0.0;
     }

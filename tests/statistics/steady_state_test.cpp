@@ -150,7 +150,7 @@ TEST(WithoutTrend, AStraightLineLeavesNothing) {
 TEST(WithoutTrend, OfNothingIsNothing) { EXPECT_TRUE(without_trend({}).empty()); }
 
 TEST(SteadyStateSearch, WhatIsNotKnownIsNotJudged) {
-    const std::vector<double> unknown(100, not_known);
+    const std::vector<double> unknown(100, not_available);
     EXPECT_EQ(find_steady_state(unknown).verdict, Verdict::too_short);
     EXPECT_FALSE(beginning_is_forgotten(unknown));
 }

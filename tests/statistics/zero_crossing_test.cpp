@@ -112,7 +112,7 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
     const auto curve = [&](double n) {
         return -0.01 * (n - 36.4 - zero) + bend * (n - 36.4) * (n - 36.4);
     };
-    double truth = not_known;
+    double truth = not_available;
     for (int n = 30; n < 44; ++n)
         if (curve(n) > 0.0 && curve(n + 1) <= 0.0) truth = n + curve(n) / (curve(n) - curve(n + 1));
     Noise noise(11);
@@ -129,7 +129,7 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
             for (int s = 0; s < seeds; ++s)
                 runs.push_back(
                     {.mean = curve(n) + error * std::sqrt(double(seeds)) * gauss(noise)});
-            const Estimate e = several_runs(runs).estimate;
+            const Estimate e = ensemble(runs).estimate;
             points.push_back({double(n), e.mean, e.error});
         }
         const Crossing c = find_crossing(points);
@@ -243,8 +243,8 @@ TEST(Crossing, AFluctuationFarAwayDoesNotMoveIt) {
 TEST(Crossing, NonsenseIsLeftOut) {
     EXPECT_EQ(find_crossing({}).verdict, Crossing::Verdict::undecided);
     std::vector<RotationPoint> points = line(36.4, -0.01, 0.001);
-    points.push_back({30.0, not_known, 0.1});
-    points.push_back({30.0, 5.0, not_known});
+    points.push_back({30.0, not_available, 0.1});
+    points.push_back({30.0, 5.0, not_available});
     points.push_back({30.0, 5.0, -1.0});
     std::swap(points[3], points[20]);
     EXPECT_NEAR(find_crossing(points).discs, 36.4, 1e-9);

@@ -33,15 +33,15 @@ struct Point {
 class SlowCalibration : public testing::TestWithParam<Point> {
   protected:
     /// ϖ by time of `count` runs over so many swirls after a warm-up of 100.
-    static std::vector<Estimate> rotations(std::size_t count, std::int64_t swirls,
+    static std::vector<Estimate> rotations(std::size_t count, std::int64_t periods,
                                            std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
-        on_all_cores(count, [&](std::size_t k) {
+        parallel_for(count, [&](std::size_t k) {
             RunConfig config;
             config.discs = GetParam().discs;
             config.mu_disc = config.mu_wall = GetParam().mu;
             config.warmup = 100;
-            config.periods = 100 + swirls;
+            config.periods = 100 + periods;
             config.seed = first_seed + k;
             all[k] = swirl::run(config).rotation.by_time;
         });
@@ -50,7 +50,7 @@ class SlowCalibration : public testing::TestWithParam<Point> {
 
     /// From ten times as much as all forty that are judged: uncertain by a twentieth of one's
     /// error.
-    static Estimate truth() { return several_runs(rotations(40, 2000, 100'000)).estimate; }
+    static Estimate truth() { return ensemble(rotations(40, 2000, 100'000)).estimate; }
 };
 
 struct Judgement {
@@ -88,7 +88,7 @@ TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
     const std::vector<Estimate> runs = rotations(4 * repetitions, 200, 10'000);
     std::vector<Estimate> collected;
     for (std::size_t k = 0; k < repetitions; ++k)
-        collected.push_back(several_runs(std::span(runs).subspan(4 * k, 4)).estimate);
+        collected.push_back(ensemble(std::span(runs).subspan(4 * k, 4)).estimate);
     expect_calibrated("four runs", collected, truth().mean);
 }
 
@@ -104,22 +104,22 @@ INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
 // discs its interval holds the truth far too seldom. Eight seeds, as every point of the paper's
 // figures has, know.
 TEST(SlowCalibrationOfADenseDish, EightSeedsKnowOfStatesThatOutliveARun) {
-    const auto rotations = [](std::size_t count, std::int64_t swirls, std::uint64_t first_seed) {
+    const auto rotations = [](std::size_t count, std::int64_t periods, std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
-        on_all_cores(count, [&](std::size_t k) {
+        parallel_for(count, [&](std::size_t k) {
             RunConfig config;
             config.discs = 52;
-            config.periods = default_warmup + swirls;
+            config.periods = default_warmup + periods;
             config.seed = first_seed + k;
             all[k] = swirl::run(config).rotation.by_event;
         });
         return all;
     };
     const std::vector<Estimate> runs = rotations(8 * repetitions, 100, 1);
-    const double truth = several_runs(runs).estimate.mean;
+    const double truth = ensemble(runs).estimate.mean;
     std::vector<Estimate> collected;
     for (std::size_t k = 0; k < repetitions; ++k)
-        collected.push_back(several_runs(std::span(runs).subspan(8 * k, 8)).estimate);
+        collected.push_back(ensemble(std::span(runs).subspan(8 * k, 8)).estimate);
     std::printf("single runs: %d of %zu hold the truth\n", judge(runs, truth).held, runs.size());
     // The truth is that of all runs together: uncertain by a sixth of one's error, and shared.
     expect_calibrated("eight runs", collected, truth);
@@ -181,7 +181,7 @@ TEST_P(SlowCalibrationOfTheCrossing, ItsIntervalHoldsTheCrossingForTwoRanges) {
     for (std::size_t k = 0; k < repetitions; ++k) {
         CrossingSettings one = settings_of(1 + 1000 * k);
         one.config.events = 20'000;
-        one.least_swirls = 50;
+        one.min_periods = 50;
         one.rounds = 1;
         CrossingControl control;
         control.make_run = [runs = std::make_shared<OnceEach>()](const RunConfig& config,

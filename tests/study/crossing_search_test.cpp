@@ -22,7 +22,7 @@ CrossingSettings short_search(double mu) {
     settings.rounds = 1;
     settings.tolerance = 5.0;
     settings.seeds = 2;
-    settings.least_swirls = 50;
+    settings.min_periods = 50;
     return settings;
 }
 
@@ -152,7 +152,7 @@ TEST(CrossingSearch, EachRateHasACrossingOfItsOwnAndOneOfThemDecides) {
     const CrossingSearch rigid = search_crossing(settings, planted(straight, 0.001));
     EXPECT_NEAR(rigid.crossing().discs, 36.3, 0.5);
     EXPECT_THAT(crossing_report(settings, rigid), HasSubstr("; rigid body, by time)"));
-    EXPECT_THROW(rate_named("rigid"), WrongCall);
+    EXPECT_THROW(rate_named("rigid"), UsageError);
 }
 
 // A number of discs at which no run can be made, in the bracket: an estimate would be a guess.
@@ -286,7 +286,7 @@ TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
             RunConfig config = settings.config;
             config.discs = f.discs;
             config.seed += std::uint64_t(k);
-            config.periods = default_warmup + settings.least_swirls;
+            config.periods = default_warmup + settings.min_periods;
             try {
                 run(config);
             } catch (const Failure&) {
@@ -305,10 +305,10 @@ TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
 TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
     CrossingSettings backwards = short_search(1.0);
     backwards.from = 48;
-    EXPECT_THROW(search_crossing(backwards), WrongCall);
+    EXPECT_THROW(search_crossing(backwards), UsageError);
     CrossingSettings certain = short_search(1.0);
     certain.tolerance = 0.0;
-    EXPECT_THROW(search_crossing(certain), WrongCall);
+    EXPECT_THROW(search_crossing(certain), UsageError);
 }
 
 TEST(CrossingSearch, StopsWhenAsked) {

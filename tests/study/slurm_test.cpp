@@ -21,11 +21,11 @@ TEST(SlurmScript, QuotesTheFolderAndDoublesItsPercentSigns) {
 }
 
 TEST(SlurmScript, ALineEndIsRefusedAndBecomesNoCommand) {
-    EXPECT_THROW(slurm_script(job("1:00\ntouch x"), "/a"), WrongCall);
-    EXPECT_THROW(slurm_script(job("", "day\ntouch x"), "/a"), WrongCall);
-    EXPECT_THROW(slurm_script(job("1:00 # "), "/a"), WrongCall);
-    EXPECT_THROW(slurm_script(job(), "/a\ntouch x"), WrongCall);
-    EXPECT_THROW(slurm_script(job(), "/a\"b"), WrongCall);
+    EXPECT_THROW(slurm_script(job("1:00\ntouch x"), "/a"), UsageError);
+    EXPECT_THROW(slurm_script(job("", "day\ntouch x"), "/a"), UsageError);
+    EXPECT_THROW(slurm_script(job("1:00 # "), "/a"), UsageError);
+    EXPECT_THROW(slurm_script(job(), "/a\ntouch x"), UsageError);
+    EXPECT_THROW(slurm_script(job(), "/a\"b"), UsageError);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 std::string refusal(const ParameterTexts& texts) {
     try {
         make_plan(texts, 1);
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         return wrong.what();
     }
     return "";

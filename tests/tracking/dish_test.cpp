@@ -16,7 +16,7 @@ TEST(DishPath, IsFoundWithItsErrors) {
     int within = 0, tried = 0;
     for (const bool clockwise : {false, true})
         for (int trial = 0; trial < 20; ++trial) {
-            DishPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, clockwise};
+            TrackedPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, clockwise};
             std::vector<Vec2> centres;
             std::vector<double> times;
             for (int k = 0; k < 300; ++k) {
@@ -77,7 +77,7 @@ cv::Mat picture_of(const Vec2& centre, double radius, Polarity polarity, double 
 
 TEST(CircleFit, FindsACentreToATenthOfAPixel) {
     Random random(7);
-    const Limb limb(0.8, 10, 7, 2.0);
+    const EdgeProfile edge_profile(0.8, 10, 7, 2.0);
     for (const Polarity polarity : {1, -1}) {
         double square = 0.0;
         constexpr int trials = 40;
@@ -86,8 +86,8 @@ TEST(CircleFit, FindsACentreToATenthOfAPixel) {
             const cv::Mat picture = picture_of(centre, 24.0, polarity, 2.0, random);
             RaySettings rays;
             rays.rays = 72;
-            rays.least = 1.0;
-            rays.limb = &limb;
+            rays.minimum = 1.0;
+            rays.edge_profile = &edge_profile;
             rays.free_radius = true;
             const CircleFit fit = fit_circle(picture, {63.0, 64.0}, 23.0, polarity, rays);
             ASSERT_TRUE(fit.good);
@@ -99,7 +99,7 @@ TEST(CircleFit, FindsACentreToATenthOfAPixel) {
         // Of the other polarity there is no circle.
         const cv::Mat picture = picture_of({64.0, 64.0}, 24.0, -polarity, 2.0, random);
         RaySettings rays;
-        rays.least = 3.0;
+        rays.minimum = 3.0;
         EXPECT_LT(fit_circle(picture, {64.0, 64.0}, 24.0, polarity, rays).support, 0.3);
     }
 }
@@ -111,9 +111,9 @@ std::vector<Vec2> on_polygon(double amplitude, int sides, double per_round, int 
         const double turn = k / per_round - std::floor(k / per_round);
         Vec2 p = amplitude * unit_circle(turn);
         if (sides > 0) {
-            const double leg = sides * turn, u = leg - std::floor(leg);
-            p = (amplitude * (1.0 - u)) * unit_circle(std::floor(leg) / sides) +
-                (amplitude * u) * unit_circle(std::fmod(std::floor(leg) + 1.0, sides) / sides);
+            const double segment = sides * turn, u = segment - std::floor(segment);
+            p = (amplitude * (1.0 - u)) * unit_circle(std::floor(segment) / sides) +
+                (amplitude * u) * unit_circle(std::fmod(std::floor(segment) + 1.0, sides) / sides);
         }
         places.push_back({200.0 + p.x, 180.0 - p.y});
     }
@@ -135,7 +135,7 @@ TEST(PathPolygon, TellsAPolygonByItsSidesAndACircleFromIt) {
         ASSERT_TRUE(path) << sides;
         const PathPolygon shape = polygon_of(centres, times, *path);
         EXPECT_EQ(shape.sides, sides);
-        EXPECT_GE(shape.most_sides, sides == 0 ? 30 : sides);
+        EXPECT_GE(shape.max_sides, sides == 0 ? 30 : sides);
         if (sides == 0) continue;
         // A square's corners are left out by the fit's weights as strays.
         EXPECT_NEAR(shape.corners, amplitude, sides > 6 ? 0.1 : 0.5);
@@ -159,7 +159,7 @@ TEST(PathPolygon, TellsNoWrongNumberOfSidesWherePicturesAreFew) {
         const PathPolygon shape = polygon_of(centres, times, *path);
         // Nor is the true one said not to be there.
         if (shape.sides == 0) {
-            EXPECT_LT(shape.most_sides, sides);
+            EXPECT_LT(shape.max_sides, sides);
         }
         return shape.sides;
     };
@@ -175,7 +175,7 @@ TEST(PathPolygon, TellsNoWrongNumberOfSidesWherePicturesAreFew) {
 
 /// Centres of the pictures that are left, and the number that each has in the film then.
 std::vector<Leap> leaps_with(const std::vector<int>& shown, double omega, Random& random) {
-    const DishPath truth{{310.0, 250.0}, 40.0, omega, 0.7, false};
+    const TrackedPath truth{{310.0, 250.0}, 40.0, omega, 0.7, false};
     std::vector<Vec2> centres;
     std::vector<std::size_t> numbers;
     for (const int k : shown) {
@@ -187,7 +187,7 @@ std::vector<Leap> leaps_with(const std::vector<int>& shown, double omega, Random
 
 TEST(Leaps, AShakingCameraIsNoPictureThatIsThereTwice) {
     // 64 pictures a period, 2.6 pixels each, shaken by 1.7 pixels.
-    const DishPath truth{{310.0, 250.0}, 26.0, 2.0 * pi / 64.0, 0.7, false};
+    const TrackedPath truth{{310.0, 250.0}, 26.0, 2.0 * pi / 64.0, 0.7, false};
     Random random(4);
     for (int trial = 0; trial < 20; ++trial) {
         std::vector<Vec2> centres;
@@ -214,7 +214,7 @@ TEST(Leaps, NoPathShakesTheCamera) {
         numbers.push_back(k);
         centres.push_back(Vec2{310.0, 250.0} + 40.0 * ((1.0 - u) * from + u * to));
     }
-    const DishPath path{{310.0, 250.0}, 33.0, 2.0 * pi / 64.0, 0.0, true};
+    const TrackedPath path{{310.0, 250.0}, 33.0, 2.0 * pi / 64.0, 0.0, true};
     // A step of 3.5 pixels at 28.3 from the middle bends by 0.44: 0.27 by the factors of noise.
     EXPECT_LT(shake_of(centres, numbers, path), 0.27);
 }
@@ -247,7 +247,7 @@ TEST(Leaps, AreNotMadeOfNoiseOrOfAHandThatSwirls) {
     std::vector<int> all;
     for (int k = 0; k < 300; ++k) all.push_back(k);
     EXPECT_TRUE(leaps_with(all, 0.002, random).empty());  // a step is less than the noise
-    const DishPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, false};
+    const TrackedPath truth{{310.0, 250.0}, 40.0, 0.05, 0.7, false};
     std::vector<Vec2> centres;
     std::vector<std::size_t> numbers;
     for (int k = 0; k < 300; ++k) {

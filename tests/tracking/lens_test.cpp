@@ -34,17 +34,17 @@ TEST(Lens, OfATiltedCameraSeenAndIdealUndoEachOther) {
             const Vec2 p = lens.seen(lens.ideal(Vec2{x, y}));
             EXPECT_LT(length(p - Vec2{x, y}), 1e-7);
         }
-    const Lens::Circle dish{{300.0, 250.0}, 180.0};
-    const Lens::Circle back = lens.ideal(lens.image(dish));
-    EXPECT_LT(length(back.centre - dish.centre), 1e-6);
-    EXPECT_NEAR(back.radius, dish.radius, 1e-6);
+    const Lens::Circle container{{300.0, 250.0}, 180.0};
+    const Lens::Circle back = lens.ideal(lens.image(container));
+    EXPECT_LT(length(back.centre - container.centre), 1e-6);
+    EXPECT_NEAR(back.radius, container.radius, 1e-6);
 }
 
 TEST(Lens, TheMiddleOfACirclesImageIsNotTheImageOfItsMiddle) {
     const Lens lens{middle, 240.0, 0.03};
-    const Lens::Circle dish{{middle.x + 40.0, middle.y - 10.0}, 180.0};
+    const Lens::Circle container{{middle.x + 40.0, middle.y - 10.0}, 180.0};
     // What a fit sees: the mean over its image, in steps of equal angle about the image's middle.
-    Vec2 centre = lens.seen(dish.centre);
+    Vec2 centre = lens.seen(container.centre);
     double radius = 0.0;
     for (int pass = 0; pass < 20; ++pass) {
         Vec2 d{0.0, 0.0};
@@ -54,18 +54,18 @@ TEST(Lens, TheMiddleOfACirclesImageIsNotTheImageOfItsMiddle) {
             const Vec2 u = unit_circle(double(k) / n);
             double r = 150.0;  // where the ray meets the image of the circle
             for (int step = 0; step < 60; ++step)
-                r += dish.radius - length(lens.ideal(centre + r * u) - dish.centre);
+                r += container.radius - length(lens.ideal(centre + r * u) - container.centre);
             sum += r / n;
             d = d + (2.0 * r / n) * u;
         }
         centre = centre + d;
         radius = sum;
     }
-    EXPECT_GT(length(lens.ideal(centre) - dish.centre), 1.0);  // pixels: worth undoing
+    EXPECT_GT(length(lens.ideal(centre) - container.centre), 1.0);  // pixels: worth undoing
     const Lens::Circle found = lens.ideal(Lens::Circle{centre, radius});
     // Twenty-four points instead of all, and terms of the second order in the shift.
-    EXPECT_LT(length(found.centre - dish.centre), 0.03);
-    EXPECT_NEAR(found.radius, dish.radius, 0.03);
+    EXPECT_LT(length(found.centre - container.centre), 0.03);
+    EXPECT_NEAR(found.radius, container.radius, 0.03);
 }
 
 TEST(Lens, IsFoundFromSizesOfEqualBalls) {
@@ -77,8 +77,8 @@ TEST(Lens, IsFoundFromSizesOfEqualBalls) {
             const Vec2 p = middle + random.in_disc(215.0);
             double noise = 0.0;
             for (int j = 0; j < 12; ++j) noise += random.uniform() - 0.5;
-            const double stray = i % 20 == 0 ? 0.3 : 0.0;  // fits that went wrong
-            sizes.push_back({p, lens.seen_radius(p, 1.0) + 0.01 * noise + stray});
+            const double unassigned = i % 20 == 0 ? 0.3 : 0.0;  // fits that went wrong
+            sizes.push_back({p, lens.seen_radius(p, 1.0) + 0.01 * noise + unassigned});
         }
         const Lens found = lens_of(sizes, middle, 240.0);
         EXPECT_NEAR(found.k, k, 4.0 * found.k_error + 0.001) << k;

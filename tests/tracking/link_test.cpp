@@ -116,7 +116,7 @@ TEST(BestAssignment, ListensForEveryRow) {
 /// A cluster that goes round with the given angular velocity about the middle of a swirled dish,
 /// seen so rarely that the nearest disc is the wrong one.
 struct Scene {
-    DishPath path{{200.0, 180.0}, 28.0, 0.2, 0.3, false};
+    TrackedPath path{{200.0, 180.0}, 28.0, 0.2, 0.3, false};
     std::vector<std::vector<SeenDisc>> pictures;
     std::vector<double> times;
 
@@ -167,7 +167,7 @@ TEST(Linking, WithAWrongPathItFails) {
     // The test above can fail: without the dish's motion the lattice is taken for its neighbour,
     // unless it is known that all are seen.
     Scene scene(1.0, 40);
-    DishPath still = scene.path;
+    TrackedPath still = scene.path;
     still.amplitude = 0.0;
     still.omega = 1e-9;
     LinkSettings settings = scene.settings();
@@ -234,7 +234,7 @@ TEST(Linking, NobodyIsBornBeyondTheNumber) {
             scene.pictures[k].push_back({{scene.path.centre.x + x, scene.path.centre.y}});
     const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
     EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
-    EXPECT_EQ(links.refused, 20u);
+    EXPECT_EQ(links.rejected, 20u);
     EXPECT_EQ(links.crowded, 10u);  // frames, however many each has
     LinkSettings open = scene.settings();
     open.numbers.clear();

@@ -32,7 +32,7 @@ struct PinHole {
     }
 };
 
-std::vector<Picture> film_of(const PinHole& camera, double oval = 0.0) {
+std::vector<Picture> video_of(const PinHole& camera, double oval = 0.0) {
     std::vector<Picture> pictures;
     for (int k = 0; k < 24; ++k) {
         const Vec2 u = unit_circle(k / 24.0);
@@ -75,7 +75,7 @@ TEST(Tilt, IsFoundFromTheRimWithTheFocalLength) {
             const PinHole camera{degrees * radians, towards * radians, 700.0};
             Rim rim = rim_as_seen();
             Lens lens = straight(camera);
-            const Tilt tilt = find_tilt(film_of(camera), {}, rim, lens);
+            const Tilt tilt = find_tilt(video_of(camera), {}, rim, lens);
             EXPECT_NEAR(tilt.angle, camera.tilt, 4.0 * tilt.angle_error) << degrees;
             EXPECT_LT(tilt.angle_error, 0.3 * radians);
             EXPECT_LT(std::abs(std::remainder(tilt.towards - camera.towards, 2.0 * pi)),
@@ -96,7 +96,7 @@ TEST(Tilt, IsNoneWhereThereIsNoneAndLeavesTheLensAsItWas) {
     const PinHole camera{0.0, 0.0, 1e9};
     Rim rim = rim_as_seen();
     Lens lens = straight(camera);
-    const Tilt tilt = find_tilt(film_of(camera), {}, rim, lens);
+    const Tilt tilt = find_tilt(video_of(camera), {}, rim, lens);
     EXPECT_EQ(tilt.angle, 0.0);
     EXPECT_LT(tilt.below, 2.0 * radians);
     EXPECT_GT(tilt.below, 0.0);
@@ -111,7 +111,7 @@ TEST(Tilt, OfAViewAngleThatIsKnownIsFoundFromPerspectiveWhereTheSqueezeIsTooSmal
     known.view_angle = 2.0 * std::atan(0.5 * side / camera.far);
     Rim rim = rim_as_seen();
     Lens lens = straight(camera);
-    const Tilt tilt = find_tilt(film_of(camera), known, rim, lens);
+    const Tilt tilt = find_tilt(video_of(camera), known, rim, lens);
     EXPECT_NEAR(tilt.angle, camera.tilt, 4.0 * tilt.angle_error);
     EXPECT_LT(tilt.angle_error, 0.25 * radians);
 }
@@ -123,13 +123,13 @@ TEST(Tilt, ThatIsGivenIsTaken) {
     known.towards = camera.towards;
     Rim rim = rim_as_seen();
     Lens lens = straight(camera);
-    const Tilt tilt = find_tilt(film_of(camera), known, rim, lens);
+    const Tilt tilt = find_tilt(video_of(camera), known, rim, lens);
     EXPECT_NEAR(tilt.angle, camera.tilt, 1e-9);
     for (double x = 60.0; x < 260.0; x += 25.0)
         EXPECT_LT(length(lens.ideal(Vec2{x, x}) - camera.on_table({x, x})), 0.1) << x;
     known.tilt = 0.0;
     lens = straight(camera);
-    find_tilt(film_of(camera), known, rim, lens);
+    find_tilt(video_of(camera), known, rim, lens);
     EXPECT_FALSE(lens.tilted());
 }
 
@@ -138,7 +138,7 @@ TEST(Tilt, OfADishThatIsNotRoundContradictsItsPerspective) {
     const PinHole camera{3.0 * radians, 270.0 * radians, 700.0};
     Rim rim = rim_as_seen();
     Lens lens = straight(camera);
-    EXPECT_TRUE(find_tilt(film_of(camera, 0.01), {}, rim, lens).oval);
+    EXPECT_TRUE(find_tilt(video_of(camera, 0.01), {}, rim, lens).oval);
 }
 
 }  // namespace

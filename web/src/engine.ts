@@ -53,7 +53,7 @@ interface Exports {
     configuration(): number;
     run_events(count: number): void;
     advance_to(time: number, most: number): number;
-    trouble(atTheEnd: number): number;
+    problem(atTheEnd: number): number;
     frame(time: number): number;
     frame_size(): number;
     event(): number;
@@ -203,8 +203,8 @@ export class Engine {
         return this.out.advance_to(time, most) === 1;
     }
     /** The sentence with which a run of the command line would have ended here; empty if it is sound. */
-    trouble(atTheEnd: boolean): string {
-        return this.answer(this.out.trouble(Number(atTheEnd)));
+    problem(atTheEnd: boolean): string {
+        return this.answer(this.out.problem(Number(atTheEnd)));
     }
     /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
     frame(time: number): Float64Array {

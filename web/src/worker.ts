@@ -27,7 +27,7 @@ function refuse(error: unknown): void {
 
 /** Nothing is shown of a dish that the command line would end with a sentence. */
 function refuseTrouble(dish: Engine, atTheEnd: boolean): void {
-    const sentence = dish.trouble(atTheEnd);
+    const sentence = dish.problem(atTheEnd);
     if (sentence) throw new Refusal(sentence);
 }
 
@@ -161,8 +161,8 @@ function point(given: Record<string, string>, swirls: number): void {
     if (!module) return;
     const dish = dishOf(module, given), configuration = dish.configuration();
     const end = (swirls + dish.rotation().warmup) * Number(configuration["period"]);
-    while (!dish.advanceTo(end, eventsAtOnce) && !dish.trouble(false));
-    const collapsed = dish.trouble(true) !== "";
+    while (!dish.advanceTo(end, eventsAtOnce) && !dish.problem(false));
+    const collapsed = dish.problem(true) !== "";
     say({kind: "point", rotation: dish.rotation(), collapsed});
 }
 

@@ -14,7 +14,7 @@ std::vector<Frame> frames_named(const std::string& name) {
     if (name == "lab") return {Frame::lab};
     if (name == "m") return {Frame::m};
     if (name == "both") return {Frame::lab, Frame::m};
-    throw WrongCall(fmt::format("--frame is '{}', but it must be lab, m or both.", name));
+    throw UsageError(fmt::format("--frame is '{}', but it must be lab, m or both.", name));
 }
 
 Size size_from(const std::string& text) {
@@ -23,7 +23,7 @@ Size size_from(const std::string& text) {
     const auto height =
         cross < text.size() ? read_whole_number(text.substr(cross + 1)).value_or(0) : 0;
     if (std::min(width, height) < 16 || std::max(width, height) > 8192)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--size is '{}', but it must be WIDTHxHEIGHT with sides from 16 to 8192 pixels, for "
             "example 1920x1080.",
             text));
@@ -81,17 +81,18 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     look.frames = frames_named(texts.frame);
     const auto coloring = coloring_named(texts.color);
     if (!coloring)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--color is '{}', but it must be pinned, spin, speed, slip, none or id.", texts.color));
     look.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)
-        throw WrongCall(fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
+        throw UsageError(
+            fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
     look.theme = *theme;
     look.size = texts.size.empty() ? otherwise : size_from(texts.size);
     if (texts.trail_length) {
         if (!(*texts.trail_length > 0.0) || *texts.trail_length > 100.0)
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("--trail-length is {}, but it must be above 0 and at most 100 swirls.",
                             *texts.trail_length));
         look.trail_length = *texts.trail_length;
@@ -106,13 +107,13 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     look.points = !texts.bare;
     look.path = !texts.bare;
     if (look.turned && texts.frame == "m")
-        throw WrongCall(
+        throw UsageError(
             "--turned shows the rotation in the lab: it needs --frame lab or --frame both.");
     if (look.angles && texts.frame == "lab")
-        throw WrongCall(
+        throw UsageError(
             "--angles shows the θ of the turning frame: it needs --frame m or --frame both.");
     if (look.forces && texts.frame == "lab")
-        throw WrongCall(
+        throw UsageError(
             "--forces shows the forces of the turning frame: it needs --frame m or --frame both.");
     return look;
 }

@@ -25,7 +25,7 @@ std::vector<Width> read_widths(const std::string& text) {
     for (const auto& [name, width] : named_widths)
         if ((text == "all" && has_width(width)) || text == name) found.push_back(width);
     if (found.empty())
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "The width of the vectors cannot be '{}'; it must be best, all, {}, avx2 or "
             "avx512.",
             text, baseline_name));
@@ -45,14 +45,14 @@ void make_bench(const BenchCall& call) {
     const auto seconds =
         call.seconds.empty() ? (call.full ? 1.0 : 0.25) : read_number(call.seconds);
     if (!seconds || !(*seconds > 0.0 && *seconds <= 3600.0))
-        throw WrongCall(
+        throw UsageError(
             fmt::format("The time for each rate cannot be '{}'; it must be a number of "
                         "seconds, above 0 and at most 3600.",
                         call.seconds));
     settings.seconds = *seconds;
     for (const std::string& file : {call.json, call.csv})
-        if (!file.empty() && file != "-") refuse_unwritable(file);
-    refuse_same_files({call.json, call.csv});
+        if (!file.empty() && file != "-") reject_unwritable(file);
+    reject_same_files({call.json, call.csv});
 
     BenchResult result;
     {

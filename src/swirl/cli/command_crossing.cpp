@@ -99,7 +99,7 @@ std::string json_of(const std::vector<std::string>& found, bool single) {
 void find(CrossingCall& call) {
     check_range(call.settings);
     if (call.threads < 0 || call.threads > 4096)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--threads is {}, but it must be a whole number from 1 to 4096, or 0 for all cores.",
             call.threads));
     // Only what is searched has to fit.
@@ -114,8 +114,8 @@ void find(CrossingCall& call) {
         check(searches.back());
     }
     for (const std::string* file : {&call.json, &call.table})
-        if (!file->empty() && *file != "-") refuse_unwritable(*file);
-    refuse_same_files({call.config_file, call.json, call.table});
+        if (!file->empty() && *file != "-") reject_unwritable(*file);
+    reject_same_files({call.config_file, call.json, call.table});
 
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes)

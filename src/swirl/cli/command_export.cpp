@@ -33,7 +33,7 @@ void choose_frames(const ExportCall& call, ExportOptions& options) {
     if (!call.stride.empty()) {
         const auto stride = read_whole_number(call.stride);
         if (!stride || *stride < 1)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "--stride is '{}', but it must be a whole number of at least 1.", call.stride));
         options.stride = static_cast<std::uint64_t>(*stride);
     }
@@ -43,7 +43,7 @@ void choose_frames(const ExportCall& call, ExportOptions& options) {
         if (text.empty()) return;
         const auto number = read_whole_number(text);
         if (colon == std::string::npos || !number || *number < 0)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "--range is '{}', but it must be FIRST:LAST, for example 100:199, or 100: for all "
                 "from frame 100 on; the first frame is 0.",
                 call.range));
@@ -52,20 +52,20 @@ void choose_frames(const ExportCall& call, ExportOptions& options) {
     take(call.range.substr(0, colon), options.first);
     if (colon != std::string::npos) take(call.range.substr(colon + 1), options.last);
     if (options.last < options.first)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--range is '{}', but the last frame is before the first.", call.range));
 }
 
 void export_file(const ExportCall& call) {
     const ExportFormat* const format = export_format(call.format);
     if (!format)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--to is '{}', but it must be one of {}.", call.format, formats_text()));
     ExportOptions options;
     if (!call.scale.empty()) {
         const auto scale = read_number(call.scale);
         if (!scale || !(*scale > 0.0))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("--scale is '{}', but it must be a number above 0.", call.scale));
         options.pixels_per_radius = *scale;
     }
@@ -75,14 +75,14 @@ void export_file(const ExportCall& call) {
     const std::filesystem::path out =
         call.out.empty() ? std::filesystem::path(call.file).replace_extension(format->ending)
                          : std::filesystem::path(call.out);
-    refuse_same_files({call.file, out});
-    refuse_unwritable(out);
+    reject_same_files({call.file, out});
+    reject_unwritable(out);
     const SnapshotSeries series = series_of(reader);
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
     const bool is_last_given = options.last != ExportOptions{}.last;
     if (std::max(options.first, is_last_given ? options.last : 0) >= series.frames)
-        throw WrongCall(fmt::format("--range is '{}', but the last frame of '{}' is {}.",
-                                    call.range, call.file, series.frames - 1));
+        throw UsageError(fmt::format("--range is '{}', but the last frame of '{}' is {}.",
+                                     call.range, call.file, series.frames - 1));
     const std::uint64_t frames = exported_frames(series, options);
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     const std::atomic<bool>& stop = stop_signal();

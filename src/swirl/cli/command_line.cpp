@@ -19,7 +19,7 @@ std::string& remembered() {
 
 }  // namespace
 
-void refuse_what_is_no_text(int argc, char** argv) {
+void reject_what_is_no_text(int argc, char** argv) {
     for (int k = 1; k < argc; ++k) {
         const std::string_view word = argv[k];
         if (!first_byte_not_utf8(word)) continue;
@@ -28,7 +28,7 @@ void refuse_what_is_no_text(int argc, char** argv) {
             shown += c >= 0x20 && c < 0x7f
                          ? std::string(1, c)
                          : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "'{}' is not UTF-8 text, and results and recordings, which tell the call, can hold "
             "nothing else; use another name.",
             shown));

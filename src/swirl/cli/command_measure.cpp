@@ -34,7 +34,7 @@ struct MeasureCall {
 OpenedSeries open_series(const MeasureCall& call) {
     std::error_code ignored;
     if (std::filesystem::is_directory(call.file, ignored))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "'{}' is a folder, but FILE must be a recording: a trajectory or tracks of swirl, a "
             "table of trackpy (CSV), or a LAMMPS text dump.",
             call.file));
@@ -46,16 +46,16 @@ OpenedSeries open_series(const MeasureCall& call) {
 }
 
 /// Frames do not tell one collision from the next.
-void refuse_what_needs_events(const std::vector<std::string>& names, const std::string& list) {
+void reject_what_needs_events(const std::vector<std::string>& names, const std::string& list) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_events && list != "all")
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "--measure has '{}' in its list, which needs every collision, and frames do not "
                 "hold them; `swirl run --measure {}` can tell.",
                 name, name));
 }
 
-void refuse_what_needs_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
+void reject_what_needs_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
@@ -80,22 +80,22 @@ void measure_file(const MeasureCall& call) {
     if (call.list == "help") return print_all(measurement_help_text());
     std::vector<std::string> names;
     if (!call.list.empty()) names = read_measurement_list(call.list);
-    refuse_what_needs_events(names, call.list);
+    reject_what_needs_events(names, call.list);
     if (!call.tables.empty() && names.empty())
-        throw WrongCall("--tables needs --measure LIST, which says what to write there.");
-    if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
+        throw UsageError("--tables needs --measure LIST, which says what to write there.");
+    if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
     std::vector<std::filesystem::path> all{call.file, camera_file(call.file), call.json,
                                            call.tables};
     if (!call.tables.empty())
         for (auto& table : measured_table_files(names, call.tables))
             all.push_back(std::move(table));
-    refuse_same_files(all);
+    reject_same_files(all);
     const double skip = number_option("skip", call.skip, 0.0, 0.0);
     const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
     const bool tracked = holds_tracks(series);
-    if (!tracked) refuse_what_needs_tracks(names, call);
+    if (!tracked) reject_what_needs_tracks(names, call);
     names = measurable(names, tracked);
     if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));

@@ -21,7 +21,7 @@ struct MovieCall {
     std::shared_ptr<SourceTexts> source;
     std::shared_ptr<AppearanceTexts> appearance;
     std::string out, frames_folder;
-    std::optional<double> seconds, swirls, start;
+    std::optional<double> seconds, periods, start;
     std::optional<int> frames_per_second;
     std::optional<double> pace;
     bool quiet = false;
@@ -31,7 +31,7 @@ MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
     config.out = call.out;
     config.frames_folder = call.frames_folder;
-    refuse_to_draw_onto_source(
+    reject_to_draw_onto_source(
         *call.source,
         {call.out, call.frames_folder.empty() ? "" : frame_name(call.frames_folder, 1)});
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
@@ -44,25 +44,25 @@ MovieConfig movie_config(const MovieCall& call) {
         first.open_backdrop ? config.frames_per_second / first.frames_per_swirl : 0.5);
     config.start =
         call.start.value_or(first.from.value_or(call.source->slip ? 0.0 : double(default_warmup)));
-    if (call.seconds && call.swirls)
-        throw WrongCall("--seconds and --swirls both set the length of the movie: give one.");
+    if (call.seconds && call.periods)
+        throw UsageError("--seconds and --swirls both set the length of the movie: give one.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
-    if (call.swirls) seconds = *call.swirls / config.pace;
+    if (call.periods) seconds = *call.periods / config.pace;
     // A recording is shown to its end, both ends included.
-    if (first.to && !call.seconds && !call.swirls)
+    if (first.to && !call.seconds && !call.periods)
         seconds = std::floor((*first.to - config.start) / config.pace * config.frames_per_second +
                              1e-9 + 1.0) /
                   config.frames_per_second;
     if (config.frames_per_second < 1)
-        throw WrongCall(fmt::format("{} frames per second cannot be had: 1 or more can.",
-                                    config.frames_per_second));
+        throw UsageError(fmt::format("{} frames per second cannot be had: 1 or more can.",
+                                     config.frames_per_second));
     const double frames = std::round(seconds * config.frames_per_second);
     if (!(frames >= 1.0 && frames <= 1e6))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "A movie of {:g} seconds cannot be made: it must have from 1 to 1000000 frames.",
             seconds));
     config.frames = static_cast<int>(frames);
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(config)) throw UsageError(*wrong);
     return config;
 }
 
@@ -109,7 +109,7 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.add_option("--seconds", call->seconds, "how long it plays [20; .gif 6]")
         ->type_name("NUMBER")
         ->group(group);
-    subcommand.add_option("--swirls", call->swirls, "how many swirls it shows, instead")
+    subcommand.add_option("--swirls", call->periods, "how many swirls it shows, instead")
         ->type_name("NUMBER")
         ->group(group);
     subcommand
@@ -137,7 +137,7 @@ void add_movie_command(Subcommand& subcommand) {
          "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
          "dish.mp4"});
     subcommand.callback([call, &subcommand] {
-        take_film_config(subcommand, *call->source, "movie", {{"seconds", "swirls"}});
+        take_video_config(subcommand, *call->source, "movie", {{"seconds", "swirls"}});
         make_and_report(*call);
     });
 }

@@ -47,7 +47,7 @@ void make_movies(const PaperCall& call) {
 }
 
 /// What could be made is there; what could not makes the call a failure.
-void refuse_missing(const PaperResult& result) {
+void reject_missing(const PaperResult& result) {
     std::string names;
     for (const MadeFigure& figure : result.figures)
         if (!figure.problem.empty())
@@ -107,7 +107,7 @@ void make_paper(PaperCall& call) {
     else
         for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
-    refuse_missing(result);
+    reject_missing(result);
 }
 
 std::string figure_list() {
@@ -144,7 +144,7 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.callback([call, &subcommand] {
         ParameterTexts parameters;
         if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, parameters, Lists::refused, "paper");
+            take_config_file(subcommand, call->config_file, parameters, Lists::rejected, "paper");
         for (const auto& [name, into] :
              {std::pair("events", &call->events), std::pair("seed", &call->seed)})
             if (const auto found = parameters.find(name); found != parameters.end())

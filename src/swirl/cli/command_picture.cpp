@@ -24,16 +24,16 @@ struct PictureCall {
 void draw_and_report(const PictureCall& call) {
     PictureConfig config;
     if (call.out.empty())
-        throw WrongCall("There is nowhere for the picture to go: give --out FILE.");
+        throw UsageError("There is nowhere for the picture to go: give --out FILE.");
     config.out = call.out;
-    refuse_to_draw_onto_source(*call.source, {call.out});
+    reject_to_draw_onto_source(*call.source, {call.out});
     config.appearance = appearance(*call.appearance, Size{1920, 1080});
     config.sources = frame_sources(*call.source);
     const std::optional<double> last = config.sources.front().to;
     config.at = call.at.value_or(last.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     config.flashes = call.flashes;
     config.every = call.every;
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(config)) throw UsageError(*wrong);
     make_picture(config);
     if (!call.quiet)
         print_all(fmt::format("{}: swirl {:g}, {}x{} pixels.\n", call.out, config.at,
@@ -69,7 +69,7 @@ void add_picture_command(Subcommand& subcommand) {
          "swirl picture --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
          "swirl picture run.h5 --at 12.5 --trails --out instant.svg"});
     subcommand.callback([call, &subcommand] {
-        take_film_config(subcommand, *call->source, "picture");
+        take_video_config(subcommand, *call->source, "picture");
         draw_and_report(*call);
     });
 }

@@ -46,7 +46,7 @@ RunResult run_with_progress(const RunConfig& config, const RunFiles& files,
 
 std::vector<std::string> measurements_of(const RunCall& call) {
     if (call.measure.empty() && !call.tables.empty())
-        throw WrongCall("--tables needs --measure LIST, which says what to write there.");
+        throw UsageError("--tables needs --measure LIST, which says what to write there.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
 }
@@ -59,7 +59,7 @@ std::string take_config_file(const RunCall& call,
     std::vector<std::string> names = parameter_names();
     for (const std::string& name : recording_option_names()) names.push_back(name);
     for (const auto& [name, text] : others) names.push_back(name);
-    const ConfigFile from_file = read_config_file(file, names, Lists::refused, "run");
+    const ConfigFile from_file = read_config_file(file, names, Lists::rejected, "run");
     *call.parameters = overridden(from_file.parameters, *call.parameters);
     take_others(from_file.others, others);
     ParameterTexts recording = from_file.others;
@@ -107,20 +107,20 @@ void run_and_report(RunCall& call) {
     files.call = call.recording->texts;
     for (const auto& [name, text] : others)
         if (!text->empty()) files.call[name] = *text;
-    if (!call.json.empty() && !json_to_stdout) refuse_unwritable(call.json);
+    if (!call.json.empty() && !json_to_stdout) reject_unwritable(call.json);
     std::vector<std::filesystem::path> tables;
     if (!call.tables.empty()) tables = measured_table_files(observation.names(), call.tables);
     std::vector<std::filesystem::path> all = tables;
     all.insert(all.end(), {call.recording->config_file, call.json, files.trajectory,
                            files.event_log, files.checkpoint, call.tables});
-    refuse_same_files(all);
+    reject_same_files(all);
     if (!call.tables.empty() && !call.dry_run) make_folder(call.tables);
     if (call.dry_run) return print_all(config_file_text(config, *call.recording, others));
     if (is_done_already(files, call.json, config, observation.names(), tables)) {
         if (!call.quiet) print_all(fmt::format("'{}' is complete already.\n", call.json));
         return;
     }
-    refuse_to_overwrite(files, call.json);
+    reject_to_overwrite(files, call.json);
     files.complain = [](const std::string& what) { fmt::print(stderr, "swirl: {}\n", what); };
     if (files.resume && !std::filesystem::exists(files.checkpoint) && !call.quiet)
         fmt::print(stderr, "swirl: There is no checkpoint '{}'; the run starts at its beginning.\n",

@@ -39,8 +39,8 @@ std::int64_t whole(const char* name, const std::string& text, std::int64_t other
     if (text.empty()) return otherwise;
     const auto value = read_whole_number(text);
     if (!value || *value < 1 || *value > to)
-        throw WrongCall(fmt::format("--{} is '{}', but it must be a whole number from 1 to {}.",
-                                    name, text, to));
+        throw UsageError(fmt::format("--{} is '{}', but it must be a whole number from 1 to {}.",
+                                     name, text, to));
     return *value;
 }
 
@@ -56,7 +56,7 @@ void take_config_file(SweepCall& call) {
 
 std::vector<std::string> more_measurements(const SweepCall& call) {
     if (!call.frames.empty())
-        throw WrongCall(
+        throw UsageError(
             "--frames cannot be added to a sweep with --grow; its runs are recorded from the "
             "beginning or not at all.");
     if (call.measure.empty()) return {};
@@ -76,7 +76,7 @@ SweepPlan plan_of(SweepCall& call, std::optional<SweepPlan>& grown_from) {
         call.frames.empty()) {
         std::error_code ignored;
         if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
-            throw WrongCall(
+            throw UsageError(
                 "There is nothing to sweep over: give a plan (plan.toml), or lists, as in --discs "
                 "5:48 --mu 0.1,0.5,1.");
         return read_plan(call.out);
@@ -98,7 +98,7 @@ SweepShare share_of(const SweepCall& call) {
                            ? std::nullopt
                            : read_whole_number(std::string_view(call.part).substr(slash + 1));
     if (!part || !parts || *part < 1 || *parts < *part || *parts > 1'000'000)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--part is '{}', but it must be PART/PARTS, for example 2/10 for the second of ten.",
             call.part));
     share.part = static_cast<std::size_t>(*part);
@@ -254,9 +254,9 @@ std::string remarks_on(const CollectedSweep& collected) {
 
 /// The table of a sweep takes the place of nothing that it is made of, nor of what the sweep needs
 /// to go on.
-void refuse_part_of_sweep(const fs::path& folder, const fs::path& output) {
+void reject_part_of_sweep(const fs::path& folder, const fs::path& output) {
     if (output.empty() || output == "-" || !belongs_to_sweep(folder, whole_name(output))) return;
-    throw WrongCall(fmt::format(
+    throw UsageError(fmt::format(
         "'{}' belongs to the sweep itself, which needs it; another name would be '{}'.",
         output.string(), (folder / output.filename().replace_extension(".csv")).string()));
 }
@@ -286,9 +286,9 @@ void add_collect_command(Subcommand& subcommand) {
         const fs::path folder = call->folder;
         const std::string file =
             call->table.empty() ? (folder / "table.csv").string() : call->table;
-        refuse_same_files({file, call->crossings});
+        reject_same_files({file, call->crossings});
         for (const std::string& output : {file, call->crossings})
-            refuse_part_of_sweep(folder, output);
+            reject_part_of_sweep(folder, output);
         const SweepPlan plan = read_plan(folder);
         const CollectedSweep collected = collect_sweep(call->folder, plan);
         const std::string crossings =

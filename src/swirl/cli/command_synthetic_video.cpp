@@ -24,7 +24,7 @@ namespace {
 /// A telephone's, whose picture is cropped to the dish a little; who tilts a camera is near.
 constexpr double tilted_view_angle = 30.0;
 
-struct FilmTestCall {
+struct SyntheticVideoCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::string out, preset = "laboratory";
     double periods = 3.0, from = 20.0;
@@ -36,16 +36,16 @@ struct FilmTestCall {
     bool rolls = false, mirrored = false, still = false, overwrite = false, quiet = false;
 };
 
-CameraSettings settings_of(const FilmTestCall& call, const RunConfig& config) {
+CameraSettings settings_of(const SyntheticVideoCall& call, const RunConfig& config) {
     const auto named = camera_preset(call.preset);
     if (!named)
-        throw WrongCall(fmt::format("--camera is '{}', but it must be one of {}.", call.preset,
-                                    camera_presets()));
+        throw UsageError(fmt::format("--camera is '{}', but it must be one of {}.", call.preset,
+                                     camera_presets()));
     CameraSettings camera = *named;
     const auto take = [](const char* name, const auto& given, auto& into, double from, double to) {
         if (!given) return;
         if (!(double(*given) >= from && double(*given) <= to))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("--{} is {}, but it must be from {} to {}.", name, *given, from, to));
         into = *given;
     };
@@ -74,7 +74,7 @@ CameraSettings settings_of(const FilmTestCall& call, const RunConfig& config) {
     camera.mirrored = call.mirrored;
     camera.seed = static_cast<std::uint64_t>(config.seed);
     if (const auto wrong = movie_problem(MovieFormat::mp4, camera.size, call.fps))
-        throw WrongCall(*wrong);
+        throw UsageError(*wrong);
     return camera;
 }
 
@@ -84,28 +84,28 @@ double phase_in_picture(const Snapshot& s, bool mirrored) {
     return 360.0 * turns_of(c);
 }
 
-void film(const FilmTestCall& call) {
+void video(const SyntheticVideoCall& call) {
     if (call.out.empty())
-        throw WrongCall("There is nowhere for the film to go: give --out FILE.mp4.");
+        throw UsageError("There is nowhere for the film to go: give --out FILE.mp4.");
     if (movie_format(call.out) != MovieFormat::mp4)
-        throw WrongCall(fmt::format("--out is '{}', but its name must end with .mp4.", call.out));
+        throw UsageError(fmt::format("--out is '{}', but its name must end with .mp4.", call.out));
     if (call.quality < 0 || call.quality > 51)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--quality is {}, but it must be from 0 (no loss) to 51.", call.quality));
     if (!(call.periods > 0.0) || !(call.from >= 0.0))
-        throw WrongCall("--length must be above 0 and --from at least 0.");
+        throw UsageError("--length must be above 0 and --from at least 0.");
     const RunConfig config = resolve(*call.parameters);
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(config)) throw UsageError(*wrong);
     const CameraSettings camera = settings_of(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));
-    if (frames < 1) throw WrongCall("--frames must be at least 1.");
+    if (frames < 1) throw UsageError("--frames must be at least 1.");
     const std::filesystem::path out = call.out;
     const auto beside = [&](const char* ending) {
         std::filesystem::path name = out;
         return name.replace_extension(ending);
     };
-    refuse_unwritable(out);
+    reject_unwritable(out);
     if (!call.overwrite && std::filesystem::exists(out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
 
@@ -115,7 +115,7 @@ void film(const FilmTestCall& call) {
     MovieWriter writer(call.out, MovieFormat::mp4, camera.size, call.fps, call.quality);
     Table discs({"frame", "particle", "x", "y", "x_ideal", "y_ideal", "radius", "spin_x", "spin_y",
                  "spin_z"});
-    Table dish({"frame", "x_ideal", "y_ideal", "radius"});
+    Table container({"frame", "x_ideal", "y_ideal", "radius"});
     ProgressLine line(fmt::format("{} pictures", frames), call.quiet);
     const std::size_t pixels =
         static_cast<std::size_t>(camera.size.width) * static_cast<std::size_t>(camera.size.height);
@@ -138,7 +138,7 @@ void film(const FilmTestCall& call) {
             planes[at] = static_cast<std::uint8_t>(16 + (picture[at] * 219 + 127) / 255);
         writer.write(planes);
         const Vec2 c = view.ideal(s.container_centre);
-        dish.add({k, c.x, c.y, s.container_radius * camera.scale});
+        container.add({k, c.x, c.y, s.container_radius * camera.scale});
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 p = view.ideal(s.position(i)), seen = view.seen(p);
             const auto& turned = view.turned(i);
@@ -154,7 +154,7 @@ void film(const FilmTestCall& call) {
     for (const auto& old : {out, beside(".truth.csv"), beside(".dish.csv"), beside(".truth.json")})
         std::filesystem::remove(old, absent);
     discs.write(beside(".truth.csv"));
-    dish.write(beside(".dish.csv"));
+    container.write(beside(".dish.csv"));
     const Vec2 centre = view.ideal({0.0, 0.0});
     nlohmann::ordered_json json{{"film", out.filename().string()},
                                 {"frames", frames},
@@ -184,24 +184,25 @@ void film(const FilmTestCall& call) {
             beside(".truth.json").string()));
 }
 
-void add_film_test_command(Subcommand& subcommand) {
-    const auto call = std::make_shared<FilmTestCall>();
+void add_synthetic_video_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<SyntheticVideoCall>();
     const auto add = [&](const char* name, auto& into, const char* type, const char* description,
                          const char* group) {
         subcommand.add_option(name, into, description)->type_name(type)->group(group);
     };
-    const char* const film_group = "Film";
+    const char* const video_group = "Film";
     add("--out", call->out, "FILE.mp4", "the film; its truth goes beside it (.truth.csv, …)",
-        film_group);
-    add("--length", call->periods, "PERIODS", "how much of the run is filmed [3]", film_group);
-    add("--frames", call->frames, "NUMBER", "the same in pictures", film_group);
-    add("--from", call->from, "PERIODS", "where in the run the film begins [20]", film_group);
-    add("--fps", call->fps, "NUMBER", "at which the film says it is to be played [60]", film_group);
+        video_group);
+    add("--length", call->periods, "PERIODS", "how much of the run is filmed [3]", video_group);
+    add("--frames", call->frames, "NUMBER", "the same in pictures", video_group);
+    add("--from", call->from, "PERIODS", "where in the run the film begins [20]", video_group);
+    add("--fps", call->fps, "NUMBER", "at which the film says it is to be played [60]",
+        video_group);
     add("--quality", call->quality, "NUMBER",
-        "loss of the compression: 0 is none, 18 hardly visible, 35 much [18]", film_group);
+        "loss of the compression: 0 is none, 18 hardly visible, 35 much [18]", video_group);
     subcommand.add_flag("--overwrite", call->overwrite, "replace a film that is there")
-        ->group(film_group);
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(film_group);
+        ->group(video_group);
+    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(video_group);
     const char* const lens = "Camera";
     add("--camera", call->preset, "NAME",
         "laboratory, telephone, bad or steel: all of what follows [laboratory]", lens);
@@ -239,12 +240,12 @@ void add_film_test_command(Subcommand& subcommand) {
                              "swirl film-test --camera telephone --discs 48 --quality 28 --out "
                              "phone.mp4",
                              "swirl track lab.mp4 --out tracks.csv"});
-    subcommand.callback([call] { film(*call); });
+    subcommand.callback([call] { video(*call); });
 }
 
-const Command film_test_command(71, "film-test",
-                                "What a camera would see of a run, with the truth beside it.",
-                                add_film_test_command);
+const Command synthetic_video_command(71, "film-test",
+                                      "What a camera would see of a run, with the truth beside it.",
+                                      add_synthetic_video_command);
 
 }  // namespace
 }  // namespace swirl

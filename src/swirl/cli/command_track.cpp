@@ -29,7 +29,7 @@ namespace swirl {
 namespace {
 
 struct TrackCall {
-    FilmSource source;
+    VideoSource source;
     std::string out, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
@@ -50,8 +50,8 @@ KnownCamera camera_of(const TrackCall& call) {
     KnownCamera camera;
     if (call.view_angle) {
         if (!(*call.view_angle >= 0.0 && *call.view_angle <= 150.0))
-            throw WrongCall(fmt::format("--view-angle is {}, but it must be from 0 to 150 degrees.",
-                                        *call.view_angle));
+            throw UsageError(fmt::format(
+                "--view-angle is {}, but it must be from 0 to 150 degrees.", *call.view_angle));
         camera.view_angle = radians * *call.view_angle;
     }
     if (call.tilt.empty()) return camera;
@@ -61,7 +61,7 @@ KnownCamera camera_of(const TrackCall& call) {
         comma == call.tilt.npos ? std::optional(0.0) : read_number(call.tilt.substr(comma + 1));
     if (!angle || !towards || !(*angle >= 0.0 && *angle <= 45.0) ||
         (comma == call.tilt.npos && *angle > 0.0))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--tilt is '{}', but it must be 0, or two angles in degrees: up to 45, and the side "
             "where the camera stands, as in 5,270.",
             call.tilt));
@@ -70,16 +70,16 @@ KnownCamera camera_of(const TrackCall& call) {
     return camera;
 }
 
-std::string text_of(const TrackedFilm& film, const TrackCall& call) {
-    const std::string unit = film.fps > 0.0 ? "s" : "picture";
+std::string text_of(const TrackedVideo& video, const TrackCall& call) {
+    const std::string unit = video.fps > 0.0 ? "s" : "picture";
     std::string sizes;
-    for (const TrackedKind& kind : film.kinds)
+    for (const TrackedKind& kind : video.kinds)
         sizes += fmt::format("{}{} of {:.2f} pixels radius", sizes.empty() ? "" : ", ", kind.number,
                              kind.radius);
-    const double period = 2.0 * pi / film.path.omega;
-    const double step = film.times.size() > 1 ? (film.times.back() - film.times.front()) /
-                                                    double(film.times.size() - 1)
-                                              : 1.0;
+    const double period = 2.0 * pi / video.path.omega;
+    const double step = video.times.size() > 1 ? (video.times.back() - video.times.front()) /
+                                                     double(video.times.size() - 1)
+                                               : 1.0;
     std::string text = fmt::format(
         "{}: {} discs in {} pictures of {}x{}.\n"
         "  discs       {}, {} on {} floor\n"
@@ -92,36 +92,37 @@ std::string text_of(const TrackedFilm& film, const TrackCall& call) {
         "  camera      {}\n"
         "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
         "  error       {:.3f} pixels of a place, from {}\n",
-        call.source.film, film.number, film.pictures, film.width, film.height, sizes,
-        film.bright ? "bright" : "dark", film.bright ? "a dark" : "a bright", film.container_radius,
-        film.container_radius / film.radius, with_error(film.path.centre.x, film.path.centre_error),
-        with_error(film.path.centre.y, film.path.centre_error),
-        with_error(film.path.amplitude, film.path.amplitude_error),
-        film.path.amplitude / film.radius,
-        film.path.clockwise ? "clockwise in the picture" : "counter-clockwise", shape_text(film),
-        with_error(period, period * film.path.omega_error / film.path.omega), unit, period / step,
-        with_error(film.path.omega, film.path.omega_error), unit,
-        with_error(phase_of(film), film.path.phase_error * 180.0 / pi),
-        with_error(film.lens.k, film.lens.k_error), film.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(film), 100.0 * film.complete, film.filled, film.position_error,
-        film.position_error > film.overlap_error ? "the edges" : "overlaps that cannot be");
+        call.source.video, video.number, video.pictures, video.width, video.height, sizes,
+        video.bright ? "bright" : "dark", video.bright ? "a dark" : "a bright",
+        video.container_radius, video.container_radius / video.radius,
+        with_error(video.path.centre.x, video.path.centre_error),
+        with_error(video.path.centre.y, video.path.centre_error),
+        with_error(video.path.amplitude, video.path.amplitude_error),
+        video.path.amplitude / video.radius,
+        video.path.clockwise ? "clockwise in the picture" : "counter-clockwise", shape_text(video),
+        with_error(period, period * video.path.omega_error / video.path.omega), unit, period / step,
+        with_error(video.path.omega, video.path.omega_error), unit,
+        with_error(phase_of(video), video.path.phase_error * 180.0 / pi),
+        with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
+        tilt_text(video), 100.0 * video.complete, video.filled, video.position_error,
+        video.position_error > video.overlap_error ? "the edges" : "overlaps that cannot be");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
-                            *call.source.disc_diameter / (2.0 * film.radius));
-    if (call.source.dish_diameter)
+                            *call.source.disc_diameter / (2.0 * video.radius));
+    if (call.source.container_diameter)
         text += fmt::format("  scale       {:.5f} mm a pixel, from the dish\n",
-                            *call.source.dish_diameter / (2.0 * film.container_radius));
-    for (const std::string& warning : film.warnings) text += warning + "\n";
+                            *call.source.container_diameter / (2.0 * video.container_radius));
+    for (const std::string& warning : video.warnings) text += warning + "\n";
     return text;
 }
 
 /// The film with the discs that were found drawn over it, picture by picture.
-void make_overlay(const TrackedFilm& film, const TrackCall& call) {
+void make_overlay(const TrackedVideo& video, const TrackCall& call) {
     MovieConfig config;
     config.out = call.overlay;
-    config.sources = {tracked(film.tracks, film.scale(),
-                              escaped(std::filesystem::path(call.source.film).filename().string()),
-                              call.source.film)};
+    config.sources = {tracked(video.tracks, video.scale(),
+                              escaped(std::filesystem::path(call.source.video).filename().string()),
+                              call.source.video)};
     const FrameSource& source = config.sources.front();
     config.appearance.size = {960, 960};
     config.appearance.coloring = Coloring::id;
@@ -129,8 +130,8 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
     config.frames_per_second = movie_format(call.overlay) == MovieFormat::gif ? 25 : 60;
     config.pace = config.frames_per_second / source.frames_per_swirl;
     config.start = source.from.value_or(0.0);
-    config.frames = static_cast<int>(film.pictures);
-    if (const auto wrong = problem(config)) throw WrongCall(*wrong);
+    config.frames = static_cast<int>(video.pictures);
+    if (const auto wrong = problem(config)) throw UsageError(*wrong);
     ProgressLine line(call.overlay, call.quiet);
     MovieControl control;
     control.stop = &stop_signal();
@@ -142,75 +143,75 @@ void make_overlay(const TrackedFilm& film, const TrackCall& call) {
             fmt::format("Stopped while the overlay was drawn; the tracks are in '{}', and swirl "
                         "movie {} --over "
                         "{} --out {} draws it.",
-                        call.out, shell_word(call.out), shell_word(call.source.film),
+                        call.out, shell_word(call.out), shell_word(call.source.video),
                         shell_word(call.overlay)));
 }
 
 void track(const TrackCall& call) {
     if (call.out.empty())
-        throw WrongCall("There is nowhere for the tracks to go: give --out FILE.csv or FILE.h5.");
+        throw UsageError("There is nowhere for the tracks to go: give --out FILE.csv or FILE.h5.");
     if (!is_named_as_tracks(call.out))
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--out is '{}', but its name must end with .csv or .h5.", call.out));
-    check_film_options(call.fps, call.frames);
+    check_video_options(call.fps, call.frames);
     if (call.discs && !(*call.discs > 0))
-        throw WrongCall(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
-    for (const auto& [name, given] : {std::pair("dish-diameter", call.source.dish_diameter),
+        throw UsageError(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
+    for (const auto& [name, given] : {std::pair("dish-diameter", call.source.container_diameter),
                                       std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
-            throw WrongCall(fmt::format("--{} is {}, but it must be above 0.", name, *given));
+            throw UsageError(fmt::format("--{} is {}, but it must be above 0.", name, *given));
     const KnownCamera camera = camera_of(call);
-    refuse_unwritable(call.out);
+    reject_unwritable(call.out);
     if (!call.overlay.empty()) {
         if (!movie_format(call.overlay))
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("--overlay is '{}', but its name must end with .mp4, .webm or .gif.",
                             call.overlay));
-        refuse_unwritable(call.overlay);
+        reject_unwritable(call.overlay);
     }
-    if (!call.json.empty() && call.json != "-") refuse_unwritable(call.json);
-    std::vector<std::filesystem::path> all{call.source.film, call.out, camera_file(call.out),
+    if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
+    std::vector<std::filesystem::path> all{call.source.video, call.out, camera_file(call.out),
                                            call.overlay, call.json};
     if (!call.report.empty())
-        for (const char* file : film_report_files)
+        for (const char* file : video_report_files)
             all.push_back(std::filesystem::path(call.report) / file);
-    refuse_same_files(all);
+    reject_same_files(all);
     if (!call.report.empty()) make_folder(call.report);
     if (!call.overwrite && std::filesystem::exists(call.out))
         throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
 
-    ProgressLine line(call.source.film, call.quiet);
-    TrackingSettings settings = tracking_settings(call.source.film, call.fps, call.frames, line);
+    ProgressLine line(call.source.video, call.quiet);
+    TrackingSettings settings = tracking_settings(call.source.video, call.fps, call.frames, line);
     settings.discs = call.discs;
     settings.camera = camera;
-    TrackedFilm film = track_film(settings);
-    std::optional<FilmSpins> spins;
-    if (call.spin) spins = spins_of(film, settings);
+    TrackedVideo video = track_video(settings);
+    std::optional<VideoSpins> spins;
+    if (call.spin) spins = spins_of(video, settings);
     line.clear();
     if (spins && spins->measured < 0.9)
-        film.warnings.push_back(fmt::format(
+        video.warnings.push_back(fmt::format(
             "The texture of the discs tells their turning in {:.0f} % of the steps of {} picture{} "
             "only: more of a pattern on them, sharper pictures or more of them would help.",
             100.0 * spins->measured, spins->step, spins->step == 1 ? "" : "s"));
-    if (call.source.dish_diameter && call.source.disc_diameter) {
-        const double given = *call.source.dish_diameter / *call.source.disc_diameter;
-        const double seen = film.container_radius / film.radius;
+    if (call.source.container_diameter && call.source.disc_diameter) {
+        const double given = *call.source.container_diameter / *call.source.disc_diameter;
+        const double seen = video.container_radius / video.radius;
         if (std::abs(given / seen - 1.0) > 0.03)
-            film.warnings.push_back(fmt::format(
+            video.warnings.push_back(fmt::format(
                 "The diameters given are as {:.3f} to 1, but the dish in the film is {:.3f} times "
                 "as wide as a disc: one of them is wrong, or the dish's is that of its outside.",
                 given, seen));
     }
 
     const nlohmann::ordered_json json =
-        write_tracks(film, call.source, call.out, spins ? &*spins : nullptr);
-    if (!call.overlay.empty()) make_overlay(film, call);
+        write_tracks(video, call.source, call.out, spins ? &*spins : nullptr);
+    if (!call.overlay.empty()) make_overlay(video, call);
     std::filesystem::path report;
-    if (!call.report.empty()) report = write_film_report(film, call.source, json, call.report);
+    if (!call.report.empty()) report = write_video_report(video, call.source, json, call.report);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
     if (!call.quiet)
-        print_all(text_of(film, call) +
+        print_all(text_of(video, call) +
                   (report.empty() ? "" : fmt::format("wrote {}\n", report.string())));
 }
 
@@ -221,7 +222,7 @@ void add_track_command(Subcommand& subcommand) {
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
         return subcommand.add_option(name, into, description)->type_name(type);
     };
-    add("film", call->source.film, "VIDEO",
+    add("film", call->source.video, "VIDEO",
         "a film that ffmpeg reads, numbered pictures ('frames/%05d.png'), or a camera "
         "(/dev/video0)")
         ->required();
@@ -230,7 +231,8 @@ void add_track_command(Subcommand& subcommand) {
         "beside them "
         "(.camera.json), where swirl measure finds it");
     add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
-    add("--dish-diameter", call->source.dish_diameter, "MM", "of the dish inside, in millimetres");
+    add("--dish-diameter", call->source.container_diameter, "MM",
+        "of the dish inside, in millimetres");
     add("--disc-diameter", call->source.disc_diameter, "MM", "of a disc, in millimetres");
     add("--discs", call->discs, "NUMBER", "how many there are [counted]");
     add("--tilt", call->tilt, "DEGREES,TOWARDS",

@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 RunConfig config_in(const std::string& file, const std::string& text) {
     try {
         return resolve(parameters_in(text));
-    } catch (const WrongCall& wrong) {
+    } catch (const UsageError& wrong) {
         throw Failure(
             fmt::format("'{}' cannot be run again with this version: {}", file, wrong.what()));
     }
@@ -136,7 +136,7 @@ bool same_bits(Vec2 a, Vec2 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.
 
 /// A frame as it was recorded and a moment of the run: everything that a frame consists of.
 bool same_frame(const Snapshot& frame, const Snapshot& now) {
-    bool same = frame.size() == now.size() && frame.swirls == now.swirls &&
+    bool same = frame.size() == now.size() && frame.periods == now.periods &&
                 same_bits(frame.clock, now.clock) && same_bits(frame.period, now.period) &&
                 same_bits(frame.container_radius, now.container_radius) &&
                 same_bits(frame.container_centre, now.container_centre) &&
@@ -174,16 +174,16 @@ class Comparison {
     bool expects_more() const { return next_ < there_ || complete_; }
 
     void found(bool same, std::string_view how) {
-        if (next_ >= there_) refuse(fmt::format("it ends there, but the run has more {}s", what_));
-        if (!same) refuse(how);
+        if (next_ >= there_) reject(fmt::format("it ends there, but the run has more {}s", what_));
+        if (!same) reject(how);
         ++next_;
     }
-    [[noreturn]] void refuse(std::string_view how) const {
+    [[noreturn]] void reject(std::string_view how) const {
         throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, what_, next_, how,
                                   of_version(made_by_)));
     }
     void report(bool quiet) const {
-        if (next_ < there_) refuse(fmt::format("the run has no more than {}", next_));
+        if (next_ < there_) reject(fmt::format("the run has no more than {}", next_));
         if (quiet) return;
         print_all(complete_ ? fmt::format("The same, bit for bit: {} {}s.\n", next_, what_)
                             : fmt::format(
@@ -253,8 +253,8 @@ void verify_trajectory(const std::string& file, bool quiet) {
 }
 
 bool same_events(const Event& a, const Event& b) {
-    return a.swirls == b.swirls && same_bits(a.clock, b.clock) && a.kind == b.kind && a.i == b.i &&
-           a.j == b.j && same_bits(a.normal, b.normal) &&
+    return a.periods == b.periods && same_bits(a.clock, b.clock) && a.kind == b.kind &&
+           a.i == b.i && a.j == b.j && same_bits(a.normal, b.normal) &&
            same_bits(a.impulse.normal, b.impulse.normal) &&
            same_bits(a.impulse.tangential, b.impulse.tangential) &&
            same_bits(a.impulse.vertical, b.impulse.vertical) &&
@@ -278,18 +278,18 @@ bool same_floors(const MovingFloor& a, const MovingFloor& b) {
 /// What the log says of the run before its first event.
 void verify_beginning(const EventLogReader& log, const InitialState& scene,
                       const Simulation& simulation, const Comparison& comparison) {
-    if (log.initial().size() != simulation.size()) comparison.refuse("another number of discs");
+    if (log.initial().size() != simulation.size()) comparison.reject("another number of discs");
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(log.initial()[i], simulation.disc(i)))
-            comparison.refuse(fmt::format("disc {} begins otherwise", i));
+            comparison.reject(fmt::format("disc {} begins otherwise", i));
     if (!same_bits(log.period(), scene.path.period) ||
-        !same_bits(log.swirl_end(), scene.path.legs.back().end) ||
+        !same_bits(log.swirl_end(), scene.path.segments.back().end) ||
         !same_bits(log.container_radius(), scene.container_radius))
-        comparison.refuse("the container is another");
+        comparison.reject("the container is another");
     const bool has_floor = scene.shape != Shape::disc;
     if (log.floor().has_value() != has_floor ||
         (has_floor && !same_floors(*log.floor(), moving_floor(scene.floor, scene.path))))
-        comparison.refuse("the floor, or its velocity on a leg of the path, is another");
+        comparison.reject("the floor, or its velocity on a leg of the path, is another");
 }
 
 /// Every event against the engine's, and the state that they lead to against its state.
@@ -319,7 +319,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     });
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(replay.discs()[i], simulation.disc(i)))
-            comparison.refuse("the state that the events lead to is another");
+            comparison.reject("the state that the events lead to is another");
     comparison.report(quiet);
 }
 

@@ -20,14 +20,14 @@ namespace {
 Config parsed(const std::string& file, Lists lists) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "There is no configuration file '{}'; options begin with --, as in --discs {}.", file,
             lists == Lists::taken ? "5:48" : "48"));
     std::string text = read_whole_file(file, largest_config);
     try {
         return parse_config(std::move(text), file);
     } catch (const FileError& wrong) {
-        throw WrongCall(wrong.what());
+        throw UsageError(wrong.what());
     }
 }
 
@@ -41,7 +41,7 @@ struct Set {
     const std::string& file;
 
     [[noreturn]] void wrong(const char* what) const {
-        throw WrongCall(
+        throw UsageError(
             fmt::format("'{}': {} is '{}', but it must be {}.", file, name, text, what));
     }
     double number() const {
@@ -99,15 +99,15 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
         const std::string at = fmt::format("'{}', line {}", file, entry.line);
         if (std::find(names.begin(), names.end(), name) == names.end()) {
             const auto meant = nearest_name(name, names);
-            throw WrongCall(fmt::format("{}: there is no option '{}'{}", at, name,
-                                        meant ? fmt::format("; did you mean '{}'?", *meant)
-                                              : "; `swirl " + command + " --help` lists them."));
+            throw UsageError(fmt::format("{}: there is no option '{}'{}", at, name,
+                                         meant ? fmt::format("; did you mean '{}'?", *meant)
+                                               : "; `swirl " + command + " --help` lists them."));
         }
-        if (entry.is_list && lists == Lists::refused && !is_list_by_nature(name))
-            throw WrongCall(fmt::format(
+        if (entry.is_list && lists == Lists::rejected && !is_list_by_nature(name))
+            throw UsageError(fmt::format(
                 "{}: {} is a list, but one value is needed; `swirl sweep` takes lists.", at, name));
         if (entry.values.empty())
-            throw WrongCall(fmt::format("{}: the list of {} is empty.", at, name));
+            throw UsageError(fmt::format("{}: the list of {} is empty.", at, name));
         auto& into = find_parameter(name) ? found.parameters : found.others;
         into.emplace(name, fmt::format("{}", fmt::join(entry.values, ",")));
     }

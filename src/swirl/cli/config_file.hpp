@@ -18,7 +18,7 @@ struct ConfigFile {
     ParameterTexts others;      // the further options
 };
 
-enum class Lists { refused, taken };
+enum class Lists { rejected, taken };
 
 /// `names` are those of the options it may hold; `command` is whose --help lists them. What to
 /// measure may always be a list. Throws WrongCall for names that do not exist, for what is no TOML,

@@ -20,9 +20,9 @@ namespace {
 
 std::string last_error() { return std::generic_category().message(errno); }
 
-void refuse_option(const std::filesystem::path& name, const char* kind) {
+void reject_option(const std::filesystem::path& name, const char* kind) {
     if (name.native().starts_with('-'))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "'{0}' looks like an option, but here the name of a {1} must stand; a {1} of that "
             "name would be {2}.",
             name.string(), kind, shell_word("./" + name.string())));
@@ -30,10 +30,10 @@ void refuse_option(const std::filesystem::path& name, const char* kind) {
 
 }  // namespace
 
-void refuse_unwritable(const std::filesystem::path& file) {
+void reject_unwritable(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (file.empty()) throw WrongCall("The name of an output file is empty.");
-    refuse_option(file, "file");
+    if (file.empty()) throw UsageError("The name of an output file is empty.");
+    reject_option(file, "file");
     if (std::filesystem::is_directory(file, ignored))
         throw Failure(fmt::format("'{}' is a folder, but it must be the name of a file to write.",
                                   file.string()));
@@ -51,9 +51,9 @@ std::filesystem::path whole_name(const std::filesystem::path& file) {
     return unknown ? std::filesystem::absolute(file).lexically_normal() : whole;
 }
 
-void refuse_same_files(const std::vector<std::filesystem::path>& files) {
+void reject_same_files(const std::vector<std::filesystem::path>& files) {
     if (std::count(files.begin(), files.end(), "-") > 1)
-        throw WrongCall(
+        throw UsageError(
             "Only one thing can go to standard output, which is what '-' stands for; give each of "
             "the others a file.");
     std::vector<std::filesystem::path> seen;
@@ -61,7 +61,7 @@ void refuse_same_files(const std::vector<std::filesystem::path>& files) {
         if (file.empty() || file == "-") continue;
         std::filesystem::path whole = whole_name(file);
         if (std::find(seen.begin(), seen.end(), whole) != seen.end())
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "'{}' is the name of two files; each needs a name of its own.", file.string()));
         seen.push_back(std::move(whole));
     }
@@ -76,7 +76,7 @@ constexpr int milliseconds_to_wait = 200;
 }
 
 /// For as long as nobody wants an end of it: a pipe may never have a reader, or one that rests.
-void refuse_to_wait_after_stop(const std::filesystem::path& file) {
+void reject_to_wait_after_stop(const std::filesystem::path& file) {
     if (stop_signal().load())
         throw Interrupted(
             fmt::format("Stopped while waiting for a reader of '{}'.", file.string()));
@@ -94,7 +94,7 @@ int opened_for_writing(const std::filesystem::path& file) {
         const bool lacks_reader = why == ENXIO && std::filesystem::is_fifo(file, ignored);
         errno = why;
         if (!lacks_reader) fail_to_write(file);
-        refuse_to_wait_after_stop(file);
+        reject_to_wait_after_stop(file);
         poll(nullptr, 0, milliseconds_to_wait);
     }
 }
@@ -109,7 +109,7 @@ void write_all(int stream, const std::filesystem::path& file, std::string_view t
         if (errno == EINTR) continue;
         if (errno != EAGAIN) fail_to_write(file);
         pollfd wait{stream, POLLOUT, 0};
-        if (poll(&wait, 1, milliseconds_to_wait) == 0) refuse_to_wait_after_stop(file);
+        if (poll(&wait, 1, milliseconds_to_wait) == 0) reject_to_wait_after_stop(file);
     }
 }
 
@@ -133,7 +133,7 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
 }
 
 void make_folder(const std::filesystem::path& folder) {
-    refuse_option(folder, "folder");
+    reject_option(folder, "folder");
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)

@@ -8,14 +8,14 @@
 namespace swirl {
 
 /// Throws Failure or WrongCall, before any work is done, if no file could be written there.
-void refuse_unwritable(const std::filesystem::path& file);
+void reject_unwritable(const std::filesystem::path& file);
 
 /// The one name of a file, however it was written: whole, and through links. It need not be there.
 std::filesystem::path whole_name(const std::filesystem::path& file);
 
 /// Throws WrongCall if two of these, read or written, are one file, however they are written, or if
 /// two are "-", standard output; empty names are none.
-void refuse_same_files(const std::vector<std::filesystem::path>& files);
+void reject_same_files(const std::vector<std::filesystem::path>& files);
 
 /// Writes a file whole or not at all (io/atomic_file.hpp); a pipe or a device gets the text as it
 /// is. Throws FileError or Failure.

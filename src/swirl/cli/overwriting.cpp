@@ -61,7 +61,7 @@ bool holds_all(const Json& result, const std::vector<std::string>& names) {
 
 /// What the run of the checkpoint has left there, it may replace, and what it was to overwrite from
 /// the beginning.
-void refuse_what_another_run_left(const RunFiles& files, const std::string& json) {
+void reject_what_another_run_left(const RunFiles& files, const std::string& json) {
     const bool result = holds_something(json);
     if (!result && !is_there(files.trajectory) && !is_there(files.event_log)) return;
     const KeptCall kept = call_in_checkpoint(files.checkpoint);
@@ -72,7 +72,7 @@ void refuse_what_another_run_left(const RunFiles& files, const std::string& json
     for (const auto& [option, file] :
          {std::pair{"trajectory", files.trajectory}, std::pair{"log_events", files.event_log}})
         if (is_there(file) && !may_replace(option, file))
-            refuse_recording_of_another(file, kept.run);
+            reject_recording_of_another(file, kept.run);
     if (!result || may_replace("json", json)) return;
     const Json of_checkpoint = Json::parse(kept.configuration, nullptr, false);
     if (but_for_its_length(config_in(result_in(json))) != but_for_its_length(of_checkpoint))
@@ -112,10 +112,10 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
            (files.event_log.empty() || is_recording_of(files.event_log, config, ""));
 }
 
-void refuse_to_overwrite(const RunFiles& files, const std::string& json) {
+void reject_to_overwrite(const RunFiles& files, const std::string& json) {
     if (files.overwrite) return;
     if (files.resume && is_there(files.checkpoint))
-        return refuse_what_another_run_left(files, json);
+        return reject_what_another_run_left(files, json);
     if (is_there(files.checkpoint))
         throw Failure(fmt::format(
             "'{}' is the checkpoint of an interrupted run: --resume goes on with it, --overwrite "

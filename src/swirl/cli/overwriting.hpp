@@ -21,7 +21,7 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
 /// Throws Failure if the run would begin anew over a finished result or recording, or over the
 /// checkpoint of an interrupted one, without --overwrite; or if it would go on over those of
 /// another run.
-void refuse_to_overwrite(const RunFiles& files, const std::string& json);
+void reject_to_overwrite(const RunFiles& files, const std::string& json);
 
 /// Writes the result of a run that has ended and returns where it went: to `json`, or beside it if
 /// another run has left there meanwhile, if only at the same instant, what this one does not have:

@@ -17,7 +17,7 @@ namespace swirl {
 namespace {
 
 constexpr std::size_t column_of_descriptions = 34;
-constexpr int most_values = 100;  // of an option that may be given several times
+constexpr int max_values = 100;  // of an option that may be given several times
 
 /// The subcommand that the arguments name, or the program itself.
 const CLI::App& deepest(const CLI::App& app) {
@@ -112,7 +112,7 @@ struct AddTo {
         return app.add_flag(option.name, *flag, option.description);
     }
     CLI::Option* operator()(std::vector<std::string>* values) const {
-        return app.add_option(option.name, *values, option.description)->expected(1, most_values);
+        return app.add_option(option.name, *values, option.description)->expected(1, max_values);
     }
     CLI::Option* operator()(const std::function<void(const std::string&)>& take) const {
         return app.add_option_function(option.name, take, option.description);
@@ -185,7 +185,7 @@ Call parse(int argc, char** argv) {
     } catch (const CLI::Success&) {
         return {.act = {}, .text = app.help(), .usage = {}};
     } catch (const CLI::ParseError& error) {
-        throw WrongCall(in_words(app, error));
+        throw UsageError(in_words(app, error));
     }
     Call call{.act = {}, .text = {}, .usage = app.help()};
     for (auto& [added, subcommand] : *subcommands)

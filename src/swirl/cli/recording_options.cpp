@@ -51,7 +51,7 @@ double number(const RecordingCall& call, const char* name, double otherwise, dou
     if (text.empty()) return otherwise;
     const auto value = read_number(text);
     if (!value || *value < from)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
     return *value;
 }
@@ -62,8 +62,8 @@ std::int64_t whole(const RecordingCall& call, const char* name, std::int64_t oth
     if (text.empty()) return otherwise;
     const auto value = read_whole_number(text);
     if (!value || *value < from || *value > to)
-        throw WrongCall(fmt::format("{} is '{}', but it must be a whole number from {} to {}.",
-                                    option_name(name), text, from, to));
+        throw UsageError(fmt::format("{} is '{}', but it must be a whole number from {} to {}.",
+                                     option_name(name), text, from, to));
     return *value;
 }
 
@@ -72,28 +72,28 @@ int compression(const RecordingCall& call) {
     if (text.empty() || text == "quick") return quick_compression;
     const auto value = read_whole_number(text);
     if (!value || *value < 0 || *value > 9)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--compression is '{}', but it must be quick or a whole number from 0 to 9.", text));
     return static_cast<int>(*value);
 }
 
 FrameTimes frame_times(const RecordingCall& call) {
-    constexpr std::int64_t most = 1'000'000'000;
+    constexpr std::int64_t maximum = 1'000'000'000;
     FrameTimes times;
     int given = 0;
     for (const char* name : frame_times_options) given += text_of(call, name).empty() ? 0 : 1;
     if (given > 1)
-        throw WrongCall(
+        throw UsageError(
             "--frames, --frame-interval and --frame-events each say when a frame is taken; give "
             "one of them.");
     if (given > 0 && text_of(call, "trajectory").empty())
-        throw WrongCall("Frames are asked for without a file for them; add --trajectory FILE.h5.");
+        throw UsageError("Frames are asked for without a file for them; add --trajectory FILE.h5.");
     times.per_swirl = static_cast<int>(whole(call, "frames", times.per_swirl, 1, 1'000'000));
     if (!text_of(call, "frame_interval").empty())
         times.interval =
             number(call, "frame_interval", 0.0, 1e-9, "a time of at least 1e-9, for example 0.1");
     if (!text_of(call, "frame_events").empty())
-        times.events = whole(call, "frame_events", 1, 1, most);
+        times.events = whole(call, "frame_events", 1, 1, maximum);
     return times;
 }
 
@@ -144,7 +144,7 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
                 option_name(name),
                 [call, name](const std::string& text) {
                     if (text.empty())
-                        throw WrongCall(
+                        throw UsageError(
                             fmt::format("{} is empty, but it needs a value.", option_name(name)));
                     call->texts[name] = text;
                 },
@@ -190,7 +190,7 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.compression = compression(call);
     files.resume = call.resume;
     if (call.resume && call.overwrite)
-        throw WrongCall("--resume goes on, --overwrite begins anew; give one of them.");
+        throw UsageError("--resume goes on, --overwrite begins anew; give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");
@@ -203,21 +203,22 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.overwrite = call.overwrite || (nothing_named && !call.resume);
     if (files.checkpoint.empty())
         files.checkpoint = default_checkpoint(files, config, measured, json);
-    refuse_same_files({files.trajectory, files.event_log, files.checkpoint, json});
+    reject_same_files({files.trajectory, files.event_log, files.checkpoint, json});
     if (files.checkpoint_every == 0.0) {
         if (call.resume)
-            throw WrongCall("--resume needs a checkpoint, but --checkpoint-every 0 asks for none.");
+            throw UsageError(
+                "--resume needs a checkpoint, but --checkpoint-every 0 asks for none.");
         if (call.keep_checkpoint)
-            throw WrongCall(
+            throw UsageError(
                 "--keep-checkpoint keeps a checkpoint, but --checkpoint-every 0 asks for none.");
         files.checkpoint.clear();
     }
     for (const auto& file : {files.trajectory, files.event_log})
         if (!file.empty()) {
-            refuse_unwritable(file);
-            refuse_to_replace(file);
+            reject_unwritable(file);
+            reject_to_replace(file);
         }
-    if (files.checkpoint_needed && !files.checkpoint.empty()) refuse_unwritable(files.checkpoint);
+    if (files.checkpoint_needed && !files.checkpoint.empty()) reject_unwritable(files.checkpoint);
     return files;
 }
 

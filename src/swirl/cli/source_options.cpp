@@ -20,10 +20,10 @@ namespace {
 
 RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
     if (!(*texts.slip >= 0.0 && *texts.slip <= 1.0))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--rolling-ball is {}, but it must be from 0 (slips) to 1 (rolls).", *texts.slip));
     if (!(texts.ball_radius > 0.0 && texts.ball_radius < container.container_radius))
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--ball-radius is {}, but it must be above 0 and below the container's {}.",
                         texts.ball_radius, container.container_radius));
     RollingBall ball;
@@ -34,7 +34,7 @@ RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
 }
 
 /// A run, or a recording of ours, is in no need of translation.
-void refuse_camera(const SourceTexts& texts) {
+void reject_camera(const SourceTexts& texts) {
     const TrackTexts& camera = texts.camera;
     for (const auto& [name, given] :
          {std::pair("camera-fps", !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
@@ -43,7 +43,7 @@ void refuse_camera(const SourceTexts& texts) {
           std::pair("over", !texts.pictures.empty()),
           std::pair("over-first", texts.first_picture != 0)})
         if (given)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "--{} belongs to a camera's tracks, but {}.", name,
                 texts.file.empty() ? "no FILE is given" : texts.file + " is a trajectory of ours"));
 }
@@ -62,11 +62,11 @@ FrameSource tracked_in(const SourceTexts& texts) {
     camera.amplitude = take("amplitude");
     camera.container_radius = take("container_radius");
     if (!given.empty())
-        throw WrongCall(
+        throw UsageError(
             fmt::format("{} holds recorded tracks: {} cannot change them, and only --amplitude and "
                         "--container-radius say something of their container.",
                         texts.file, option_name(given.begin()->first)));
-    if (const auto wrong = film_problem(texts.pictures)) throw WrongCall(*wrong);
+    if (const auto wrong = video_problem(texts.pictures)) throw UsageError(*wrong);
     const TrackScale scale = track_scale(camera, texts.file);
     Tracks tracks = read_tracks(texts.file, scale);
     return tracked(std::move(tracks), scale,
@@ -118,53 +118,53 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
     return texts;
 }
 
-void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
-                      const std::vector<std::vector<std::string>>& instead) {
+void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
+                       const std::vector<std::vector<std::string>>& instead) {
     if (!is_config_file(texts.file)) return;
     const std::string config = std::exchange(texts.file, "");
     // What was given is the configuration; a recording may still be named in it.
     for (Option& option : subcommand.options())
         if (option.name == "FILE") option.is_given = false;
-    take_config_file(subcommand, config, *texts.parameters, Lists::refused, command, instead);
+    take_config_file(subcommand, config, *texts.parameters, Lists::rejected, command, instead);
 }
 
 std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
     if (!texts.file.empty()) try_reading(texts.file);
     const bool of_a_camera = !texts.file.empty() && !is_trajectory(texts.file);
-    if (!of_a_camera) refuse_camera(texts);
+    if (!of_a_camera) reject_camera(texts);
     if (of_a_camera && (texts.beside || texts.slip))
-        throw WrongCall("A recording stands alone: --beside and --rolling-ball need a run.");
+        throw UsageError("A recording stands alone: --beside and --rolling-ball need a run.");
     if (of_a_camera) return {tracked_in(texts)};
     if (!texts.file.empty()) {
         if (!texts.parameters->empty())
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("{} was recorded with parameters of its own: {} cannot change them.",
                             texts.file, option_name(texts.parameters->begin()->first)));
         if (texts.beside || texts.slip)
-            throw WrongCall("A recording stands alone: --beside and --rolling-ball need a run.");
+            throw UsageError("A recording stands alone: --beside and --rolling-ball need a run.");
         return {recorded(texts.file)};
     }
     const RunConfig config = resolve(*texts.parameters);
     if (texts.slip && texts.beside)
-        throw WrongCall("--rolling-ball and --beside show different things: give one.");
+        throw UsageError("--rolling-ball and --beside show different things: give one.");
     if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
-    std::vector<FrameSource> dishes{simulated(config, &stop_signal())};
+    std::vector<FrameSource> containers{simulated(config, &stop_signal())};
     if (texts.beside) {
         RunConfig other = config;
         other.discs = *texts.beside;
-        if (const auto wrong = problem(other)) throw WrongCall(*wrong);
-        dishes.insert(dishes.begin(), simulated(other, &stop_signal()));
+        if (const auto wrong = problem(other)) throw UsageError(*wrong);
+        containers.insert(containers.begin(), simulated(other, &stop_signal()));
     }
-    return dishes;
+    return containers;
 }
 
-void refuse_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs) {
+void reject_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs) {
     for (const std::string& output : outputs) {
         if (output.empty()) continue;
-        refuse_same_files({texts.file, output});
+        reject_same_files({texts.file, output});
         if (!texts.pictures.empty() &&
-            is_of_film(whole_name(texts.pictures).string(), whole_name(output).string()))
-            throw WrongCall(fmt::format(
+            is_of_video(whole_name(texts.pictures).string(), whole_name(output).string()))
+            throw UsageError(fmt::format(
                 "'{}' is to be written, but it is also what the camera saw (--over {}); "
                 "choose another name.",
                 output, texts.pictures));
@@ -173,10 +173,10 @@ void refuse_to_draw_onto_source(const SourceTexts& texts, const std::vector<std:
 
 std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance) {
     std::string remarks;
-    for (const FrameSource& dish : sources) {
-        if (!dish.knows_orientation)
+    for (const FrameSource& container : sources) {
+        if (!container.knows_orientation)
             remarks += "The recording tells no orientation of the discs, so they have no hands.\n";
-        const double frames = dish.frames_per_swirl;
+        const double frames = container.frames_per_swirl;
         if (appearance.coloring == Coloring::pinned && frames > 0.0 &&
             (frames < 0.8 * samples_per_period || frames > 1.25 * samples_per_period))
             remarks += fmt::format(

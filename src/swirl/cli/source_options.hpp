@@ -30,15 +30,15 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand);
 
 /// Where FILE is a configuration (.toml), takes what it says of the options that were not given;
 /// it may name a recording as `file`.
-void take_film_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
-                      const std::vector<std::vector<std::string>>& instead = {});
+void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
+                       const std::vector<std::vector<std::string>>& instead = {});
 
 /// One dish or two. Throws WrongCall or Failure.
 std::vector<FrameSource> frame_sources(const SourceTexts& texts);
 
 /// Throws WrongCall if a file that is to be written is what is shown, or one of the pictures that
 /// it is drawn over.
-void refuse_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs);
+void reject_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs);
 
 /// What a recording does not tell well enough for what was shown, in lines for the report.
 std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance);

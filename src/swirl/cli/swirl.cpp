@@ -41,7 +41,7 @@ constexpr const char* not_enough_memory =
 }
 
 int main_or_throw(int argc, char** argv) {
-    swirl::refuse_what_is_no_text(argc, argv);
+    swirl::reject_what_is_no_text(argc, argv);
     const swirl::Call call = swirl::parse(argc, argv);
     if (!call.text.empty()) {
         swirl::print_all(call.text);
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     swirl::remember_command_line(argc, argv);
     try {
         return main_or_throw(argc, argv);
-    } catch (const swirl::WrongCall& wrong) {
+    } catch (const swirl::UsageError& wrong) {
         return complain(wrong.what(), 2);
     } catch (const swirl::Interrupted& interrupted) {
         return complain(interrupted.what(), 130);

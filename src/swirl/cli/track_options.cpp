@@ -31,7 +31,7 @@ bool is_hdf5(const std::string& file) {
 struct CameraNumber {
     const char* name;
     std::string TrackTexts::*text;
-    double otherwise, least;
+    double otherwise, minimum;
 };
 constexpr CameraNumber camera_numbers[] = {
     {"camera-fps", &TrackTexts::fps, 1.0, 1e-12},
@@ -45,7 +45,7 @@ constexpr CameraNumber camera_numbers[] = {
 double given_number(const TrackTexts& texts, std::string_view name) {
     const auto number = std::find_if(std::begin(camera_numbers), std::end(camera_numbers),
                                      [&](const CameraNumber& n) { return n.name == name; });
-    return number_option(number->name, texts.*number->text, number->otherwise, number->least);
+    return number_option(number->name, texts.*number->text, number->otherwise, number->minimum);
 }
 
 /// What `swirl track` wrote of the dish. Every field must be there, once and of its type: a field
@@ -74,9 +74,9 @@ class CameraFile {
     }
     double number(const CameraNumber& number) const {
         const double value = number_in(field(number.name), number.name);
-        if (value < number.least)
+        if (value < number.minimum)
             wrong(fmt::format("{} is {}, but it must be at least {}", number.name, value,
-                              number.least));
+                              number.minimum));
         return value;
     }
     Vec2 point(const char* name) const {
@@ -140,8 +140,8 @@ double number_option(const std::string& name, const std::string& text, double ot
     if (text.empty()) return otherwise;
     const auto value = read_number(text);
     if (!value || *value < from)
-        throw WrongCall(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
-                                    from > -1e300 ? fmt::format(" of at least {}", from) : ""));
+        throw UsageError(fmt::format("--{} is '{}', but it must be a number{}.", name, text,
+                                     from > -1e300 ? fmt::format(" of at least {}", from) : ""));
     return *value;
 }
 
@@ -169,19 +169,19 @@ bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_
 
 Tracks read_tracks(const std::string& file, const TrackScale& scale) {
     const std::string begin = first_bytes(file);
-    const auto mended = [&](Tracks tracks) {
+    const auto repaired = [&](Tracks tracks) {
         mend(tracks, scale.pixels_per_radius);
         return tracks;
     };
-    if (is_hdf5(file)) return mended(read_track_recording(file));
-    if (begin.starts_with("ITEM:")) return mended(read_lammps_dump(file));
+    if (is_hdf5(file)) return repaired(read_track_recording(file));
+    if (begin.starts_with("ITEM:")) return repaired(read_lammps_dump(file));
     if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
         throw Failure(
             fmt::format("'{}' is neither a trajectory or tracks of swirl (HDF5), nor a table of "
                         "trackpy (CSV), nor a "
                         "LAMMPS text dump.",
                         file));
-    return mended(read_trackpy_csv(file));
+    return repaired(read_trackpy_csv(file));
 }
 
 TrackScale track_scale(const TrackTexts& given, const std::string& file) {
@@ -189,7 +189,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty())
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "'{}' does not say how the container moved; --{} is needed (and --camera-fps, "
                 "--scale, --centre, --amplitude, --phase where they are not 1, 1, 0,0, 0, 0). "
                 "Tracks that were "
@@ -209,7 +209,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     const auto y =
         comma == std::string::npos ? std::nullopt : read_number(texts.centre.substr(comma + 1));
     if (!x || !y)
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "--centre is '{}', but it must be X,Y in pixels, for example 512,384.", texts.centre));
     scale.swirl_centre = {*x, *y};
     return scale;

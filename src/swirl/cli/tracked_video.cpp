@@ -33,12 +33,12 @@ void throw_no_eyes() {
         "both.");
 }
 
-void check_film_options(const std::optional<double>& fps,
-                        const std::optional<std::int64_t>& frames) {
+void check_video_options(const std::optional<double>& fps,
+                         const std::optional<std::int64_t>& frames) {
     if (fps && !(*fps > 0.0))
-        throw WrongCall(fmt::format("--fps is {}, but it must be above 0.", *fps));
+        throw UsageError(fmt::format("--fps is {}, but it must be above 0.", *fps));
     if (frames && !(*frames > 0))
-        throw WrongCall(fmt::format("--frames is {}, but it must be at least 1.", *frames));
+        throw UsageError(fmt::format("--frames is {}, but it must be at least 1.", *frames));
 }
 
 #ifdef SWIRL_CAMERA
@@ -53,83 +53,84 @@ double whole_turn(double angle) { return angle - 360.0 * std::floor(angle / 360.
 
 Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
 
-Json lens_json(const TrackedFilm& film) {
-    const Tilt& tilt = film.tilt;
-    Json json{{"distortion", film.lens.k}, {"distortion_error", film.lens.k_error}};
+Json lens_json(const TrackedVideo& video) {
+    const Tilt& tilt = video.tilt;
+    Json json{{"distortion", video.lens.k}, {"distortion_error", video.lens.k_error}};
     const bool seen = tilt.angle > 0.0 && tilt.angle_error > 0.0;
     json["tilt"] = degrees(tilt.angle);
     json["tilt_error"] = seen ? Json(degrees(tilt.angle_error)) : Json(nullptr);
     json["tilt_below"] = degrees(tilt.below);
     json["tilt_towards"] =
-        film.lens.tilted() ? Json(whole_turn(degrees(tilt.towards))) : Json(nullptr);
+        video.lens.tilted() ? Json(whole_turn(degrees(tilt.towards))) : Json(nullptr);
     json["tilt_towards_error"] =
-        film.lens.tilted() ? Json(degrees(tilt.towards_error)) : Json(nullptr);
-    json["rim_shift"] = vector_json(film.rim_shift);
+        video.lens.tilted() ? Json(degrees(tilt.towards_error)) : Json(nullptr);
+    json["rim_shift"] = vector_json(video.rim_shift);
     json["view_angle"] = tilt.view_angle > 0.0 ? Json(degrees(tilt.view_angle)) : Json(nullptr);
-    json["squeeze"] = vector_json(film.lens.squeeze);
+    json["squeeze"] = vector_json(video.lens.squeeze);
     json["squeeze_error"] = tilt.squeeze_error;
-    json["perspective"] = vector_json(film.lens.perspective);
+    json["perspective"] = vector_json(video.lens.perspective);
     json["perspective_error"] = tilt.perspective_error;
     return json;
 }
 
-Json json_of(const TrackedFilm& film, const FilmSource& source) {
+Json json_of(const TrackedVideo& video, const VideoSource& source) {
     Json kinds = Json::array();
-    for (const TrackedKind& kind : film.kinds)
+    for (const TrackedKind& kind : video.kinds)
         kinds.push_back(
             {{"number", kind.number}, {"radius", kind.radius}, {"radius_scatter", kind.scatter}});
-    const TrackScale scale = film.scale();
+    const TrackScale scale = video.scale();
     return {{"format", camera_format},
-            {"film", source.film},
-            {"pictures", film.pictures},
-            {"size", {film.width, film.height}},
-            {"fps", film.fps > 0.0 ? Json(film.fps) : Json(nullptr)},
-            {"discs", film.number},
+            {"film", source.video},
+            {"pictures", video.pictures},
+            {"size", {video.width, video.height}},
+            {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
+            {"discs", video.number},
             {"kinds", kinds},
-            {"discs_are", film.bright ? "bright" : "dark"},
+            {"discs_are", video.bright ? "bright" : "dark"},
             {"dish",
-             {{"radius", film.container_radius},
-              {"rim_radius", film.rim_radius},
-              {"reach_of_the_discs", film.reach},
-              {"rim_seen", film.rim_support},
-              {"rims_missed", film.rims_missed},
-              {"shake", film.shake}}},
+             {{"radius", video.container_radius},
+              {"rim_radius", video.rim_radius},
+              {"reach_of_the_discs", video.reach},
+              {"rim_seen", video.rim_support},
+              {"rims_missed", video.rims_missed},
+              {"shake", video.shake}}},
             {"path",
-             {{"centre", vector_json(film.path.centre)},
-              {"centre_error", film.path.centre_error},
-              {"amplitude", film.path.amplitude},
-              {"amplitude_error", film.path.amplitude_error},
-              {"omega", film.path.omega},
-              {"omega_error", film.path.omega_error},
-              {"phase", phase_of(film)},
-              {"phase_error", degrees(film.path.phase_error)},
-              {"clockwise", film.path.clockwise},
-              {"residual", film.path.residual},
-              {"pictures_that_agree", film.path.used},
-              {"sides", film.polygon.sides > 0 ? Json(film.polygon.sides) : Json(nullptr)},
-              {"sides_up_to_which_would_be_seen", film.polygon.most_sides},
-              {"corners", film.polygon.sides > 0 ? Json(film.polygon.corners) : Json(nullptr)}}},
-            {"lens", lens_json(film)},
+             {{"centre", vector_json(video.path.centre)},
+              {"centre_error", video.path.centre_error},
+              {"amplitude", video.path.amplitude},
+              {"amplitude_error", video.path.amplitude_error},
+              {"omega", video.path.omega},
+              {"omega_error", video.path.omega_error},
+              {"phase", phase_of(video)},
+              {"phase_error", degrees(video.path.phase_error)},
+              {"clockwise", video.path.clockwise},
+              {"residual", video.path.residual},
+              {"pictures_that_agree", video.path.used},
+              {"sides", video.polygon.sides > 0 ? Json(video.polygon.sides) : Json(nullptr)},
+              {"sides_up_to_which_would_be_seen", video.polygon.max_sides},
+              {"corners", video.polygon.sides > 0 ? Json(video.polygon.corners) : Json(nullptr)}}},
+            {"lens", lens_json(video)},
             {"quality",
-             {{"touching_discs_are_apart", film.touching},
-              {"pictures_with_all_discs", film.complete},
-              {"position_error", film.position_error},
-              {"position_error_from_overlaps", film.overlap_error},
-              {"filled_positions", film.filled},
-              {"discs_too_many", film.refused},
-              {"pictures_with_discs_too_many", film.crowded}}},
+             {{"touching_discs_are_apart", video.touching},
+              {"pictures_with_all_discs", video.complete},
+              {"position_error", video.position_error},
+              {"position_error_from_overlaps", video.overlap_error},
+              {"filled_positions", video.filled},
+              {"discs_too_many", video.rejected},
+              {"pictures_with_discs_too_many", video.crowded}}},
             {"millimetres_per_pixel",
-             source.disc_diameter   ? Json(*source.disc_diameter / (2.0 * film.radius))
-             : source.dish_diameter ? Json(*source.dish_diameter / (2.0 * film.container_radius))
-                                    : Json(nullptr)},
-            {"warnings", film.warnings},
+             source.disc_diameter ? Json(*source.disc_diameter / (2.0 * video.radius))
+             : source.container_diameter
+                 ? Json(*source.container_diameter / (2.0 * video.container_radius))
+                 : Json(nullptr)},
+            {"warnings", video.warnings},
             // What `swirl measure` and `swirl movie` take the tracks with.
             {"camera",
              {{"camera-fps", scale.frames_per_time},
               {"scale", scale.pixels_per_radius},
-              {"omega", film.path.omega},
+              {"omega", video.path.omega},
               {"centre", vector_json(scale.swirl_centre)},
-              {"phase", phase_of(film)},
+              {"phase", phase_of(video)},
               {"amplitude", scale.amplitude},
               {"container-radius", scale.container_radius},
               {"clockwise", scale.clockwise}}},
@@ -137,28 +138,28 @@ Json json_of(const TrackedFilm& film, const FilmSource& source) {
 }
 
 /// What is known of a disc in a picture beside its place, in the order of the table.
-std::vector<TrackColumn> columns_of(const TrackedFilm& film, const FilmSpins* spins) {
+std::vector<TrackColumn> columns_of(const TrackedVideo& video, const VideoSpins* spins) {
     std::vector<TrackColumn> columns;
     const auto add = [&](const char* name, auto value) {
         TrackColumn column{name, {}};
-        for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
+        for (std::size_t k = 0; k < video.tracks.frames.size(); ++k) {
             column.values.emplace_back();
-            for (std::size_t i = 0; i < film.tracks.frames[k].id.size(); ++i)
+            for (std::size_t i = 0; i < video.tracks.frames[k].id.size(); ++i)
                 column.values.back().push_back(value(k, i));
         }
         columns.push_back(std::move(column));
     };
     const auto seen = [&](std::size_t k, std::size_t i) {
-        return film.lens.seen(film.tracks.frames[k].position[i]);
+        return video.lens.seen(video.tracks.frames[k].position[i]);
     };
     add("x_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).x; });
     add("y_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).y; });
-    add("radius", [&](std::size_t k, std::size_t i) { return film.tracks.frames[k].radius[i]; });
-    add("error", [&](std::size_t k, std::size_t i) { return film.errors[k][i]; });
-    add("seen", [&](std::size_t k, std::size_t i) { return film.seen[k][i] ? 1.0 : 0.0; });
+    add("radius", [&](std::size_t k, std::size_t i) { return video.tracks.frames[k].radius[i]; });
+    add("error", [&](std::size_t k, std::size_t i) { return video.errors[k][i]; });
+    add("seen", [&](std::size_t k, std::size_t i) { return video.seen[k][i] ? 1.0 : 0.0; });
     if (!spins) return columns;
     // Per second, where the film says how long that is.
-    const double rate = 1.0 / film.step();
+    const double rate = 1.0 / video.step();
     const auto add_spin = [&](const char* name, auto value) {
         add(name, [&](std::size_t k, std::size_t i) { return value(spins->discs[k][i]); });
     };
@@ -187,58 +188,58 @@ Table table_of(const Tracks& tracks, const std::vector<TrackColumn>& columns) {
 }
 
 /// The tracks as what the file's name says.
-void write_tracks_alone(const TrackedFilm& film, const FilmSource& source,
-                        const std::filesystem::path& out, const FilmSpins* spins) {
-    const std::vector<TrackColumn> columns = columns_of(film, spins);
-    if (out.extension() != ".h5") return table_of(film.tracks, columns).write(out);
+void write_tracks_alone(const TrackedVideo& video, const VideoSource& source,
+                        const std::filesystem::path& out, const VideoSpins* spins) {
+    const std::vector<TrackColumn> columns = columns_of(video, spins);
+    if (out.extension() != ".h5") return table_of(video.tracks, columns).write(out);
     write_track_recording(
-        out, film.tracks, film.times, columns,
-        {{"version", version()}, {"command", command_line()}, {"film", source.film}});
+        out, video.tracks, video.times, columns,
+        {{"version", version()}, {"command", command_line()}, {"film", source.video}});
 }
 
 /// For each picture: what is there, and how well.
-Table pictures_of(const TrackedFilm& film) {
+Table pictures_of(const TrackedVideo& video) {
     Table table(
         {"picture", "time", "seen", "filled", "missing", "error", "deepest_overlap", "rim_off"});
-    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
-        const TrackFrame& f = film.tracks.frames[k];
+    for (std::size_t k = 0; k < video.tracks.frames.size(); ++k) {
+        const TrackFrame& f = video.tracks.frames[k];
         std::int64_t seen = 0;
         double square = 0.0, deepest = 0.0;
         for (std::size_t i = 0; i < f.id.size(); ++i) {
-            if (!film.seen[k][i]) continue;
+            if (!video.seen[k][i]) continue;
             ++seen;
-            square += film.errors[k][i] * film.errors[k][i];
+            square += video.errors[k][i] * video.errors[k][i];
             for (std::size_t j = 0; j < i; ++j) {
                 const Vec2 d = f.position[i] - f.position[j];
-                if (film.seen[k][j])
+                if (video.seen[k][j])
                     deepest = std::max(deepest, f.radius[i] + f.radius[j] - std::sqrt(dot(d, d)));
             }
         }
         const auto there = static_cast<std::int64_t>(f.id.size());
-        table.add({f.number, film.times[k], seen, there - seen,
-                   static_cast<std::int64_t>(film.number) - there,
-                   seen > 0 ? std::sqrt(square / double(seen)) : 0.0, deepest, film.rim_off[k]});
+        table.add({f.number, video.times[k], seen, there - seen,
+                   static_cast<std::int64_t>(video.number) - there,
+                   seen > 0 ? std::sqrt(square / double(seen)) : 0.0, deepest, video.rim_off[k]});
     }
     return table;
 }
 
 /// For each disc: how often it was seen.
-Table discs_of(const TrackedFilm& film) {
+Table discs_of(const TrackedVideo& video) {
     struct Disc {
         std::int64_t seen = 0, filled = 0, first = -1, last = -1;
         double square = 0.0, radius = 0.0;
     };
-    std::vector<Disc> discs(film.number);
-    for (std::size_t k = 0; k < film.tracks.frames.size(); ++k) {
-        const TrackFrame& f = film.tracks.frames[k];
+    std::vector<Disc> discs(video.number);
+    for (std::size_t k = 0; k < video.tracks.frames.size(); ++k) {
+        const TrackFrame& f = video.tracks.frames[k];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
             Disc& disc = discs[static_cast<std::size_t>(f.id[i])];
             disc.radius = f.radius[i];
-            ++(film.seen[k][i] ? disc.seen : disc.filled);
-            if (!film.seen[k][i]) continue;
+            ++(video.seen[k][i] ? disc.seen : disc.filled);
+            if (!video.seen[k][i]) continue;
             if (disc.first < 0) disc.first = f.number;
             disc.last = f.number;
-            disc.square += film.errors[k][i] * film.errors[k][i];
+            disc.square += video.errors[k][i] * video.errors[k][i];
         }
     }
     Table table({"particle", "radius", "seen", "filled", "first", "last", "error"});
@@ -252,21 +253,21 @@ Table discs_of(const TrackedFilm& film) {
 
 }  // namespace
 
-TrackingSettings tracking_settings(const std::string& film, const std::optional<double>& fps,
+TrackingSettings tracking_settings(const std::string& video, const std::optional<double>& fps,
                                    const std::optional<std::int64_t>& frames, ProgressLine& line) {
     TrackingSettings settings;
-    settings.film = film;
+    settings.video = video;
     settings.fps = fps;
-    settings.most_pictures = frames.value_or(0);
+    settings.max_pictures = frames.value_or(0);
     settings.stop = &stop_signal();
     settings.progress = [&line](const std::string& what, double share) { line.show(share, what); };
     return settings;
 }
 
-void draw_found(const TrackedFilm& film, const std::string& file, const std::string& caption,
+void draw_found(const TrackedVideo& video, const std::string& file, const std::string& caption,
                 const std::filesystem::path& picture) {
     PictureConfig config;
-    config.sources = {tracked(film.tracks, film.scale(), escaped(caption), file)};
+    config.sources = {tracked(video.tracks, video.scale(), escaped(caption), file)};
     config.appearance.size = {720, 720};
     config.appearance.coloring = Coloring::id;
     config.at = config.sources.front().from.value_or(0.0);
@@ -274,36 +275,36 @@ void draw_found(const TrackedFilm& film, const std::string& file, const std::str
     make_picture(config);
 }
 
-std::filesystem::path write_film_report(const TrackedFilm& film, const FilmSource& source,
-                                        const Json& found, const std::filesystem::path& folder) {
+std::filesystem::path write_video_report(const TrackedVideo& video, const VideoSource& source,
+                                         const Json& found, const std::filesystem::path& folder) {
     make_folder(folder);
     std::error_code absent;
     fs::remove(folder / "report.html", absent);  // what it told of will not be there any more
-    pictures_of(film).write(folder / "pictures.csv");
-    discs_of(film).write(folder / "discs.csv");
+    pictures_of(video).write(folder / "pictures.csv");
+    discs_of(video).write(folder / "discs.csv");
     Json about = found;
     about["command"] = command_line();
-    about["path"]["shape"] = shape_text(film);
-    about["lens"]["camera"] = tilt_text(film);
+    about["path"]["shape"] = shape_text(video);
+    about["lens"]["camera"] = tilt_text(video);
     write_output(folder / "found.json", about.dump(2) + "\n");
-    draw_found(film, source.film, std::filesystem::path(source.film).filename().string(),
+    draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
                folder / "film.png");
     run_python_script("track.py", {folder.string()}, &stop_signal());
     return folder / "report.html";
 }
 
-std::string shape_text(const TrackedFilm& film) {
-    if (film.polygon.sides > 0)
-        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", film.polygon.sides,
-                           film.polygon.corners);
-    if (film.polygon.most_sides >= 3)
-        return fmt::format("a circle, or a polygon of more than {} sides", film.polygon.most_sides);
+std::string shape_text(const TrackedVideo& video) {
+    if (video.polygon.sides > 0)
+        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", video.polygon.sides,
+                           video.polygon.corners);
+    if (video.polygon.max_sides >= 3)
+        return fmt::format("a circle, or a polygon of more than {} sides", video.polygon.max_sides);
     return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
 }
 
-std::string tilt_text(const TrackedFilm& film) {
-    const Tilt& tilt = film.tilt;
-    if (!film.lens.tilted())
+std::string tilt_text(const TrackedVideo& video) {
+    const Tilt& tilt = video.tilt;
+    if (!video.lens.tilted())
         return tilt.squeeze_error > 0.0
                    ? fmt::format("no tilt, which would be below {:.1f} degrees",
                                  degrees(tilt.below))
@@ -323,13 +324,13 @@ std::string tilt_text(const TrackedFilm& film) {
     return text + "; corrected";
 }
 
-double phase_of(const TrackedFilm& film) {
-    return whole_turn(degrees(film.path.angle(film.times.front())));
+double phase_of(const TrackedVideo& video) {
+    return whole_turn(degrees(video.path.angle(video.times.front())));
 }
 
-Json write_tracks(const TrackedFilm& film, const FilmSource& source,
-                  const std::filesystem::path& out, const FilmSpins* spins) {
-    Json json = json_of(film, source);
+Json write_tracks(const TrackedVideo& video, const VideoSource& source,
+                  const std::filesystem::path& out, const VideoSpins* spins) {
+    Json json = json_of(video, source);
     if (spins)
         json["spins"] = {{"step", spins->step},
                          {"steps_measured", spins->measured},
@@ -341,7 +342,7 @@ Json write_tracks(const TrackedFilm& film, const FilmSource& source,
     const bool replaces = fs::exists(out);
     replaces ? void(fs::remove(camera_file(out), ignored)) : write_camera();
     try {
-        write_tracks_alone(film, source, out, spins);
+        write_tracks_alone(video, source, out, spins);
     } catch (...) {
         if (!replaces) fs::remove(camera_file(out), ignored);
         throw;

@@ -25,9 +25,9 @@ Json smoothing_json(const TrackSmoothing& s) {
 }
 
 Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
-    return {{"filled_positions", tracks.mended.filled},
-            {"renamed", tracks.mended.renamed},
-            {"dropped_positions", tracks.mended.dropped},
+    return {{"filled_positions", tracks.repaired.filled},
+            {"renamed", tracks.repaired.renamed},
+            {"dropped_positions", tracks.repaired.dropped},
             {"breaks", fitted.series.breaks.size()},
             {"frames_outside", fitted.fit.outside},
             {"frames_overlapping", fitted.fit.overlapping},

@@ -53,12 +53,12 @@ SWIRL_INLINE double rounding_of_contact(const Flight<double>& i, const Flight<do
     return roundings * (L + dot(s, s) / sum_of_radii + t * square_root(dot(v, v)));
 }
 /// The container's centre turns, or begins where its leg does.
-SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const Leg& leg,
+SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const Segment& segment,
                                              double clearance, double t) {
-    const Flight<double> centre = leg.flight_at(t);
+    const Flight<double> centre = segment.flight_at(t);
     const Vec2 v = disc.velocity - centre.velocity;
     const double L = larger(larger(size_of(disc.position), size_of(disc.position_at(t))),
-                            larger(size_of(leg.start), size_of(centre.position)));
+                            larger(size_of(segment.start), size_of(centre.position)));
     return roundings * (L + clearance + t * square_root(dot(v, v)));
 }
 

@@ -17,7 +17,7 @@ constexpr double largest_excess = 1e-3;
 
 bool is_countable(const Progress& progress) {
     const EventCounts& e = progress.events;
-    return progress.swirls >= 0 && std::uint64_t(progress.swirls) <= largest_number &&
+    return progress.periods >= 0 && std::uint64_t(progress.periods) <= largest_number &&
            std::max({e.disc_disc, e.disc_wall, e.path_vertex, e.elastic_by_tc, e.begins_to_roll}) <=
                largest_number;
 }
@@ -32,10 +32,10 @@ bool is_sound(const Disc& d) {
                                       [](double x) { return x > 0.0 && x < never; });
 }
 
-bool lies_within(const InitialState& scene, const Leg& leg, const Disc& d, double clock) {
+bool lies_within(const InitialState& scene, const Segment& segment, const Disc& d, double clock) {
     const FloorMotion motion =
-        scene.shape == Shape::disc ? FloorMotion{} : floor_motion(d, scene.floor, leg.velocity);
-    const Vec2 apart = moved_to(d, motion, clock).position - leg.position_at(clock);
+        scene.shape == Shape::disc ? FloorMotion{} : floor_motion(d, scene.floor, segment.velocity);
+    const Vec2 apart = moved_to(d, motion, clock).position - segment.position_at(clock);
     return std::hypot(apart.x, apart.y) + d.radius <=
            scene.container_radius + largest_excess * d.radius;
 }
@@ -43,21 +43,22 @@ bool lies_within(const InitialState& scene, const Leg& leg, const Disc& d, doubl
 }  // namespace
 
 const char* impossible_to_continue(const InitialState& scene, const Progress& progress) {
-    const auto& legs = scene.path.legs;
+    const auto& segments = scene.path.segments;
     if (scene.discs.empty()) return "there are no discs";
-    if (progress.leg >= legs.size()) return "the container is on no leg of its path";
+    if (progress.segment >= segments.size()) return "the container is on no leg of its path";
     if (!is_countable(progress)) return "a number of events or swirls is out of range";
-    const Leg& leg = legs[progress.leg];
+    const Segment& segment = segments[progress.segment];
     const double clock = progress.clock;
-    if (!(clock >= leg.begin && clock <= leg.end)) return "the clock is not on the leg of the path";
-    const auto ended = std::uint64_t(progress.swirls) * legs.size() + progress.leg;
+    if (!(clock >= segment.begin && clock <= segment.end))
+        return "the clock is not on the leg of the path";
+    const auto ended = std::uint64_t(progress.periods) * segments.size() + progress.segment;
     if (progress.events.path_vertex != ended) return "legs of the path were left out";
     for (const Disc& d : scene.discs) {
         if (!is_sound(d)) return "a disc has a number that is out of range";
         if (!(d.time >= 0.0 && d.time <= clock && d.last_collision >= 0.0 &&
               d.last_collision <= clock))
             return "a disc is ahead of the clock";
-        if (!lies_within(scene, leg, d, clock)) return "a disc is outside the container";
+        if (!lies_within(scene, segment, d, clock)) return "a disc is outside the container";
     }
     return nullptr;
 }

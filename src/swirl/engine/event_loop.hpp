@@ -66,13 +66,13 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
     for (;;) {
         const PendingEvent next = Search::next(state);
         if (next.time >= state.stretch_end) [[unlikely]] {
-            const double end = state.legs[state.leg].end;
+            const double end = state.segments[state.segment].end;
             if (state.stretch_end >= end) return {end, state.size, state.size};
-            if constexpr (requires { Search::stretch_ended(state); }) Search::stretch_ended(state);
+            if constexpr (requires { Search::segment_ended(state); }) Search::segment_ended(state);
             continue;
         }
         if (is_of_floor<Search>(next) || state.is_valid(next)) return next;
-        Search::predict_again(state, next);
+        Search::reschedule(state, next);
     }
 }
 
@@ -91,18 +91,18 @@ SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
 }
 
 /// What is to be known of the leg before anybody predicts.
-SWIRL_INLINE void begin_leg(EngineState& state) {
-    state.stretch_end = state.legs[state.leg].end;
+SWIRL_INLINE void begin_segment(EngineState& state) {
+    state.stretch_end = state.segments[state.segment].end;
     state.turning_centre.time = -never;
-    if (state.on_turning_leg()) renew_turning_bound(state, state.clock);
+    if (state.on_turning_segment()) renew_turning_bound(state, state.clock);
 }
 
 /// Not inlined: the collisions, which are most events, have the registers to themselves.
 template <class Search>
-[[gnu::noinline]] static Event end_leg(EngineState& state) {
-    const Event event = take_next_leg<Bodies<Search>>(state);
-    begin_leg(state);
-    Search::leg_ended(state, event.clock);
+[[gnu::noinline]] static Event end_segment(EngineState& state) {
+    const Event event = start_next_segment<Bodies<Search>>(state);
+    begin_segment(state);
+    Search::segment_ended(state, event.clock);
     return event;
 }
 
@@ -110,9 +110,9 @@ template <class Search>
 SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
     if (next.disc == state.size) {
         check<Search>(state, next);
-        return end_leg<Search>(state);
+        return end_segment<Search>(state);
     }
-    const PendingEvent due = Search::take_out(state, next);
+    const PendingEvent due = Search::remove(state, next);
     check<Search>(state, due);
     state.clock = due.time;
     if constexpr (Bodies<Search>::have_floor) {
@@ -136,7 +136,7 @@ template <class Search>
 static void start(EngineState& state) {
     if constexpr (internal_checks)
         state.overlapped_at_start = !all_discs_are_apart(state, state.clock);
-    begin_leg(state);
+    begin_segment(state);
     Search::start(state);
 }
 
@@ -148,14 +148,14 @@ static Event step(EngineState& state) {
 /// As many events as asked for, or as come up to (swirls, clock], or until the search is outgrown;
 /// says how many.
 template <class Search>
-static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t swirls,
+static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t periods,
                          double clock) {
     for (std::uint64_t done = 0; done < count; ++done) {
         const PendingEvent next = next_event<Search>(state);
-        if (state.swirls > swirls || (state.swirls == swirls && next.time > clock)) return done;
+        if (state.periods > periods || (state.periods == periods && next.time > clock)) return done;
         execute<Search>(state, next);
-        if constexpr (requires { Search::is_outgrown(state); })
-            if (Search::is_outgrown(state)) [[unlikely]]
+        if constexpr (requires { Search::should_switch_search(state); })
+            if (Search::should_switch_search(state)) [[unlikely]]
                 return done + 1;
     }
     return count;

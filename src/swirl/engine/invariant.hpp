@@ -16,31 +16,31 @@ inline constexpr bool internal_checks = false;
 
 namespace promise {
 
-#define SWIRL_PROMISE(name)                                       \
+#define SWIRL_INVARIANT(name)                                     \
     [[gnu::noinline, maybe_unused]] static void name(bool kept) { \
         if (!kept) __builtin_trap();                              \
     }
 // Of a collision.
-SWIRL_PROMISE(discs_touch_at_contact)
-SWIRL_PROMISE(momentum_is_conserved)
-SWIRL_PROMISE(angular_momentum_is_conserved)
-SWIRL_PROMISE(energy_never_grows)
-SWIRL_PROMISE(energy_changes_by_the_work_of_the_impulses)
-SWIRL_PROMISE(friction_obeys_coulombs_law)
+SWIRL_INVARIANT(discs_touch_at_contact)
+SWIRL_INVARIANT(momentum_is_conserved)
+SWIRL_INVARIANT(angular_momentum_is_conserved)
+SWIRL_INVARIANT(energy_never_grows)
+SWIRL_INVARIANT(energy_changes_by_the_work_of_the_impulses)
+SWIRL_INVARIANT(friction_obeys_coulombs_law)
 // Of the order of events.
-SWIRL_PROMISE(time_never_goes_back)
-SWIRL_PROMISE(the_next_event_is_the_first_of_all)
-SWIRL_PROMISE(winners_are_the_first_of_their_rows)
-SWIRL_PROMISE(the_first_of_all_is_noted)
+SWIRL_INVARIANT(time_never_goes_back)
+SWIRL_INVARIANT(the_next_event_is_the_first_of_all)
+SWIRL_INVARIANT(winners_are_the_first_of_their_rows)
+SWIRL_INVARIANT(the_first_of_all_is_noted)
 // Of all discs.
-SWIRL_PROMISE(no_two_discs_overlap)
-SWIRL_PROMISE(no_disc_is_outside_the_container)
-SWIRL_PROMISE(discs_are_within_their_skins)
-SWIRL_PROMISE(neighbour_lists_are_symmetric)
-SWIRL_PROMISE(neighbour_lists_are_complete)
-SWIRL_PROMISE(discs_are_in_their_cells)
-SWIRL_PROMISE(columns_are_what_the_discs_are)
-#undef SWIRL_PROMISE
+SWIRL_INVARIANT(no_two_discs_overlap)
+SWIRL_INVARIANT(no_disc_is_outside_the_container)
+SWIRL_INVARIANT(discs_are_within_their_skins)
+SWIRL_INVARIANT(neighbour_lists_are_symmetric)
+SWIRL_INVARIANT(neighbour_lists_are_complete)
+SWIRL_INVARIANT(discs_are_in_their_cells)
+SWIRL_INVARIANT(columns_are_what_the_discs_are)
+#undef SWIRL_INVARIANT
 
 }  // namespace promise
 }  // namespace swirl

@@ -18,9 +18,9 @@ namespace {
 /// The caller's question whether to go on, asked every few thousandths of a second: in every loop
 /// over discs or sites, of which there may be hundreds of millions. Where it has ended, what is
 /// found is of no use.
-class Patience {
+class Deadline {
   public:
-    explicit Patience(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
+    explicit Deadline(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
     bool ended() {
         if (!ended_ && is_stopped_) ended_ = is_stopped_();
         return ended_;
@@ -38,9 +38,9 @@ constexpr double sparsest = 1.0 / 16.0;
 
 /// Sites of the triangular lattice of the given spacing within `reach` of one of them.
 template <class Visit>
-void for_each_site(double spacing, double reach, Patience& patience, Visit visit) {
+void for_each_site(double spacing, double reach, Deadline& deadline, Visit visit) {
     const auto rows = static_cast<long>(reach / (spacing * row_height)) + 1;
-    for (long row = -rows; row <= rows && !patience.ended(); ++row) {
+    for (long row = -rows; row <= rows && !deadline.ended(); ++row) {
         const double y = spacing * row_height * static_cast<double>(row);
         const double left = reach * reach - y * y;
         if (left < 0.0) continue;
@@ -53,28 +53,28 @@ void for_each_site(double spacing, double reach, Patience& patience, Visit visit
     }
 }
 
-std::size_t count_sites(double spacing, double reach, Patience& patience) {
+std::size_t count_sites(double spacing, double reach, Deadline& deadline) {
     std::size_t count = 0;
-    for_each_site(spacing, reach, patience, [&](const Vec2&) { ++count; });
+    for_each_site(spacing, reach, deadline, [&](const Vec2&) { ++count; });
     return count;
 }
 
 /// The widest spacing that still has n sites, to one part in 10⁶, or whatever it has come to when
 /// patience ends. A lattice narrower than `least` is not looked at; then nothing is found.
 template <class CountSites>
-std::optional<double> widest_spacing(std::size_t n, double widest, double least,
-                                     CountSites count_sites_of, Patience& patience) {
+std::optional<double> widest_spacing(std::size_t n, double widest, double minimum,
+                                     CountSites count_sites_of, Deadline& deadline) {
     double enough = 0.0, too_wide = widest;
     // Halve until it is narrow enough, then bisect.
-    for (double guess = too_wide; enough == 0.0; guess = larger(0.5 * guess, least)) {
+    for (double guess = too_wide; enough == 0.0; guess = larger(0.5 * guess, minimum)) {
         if (count_sites_of(guess) >= n)
             enough = guess;
-        else if (guess <= least || patience.ended())
+        else if (guess <= minimum || deadline.ended())
             return std::nullopt;
         else
             too_wide = guess;
     }
-    while (too_wide - enough > 1e-6 * enough && !patience.ended()) {
+    while (too_wide - enough > 1e-6 * enough && !deadline.ended()) {
         const double middle = 0.5 * (enough + too_wide);
         (count_sites_of(middle) >= n ? enough : too_wide) = middle;
     }
@@ -86,18 +86,18 @@ Vec2 turned(const Vec2& site, const Vec2& turn) {
 }
 
 /// n of the sites at random, which then are the first n and all there are.
-void choose(std::size_t n, std::vector<Vec2>& sites, Random& random, Patience& patience) {
-    for (std::size_t k = 0; k < n && !patience.ended(); ++k)
+void choose(std::size_t n, std::vector<Vec2>& sites, Random& random, Deadline& deadline) {
+    for (std::size_t k = 0; k < n && !deadline.ended(); ++k)
         std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
     sites.resize(n);
 }
 
 std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Random& random,
-                               Patience& patience) {
+                               Deadline& deadline) {
     std::vector<Vec2> sites;
-    for_each_site(spacing, reach, patience, [&](const Vec2& site) { sites.push_back(site); });
-    if (patience.ended()) return {};
-    choose(n, sites, random, patience);
+    for_each_site(spacing, reach, deadline, [&](const Vec2& site) { sites.push_back(site); });
+    if (deadline.ended()) return {};
+    choose(n, sites, random, deadline);
     const Vec2 turn = unit_circle(random.uniform());
     for (Vec2& site : sites) site = turned(site, turn);
     return sites;
@@ -105,10 +105,10 @@ std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Rand
 
 /// Moves each disc within its free space, if it may be there.
 template <class IsAllowed>
-void shake(std::vector<Vec2>& centres, double freedom, Random& random, Patience& patience,
+void shake(std::vector<Vec2>& centres, double freedom, Random& random, Deadline& deadline,
            IsAllowed is_allowed) {
     for (Vec2& centre : centres) {
-        if (patience.ended()) return;
+        if (deadline.ended()) return;
         const Vec2 moved = centre + random.in_disc(freedom);
         if (is_allowed(moved)) centre = moved;
     }
@@ -118,13 +118,13 @@ void shake(std::vector<Vec2>& centres, double freedom, Random& random, Patience&
 class Cells {
   public:
     Cells(const std::vector<Vec2>& centres, double container_radius, double width,
-          Patience& patience)
+          Deadline& deadline)
         : side_(static_cast<std::size_t>(2.0 * container_radius / width) + 1),
           width_(width),
           radius_(container_radius),
           head_(side_ * side_, none),
           next_(centres.size(), none) {
-        for (std::size_t i = centres.size(); i-- > 0 && !patience.ended();) {
+        for (std::size_t i = centres.size(); i-- > 0 && !deadline.ended();) {
             const std::size_t cell = row(centres[i].y) * side_ + row(centres[i].x);
             next_[i] = head_[cell];
             head_[cell] = i;
@@ -153,17 +153,17 @@ class Cells {
 /// moves the two discs of an overlapping pair away from each other by half the overlap and a
 /// little more. False if thousands of sweeps do not suffice, or what can be done in some seconds.
 bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
-                double container_radius, Patience& patience) {
+                double container_radius, Deadline& deadline) {
     long pairs = 300'000'000;
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double margin = 1e-3 * *std::min_element(radii.begin(), radii.end());
-    for (int sweep = 0; sweep < 4000 && pairs > 0 && !patience.ended(); ++sweep) {
+    for (int sweep = 0; sweep < 4000 && pairs > 0 && !deadline.ended(); ++sweep) {
         bool overlap = false;
         // The cells are made for the centres as they are now; a push within the sweep is smaller
         // than the cells, and whoever is missed is found in the next one.
-        const Cells cells(centres, container_radius, 2.0 * (largest + margin), patience);
+        const Cells cells(centres, container_radius, 2.0 * (largest + margin), deadline);
         for (std::size_t i = 0; i < centres.size(); ++i) {
-            if (i % 64 == 0 && (pairs < 0 || patience.ended())) return false;
+            if (i % 64 == 0 && (pairs < 0 || deadline.ended())) return false;
             cells.near(centres[i], [&](std::size_t j) {
                 --pairs;
                 if (j <= i) return;
@@ -209,13 +209,13 @@ class Relaxation {
     /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics that is
     /// turned towards the force while it goes downhill, and stopped when it goes uphill. Takes its
     /// steps off `budget`: one for each disc, or for each sixteen discs that were looked at.
-    bool succeeds(long& budget, Patience& patience) {
+    bool succeeds(long& budget, Deadline& deadline) {
         double step = 0.1, turn = 0.1;
         int downhill = 0;
-        for (int k = 0; k < longest && budget > 0 && !patience.ended(); ++k) {
-            const bool overlap = find_forces(budget, patience);
+        for (int k = 0; k < longest && budget > 0 && !deadline.ended(); ++k) {
+            const bool overlap = find_forces(budget, deadline);
             budget -= std::max(static_cast<long>(radii_.size()), looks_ / 16);
-            if (patience.ended()) return false;
+            if (deadline.ended()) return false;
             if (!overlap) return true;
             double power = 0.0, force2 = 0.0, speed2 = 0.0;
             for (std::size_t i = 0; i < centres_.size(); ++i) {
@@ -254,13 +254,13 @@ class Relaxation {
     /// The force on each disc, which is the depth of its overlaps; they are reckoned with a margin,
     /// so that in the end there are none. False if there are none now, true also if there is no
     /// budget or patience left to tell.
-    bool find_forces(long budget, Patience& patience) {
+    bool find_forces(long budget, Deadline& deadline) {
         bool overlap = false;
         looks_ = 0;
         std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
-        const Cells cells(centres_, container_radius_, width_, patience);
+        const Cells cells(centres_, container_radius_, width_, deadline);
         for (std::size_t i = 0; i < centres_.size(); ++i) {
-            if (i % 64 == 63 && (looks_ > 16 * budget || patience.ended())) return true;
+            if (i % 64 == 63 && (looks_ > 16 * budget || deadline.ended())) return true;
             cells.near(centres_[i], [&](std::size_t j) {
                 ++looks_;
                 if (j <= i) return;
@@ -304,10 +304,10 @@ double sum_of_two_largest(const std::vector<double>& radii) {
 /// Random places relaxed, again and again, until one of them ends without overlap. The budget is
 /// some seconds' worth.
 std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double container_radius,
-                                       Random& random, Patience& patience) {
-    for (long budget = 100'000'000; budget > 0 && !patience.ended();) {
+                                       Random& random, Deadline& deadline) {
+    for (long budget = 100'000'000; budget > 0 && !deadline.ended();) {
         Relaxation relaxation(radii, container_radius, random);
-        if (relaxation.succeeds(budget, patience)) return relaxation.centres();
+        if (relaxation.succeeds(budget, deadline)) return relaxation.centres();
     }
     return std::nullopt;
 }
@@ -363,10 +363,10 @@ constexpr double very_unequal = 16.0;
 /// Puts n discs of one size, or less, on lattice sites that are free of others, and shakes them.
 /// Adds them to `centres`; false if there are fewer free sites than discs.
 bool fill_gaps(std::size_t n, double radius, double container_radius, std::vector<Vec2>& centres,
-               const std::vector<double>& radii, Random& random, Patience& patience) {
+               const std::vector<double>& radii, Random& random, Deadline& deadline) {
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double reach = container_radius - radius;
-    const Cells cells(centres, container_radius, 2.0 * largest, patience);
+    const Cells cells(centres, container_radius, 2.0 * largest, deadline);
     const Vec2 turn = unit_circle(random.uniform());
     const auto is_free = [&](const Vec2& p) {
         bool free = dot(p, p) <= reach * reach;
@@ -378,8 +378,8 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
         return free;
     };
     const auto for_each_free_site = [&](double spacing, auto visit) {
-        for_each_site(spacing, reach, patience, [&](const Vec2& site) {
-            if (patience.ended()) return;
+        for_each_site(spacing, reach, deadline, [&](const Vec2& site) {
+            if (deadline.ended()) return;
             const Vec2 p = turned(site, turn);
             if (is_free(p)) visit(p);
         });
@@ -391,26 +391,26 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
     };
     const double touching = 2.0 * radius * (1.0 + 1e-9);
     const auto widest = widest_spacing(n, larger(4.0 * reach / square_root(double(n)), touching),
-                                       touching, count, patience);
-    if (!widest || patience.ended()) return false;
+                                       touching, count, deadline);
+    if (!widest || deadline.ended()) return false;
     const double spacing = 0.5 * (touching + *widest);
     std::vector<Vec2> sites;
     for_each_free_site(spacing, [&](const Vec2& site) { sites.push_back(site); });
-    if (patience.ended() || sites.size() < n) return false;
-    choose(n, sites, random, patience);
-    shake(sites, 0.49 * (spacing - touching), random, patience, is_free);
+    if (deadline.ended() || sites.size() < n) return false;
+    choose(n, sites, random, deadline);
+    shake(sites, 0.49 * (spacing - touching), random, deadline, is_free);
     centres.insert(centres.end(), sites.begin(), sites.end());
     return true;
 }
 
 std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
-                                       Random& random, Patience& patience);
+                                       Random& random, Deadline& deadline);
 
 /// The large discs first, then those that are smaller by far, into the gaps, and so on. Nothing if
 /// one of the sizes does not find room.
 std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
                                                double container_radius, Random& random,
-                                               Patience& patience) {
+                                               Deadline& deadline) {
     std::vector<std::size_t> order(radii.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
@@ -423,11 +423,11 @@ std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
         for (; end < order.size() && very_unequal * radii[order[end]] > largest; ++end)
             alike.push_back(radii[order[end]]);
         if (begin == 0) {
-            const auto centres = place(alike, container_radius, random, patience);
+            const auto centres = place(alike, container_radius, random, deadline);
             if (!centres) return std::nullopt;
             placed = *centres;
         } else if (!fill_gaps(alike.size(), largest, container_radius, placed, of_placed, random,
-                              patience)) {
+                              deadline)) {
             return std::nullopt;
         }
         of_placed.insert(of_placed.end(), alike.begin(), alike.end());
@@ -439,21 +439,21 @@ std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
 
 /// Discs that may fit, without overlap.
 std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
-                                       Random& random, Patience& patience) {
+                                       Random& random, Deadline& deadline) {
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double smallest = *std::min_element(radii.begin(), radii.end());
     const double reach = container_radius - largest;
     const auto widest = widest_spacing(
         radii.size(), 4.0 * reach + 1.0, 0.0,
-        [&](double spacing) { return count_sites(spacing, reach, patience); }, patience);
+        [&](double spacing) { return count_sites(spacing, reach, deadline); }, deadline);
     if (!widest) return std::nullopt;
     if (*widest > 2.0 * largest) {
         // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
         // dish that is all but empty a wider one, with some hundred sites for each disc.
         const double spacing =
             larger(largest + 0.5 * smaller(*widest, 3.0 * largest), sparsest * *widest);
-        auto centres = choose_sites(radii.size(), spacing, reach, random, patience);
-        shake(centres, 0.49 * (spacing - 2.0 * largest), random, patience,
+        auto centres = choose_sites(radii.size(), spacing, reach, random, deadline);
+        shake(centres, 0.49 * (spacing - 2.0 * largest), random, deadline,
               [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
         return centres;
     }
@@ -462,14 +462,14 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
     if (few && few->slack < relaxation_margin * smallest)
         return place_few(*few, radii, container_radius, random);
     if (very_unequal * smallest <= largest) {
-        const auto centres = place_by_size(radii, container_radius, random, patience);
-        if (centres || patience.ended()) return centres;
+        const auto centres = place_by_size(radii, container_radius, random, deadline);
+        if (centres || deadline.ended()) return centres;
     }
     if (smallest < largest) {
-        auto centres = choose_sites(radii.size(), *widest, reach, random, patience);
-        if (push_apart(centres, radii, container_radius, patience)) return centres;
+        auto centres = choose_sites(radii.size(), *widest, reach, random, deadline);
+        if (push_apart(centres, radii, container_radius, deadline)) return centres;
     }
-    return relax(radii, container_radius, random, patience);
+    return relax(radii, container_radius, random, deadline);
 }
 
 /// Morton's curve through the squares of a grid over the dish, 2¹⁶ by 2¹⁶: near numbers are near
@@ -495,7 +495,7 @@ struct OnCurve {
 constexpr std::size_t discs_till_asked = 1 << 10;
 
 /// Eleven bits at a time, from the last on.
-void sort_by_place(std::vector<OnCurve>& all, Patience& patience) {
+void sort_by_place(std::vector<OnCurve>& all, Deadline& deadline) {
     constexpr std::uint32_t digits = 1u << 11;
     std::vector<OnCurve> sorted(all.size());
     for (int shift = 0; shift < 32; shift += 11) {
@@ -504,7 +504,7 @@ void sort_by_place(std::vector<OnCurve>& all, Patience& patience) {
         for (const OnCurve& one : all) ++next[digit(one) + 1];
         for (std::size_t d = 1; d < digits; ++d) next[d] += next[d - 1];
         for (std::size_t k = 0; k < all.size(); ++k) {
-            if (k % discs_till_asked == 0 && patience.ended()) return;
+            if (k % discs_till_asked == 0 && deadline.ended()) return;
             sorted[next[digit(all[k])]++] = all[k];
         }
         all.swap(sorted);
@@ -515,7 +515,7 @@ void sort_by_place(std::vector<OnCurve>& all, Patience& patience) {
 /// is near in memory, too.
 std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
                                        const std::vector<double>& radii, double container_radius,
-                                       Patience& patience) {
+                                       Deadline& deadline) {
     std::vector<OnCurve> curve(centres.size());
     struct Numbers {
         std::vector<std::uint32_t> all;
@@ -523,14 +523,14 @@ std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
     };
     std::map<double, Numbers> of_radius;
     for (std::uint32_t i = 0; i < centres.size(); ++i) {
-        if (i % discs_till_asked == 0 && patience.ended()) return {};
+        if (i % discs_till_asked == 0 && deadline.ended()) return {};
         curve[i] = {place_on_curve(centres[i], container_radius), i};
         of_radius[radii[i]].all.push_back(i);
     }
-    sort_by_place(curve, patience);
+    sort_by_place(curve, deadline);
     std::vector<Vec2> numbered(centres.size());
     for (std::size_t k = 0; k < curve.size(); ++k) {
-        if (k % discs_till_asked == 0 && patience.ended()) return {};
+        if (k % discs_till_asked == 0 && deadline.ended()) return {};
         Numbers& numbers = of_radius[radii[curve[k].disc]];
         numbered[numbers.all[numbers.given++]] = centres[curve[k].disc];
     }
@@ -542,7 +542,7 @@ constexpr std::size_t near_in_any_order = 4000;
 
 }  // namespace
 
-double most_discs_in_dish(double radius, double container_radius) {
+double max_discs_in_container(double radius, double container_radius) {
     const double rho = (container_radius - radius) / (2.0 * radius);
     return std::floor(pi * rho * rho / row_height + pi * rho + 1.0);
 }
@@ -558,14 +558,14 @@ std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
     double area = 0.0;
     for (const double r : radii) area += r * r;
     if (area > container_radius * container_radius) return std::nullopt;
-    if (static_cast<double>(radii.size()) > most_discs_in_dish(smallest, container_radius))
+    if (static_cast<double>(radii.size()) > max_discs_in_container(smallest, container_radius))
         return std::nullopt;
     Random random(seed);
-    Patience patience(is_stopped);
-    auto centres = place(radii, container_radius, random, patience);
+    Deadline deadline(is_stopped);
+    auto centres = place(radii, container_radius, random, deadline);
     if (centres && radii.size() > near_in_any_order)
-        centres = numbered_along_curve(*centres, radii, container_radius, patience);
-    return patience.ended() ? std::nullopt : std::move(centres);
+        centres = numbered_along_curve(*centres, radii, container_radius, deadline);
+    return deadline.ended() ? std::nullopt : std::move(centres);
 }
 
 }  // namespace swirl

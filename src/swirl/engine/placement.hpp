@@ -13,7 +13,7 @@ namespace swirl {
 /// No more discs of this radius than that fit into the dish. Their centres are at least 2r apart in
 /// a circle of radius R − r, and a convex set of area A and perimeter P holds at most
 /// 2A/√3 + P/2 + 1 points that are no closer than 1 (Oler 1961, doi:10.1007/BF02546388).
-double most_discs_in_dish(double radius, double container_radius);
+double max_discs_in_container(double radius, double container_radius);
 
 /// One centre for each radius, relative to the centre of the dish, no two discs closer than
 /// touching and none through the wall. Nothing if they do not fit, or if no arrangement was found

@@ -28,42 +28,43 @@ class Reference {
             if (precedes(event, first)) first = event;
         };
         for (std::uint32_t i = 0; i < size_; ++i) {
-            consider({bodies_.wall_time(i, leg()), i, i});
+            consider({bodies_.wall_time(i, segment()), i, i});
             consider({bodies_.begins_to_roll(i), i, the_floor});
             for (std::uint32_t j = i + 1; j < size_; ++j)
                 consider({bodies_.meeting_time(i, j), i, j});
         }
-        return leg().end <= first.time ? PendingEvent{leg().end, size_, size_} : first;
+        return segment().end <= first.time ? PendingEvent{segment().end, size_, size_} : first;
     }
 
     Event apply(const PendingEvent& event) {
         const auto [t, i, j] = event;
-        if (i == size_) return end_leg();
+        if (i == size_) return end_segment();
         if (j == the_floor)
-            return {swirls_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
+            return {periods_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
                     0.0};
         if (event.is_with_wall())
-            return {swirls_, t, EventKind::disc_wall, i, i, {}, bodies_.hit_wall(i, t, leg()), 0.0};
-        return {swirls_, t, EventKind::disc_disc, i, j, {}, bodies_.hit(i, j, t), 0.0};
+            return {periods_, t, EventKind::disc_wall, i, i, {}, bodies_.hit_wall(i, t, segment()),
+                    0.0};
+        return {periods_, t, EventKind::disc_disc, i, j, {}, bodies_.hit(i, j, t), 0.0};
     }
 
     const Disc& disc(std::size_t i) const { return bodies_.disc(i); }
-    const Leg& leg() const { return path_.legs[leg_]; }
+    const Segment& segment() const { return path_.segments[segment_]; }
 
   private:
-    Event end_leg() {
-        const Event event{swirls_, leg().end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-        leg_ = (leg_ + 1) % path_.legs.size();
-        if (leg_ == 0) ++swirls_;
-        bodies_.end_leg(event.clock, leg(), leg_ == 0);
+    Event end_segment() {
+        const Event event{periods_, segment().end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+        segment_ = (segment_ + 1) % path_.segments.size();
+        if (segment_ == 0) ++periods_;
+        bodies_.end_segment(event.clock, segment(), segment_ == 0);
         return event;
     }
 
     ContainerPath path_;
     ReferenceBodies bodies_;
     std::uint32_t size_;
-    std::size_t leg_ = 0;
-    std::int64_t swirls_ = 0;
+    std::size_t segment_ = 0;
+    std::int64_t periods_ = 0;
 };
 
 }  // namespace swirl

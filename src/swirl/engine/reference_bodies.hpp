@@ -17,7 +17,7 @@ class ReferenceBodies {
     explicit ReferenceBodies(const InitialState& initial)
         : state_(initial),
           motions_(initial.discs.size()),
-          floor_velocity_(initial.path.legs.front().velocity) {
+          floor_velocity_(initial.path.segments.front().velocity) {
         for (std::uint32_t i = 0; i < size(); ++i) note_motion(i);
     }
 
@@ -31,10 +31,10 @@ class ReferenceBodies {
                               motions_[i].begins_to_roll, motions_[j].begins_to_roll,
                               disc(i).radius + disc(j).radius));
     }
-    double wall_time(std::uint32_t i, const Leg& leg) const {
-        if (!are_spheres()) return time_of_wall_contact(disc(i), leg, state_.container_radius);
-        return time_of_wall_contact(parabola(disc(i), motions_[i]), motions_[i].begins_to_roll, leg,
-                                    state_.container_radius - disc(i).radius);
+    double wall_time(std::uint32_t i, const Segment& segment) const {
+        if (!are_spheres()) return time_of_wall_contact(disc(i), segment, state_.container_radius);
+        return time_of_wall_contact(parabola(disc(i), motions_[i]), motions_[i].begins_to_roll,
+                                    segment, state_.container_radius - disc(i).radius);
     }
     double begins_to_roll(std::uint32_t i) const { return motions_[i].begins_to_roll; }
 
@@ -51,11 +51,11 @@ class ReferenceBodies {
         note_motion(j);
         return J;
     }
-    Impulse hit_wall(std::uint32_t i, double t, const Leg& leg) {
+    Impulse hit_wall(std::uint32_t i, double t, const Segment& segment) {
         Disc& a = state_.discs[i];
         const double since_last = t - last_collision(i);
         bring_to(i, t);
-        const Vec2 from_centre = a.position - leg.position_at(t), u = leg.velocity_at(t);
+        const Vec2 from_centre = a.position - segment.position_at(t), u = segment.velocity_at(t);
         const Surface surface =
             surface_at_contact(state_.wall_surface, since_last, from_centre, u - a.velocity);
         const Impulse J =
@@ -73,7 +73,7 @@ class ReferenceBodies {
 
     /// With the last leg of a swirl everybody is brought up to date and all clocks restart. The
     /// floor takes another velocity at the end of each, which every sphere on it feels.
-    void end_leg(double t, const Leg& next, bool ends_swirl) {
+    void end_segment(double t, const Segment& next, bool ends_swirl) {
         floor_velocity_ = next.velocity;
         if (!ends_swirl && (!are_spheres() || state_.floor.deceleration == 0.0)) return;
         for (std::uint32_t i = 0; i < size(); ++i) {

@@ -28,7 +28,7 @@ struct Discs {
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
         return state.discs[i].time;
     }
-    SWIRL_INLINE static bool feel_every_leg(const EngineState&) { return false; }
+    SWIRL_INLINE static bool feel_every_segment(const EngineState&) { return false; }
 
     /// How two meet, or one and the wall.
     SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
@@ -85,8 +85,9 @@ struct Spheres {
         d.spin = sphere.spin;
         ++d.collisions;
         state.cold(i).angle = sphere.angle;
-        state.spheres[i] = {floor_motion(sphere, state.floor, state.legs[state.leg].velocity),
-                            sphere.rolling_spin, sphere.last_collision};
+        state.spheres[i] = {
+            floor_motion(sphere, state.floor, state.segments[state.segment].velocity),
+            sphere.rolling_spin, sphere.last_collision};
     }
     SWIRL_INLINE static Parabola<double> flight(const EngineState& state, std::uint32_t i) {
         const HotDisc& d = state.discs[i];
@@ -112,7 +113,7 @@ struct Spheres {
         return at_contact_on_floor(surface, since_last, state.floor, separation, relative_velocity);
     }
     /// The floor takes another velocity.
-    SWIRL_INLINE static bool feel_every_leg(const EngineState& state) {
+    SWIRL_INLINE static bool feel_every_segment(const EngineState& state) {
         return state.floor.deceleration != 0.0;
     }
 
@@ -136,9 +137,9 @@ struct Spheres {
     SWIRL_INLINE static Event begin_to_roll(EngineState& state, std::uint32_t i, double t) {
         store(state, i,
               set_rolling(load(state, i), state.spheres[i].motion, state.floor,
-                          state.legs[state.leg].velocity));
+                          state.segments[state.segment].velocity));
         ++state.begun_to_roll;
-        return {state.swirls, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
+        return {state.periods, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
     }
 };
 
@@ -169,7 +170,7 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
     Bodies::write_back(state, j, at_j, t, body_j);
     ++state.disc_disc;
     const double distance = square_root(dot(s, s));
-    return {state.swirls,
+    return {state.periods,
             t,
             EventKind::disc_disc,
             i,
@@ -182,8 +183,8 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
 template <class Bodies>
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
     using Body = typename Bodies::Body;
-    const Flight<double> centre = state.legs[state.leg].flight_at(t);
-    if (state.on_turning_leg()) state.turning_centre = centre;
+    const Flight<double> centre = state.segments[state.segment].flight_at(t);
+    if (state.on_turning_segment()) state.turning_centre = centre;
     const Vec2 at = Bodies::position_at(state, i, t);
     const Body before = Bodies::body_at(state, i, t);
     Body body = before, wall = Bodies::wall(centre.velocity);
@@ -195,8 +196,8 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
     const Impulse impulse = collide(body, wall, s, surface);
     if constexpr (internal_checks && !Bodies::have_floor) {
         const double clearance = state.container_radius - body.radius;
-        const double rounding =
-            rounding_of_wall_contact(state.discs[i].flight(), state.legs[state.leg], clearance, t);
+        const double rounding = rounding_of_wall_contact(
+            state.discs[i].flight(), state.segments[state.segment], clearance, t);
         state.largest_rounding = larger(state.largest_rounding, rounding);
         check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
                              clearance, state.wall_surface, impulse, state.largest_rounding,
@@ -205,7 +206,7 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
     Bodies::write_back(state, i, at, t, body);
     ++state.disc_wall;
     const double distance = square_root(dot(s, s));
-    return {state.swirls,
+    return {state.periods,
             t,
             EventKind::disc_wall,
             i,
@@ -219,17 +220,17 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
 /// and all clocks restart, so that times stay short and precise however long the run; state.clock
 /// is then 0. Who feels the floor is brought up to date with every leg.
 template <class Bodies>
-SWIRL_INLINE Event take_next_leg(EngineState& state) {
-    state.clock = state.legs[state.leg].end;
+SWIRL_INLINE Event start_next_segment(EngineState& state) {
+    state.clock = state.segments[state.segment].end;
     ++state.path_vertex;
-    const Event event{state.swirls, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-    const bool is_last = ++state.leg == state.leg_count;
-    if (!is_last && !Bodies::feel_every_leg(state)) return event;
-    if (is_last) state.leg = 0;
+    const Event event{state.periods, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    const bool is_last = ++state.segment == state.segment_count;
+    if (!is_last && !Bodies::feel_every_segment(state)) return event;
+    if (is_last) state.segment = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) Bodies::bring_up_to_date(state, i, is_last);
     if (!is_last) return event;
     state.clock = 0.0;
-    ++state.swirls;
+    ++state.periods;
     return event;
 }
 

@@ -80,8 +80,8 @@ std::uint32_t list_capacity(double ratio) {
 
 /// In a dish so large against its discs skins cannot be narrow (verlet_lists.hpp), so their lists
 /// have all the room that HotDisc::neighbours can count.
-constexpr double dish_too_wide_for_narrow_skins = 2e5;
-constexpr std::uint32_t most_capacity = 124;
+constexpr double container_too_wide_for_narrow_skins = 2e5;
+constexpr std::uint32_t max_capacity = 124;
 
 /// Discs this many times as large as the smallest keep their whole list with them.
 constexpr double ratio_without_tail = 4.0;
@@ -93,13 +93,13 @@ std::uint32_t wanted_neighbours(double ratio) {
 }
 
 /// The discs around one are as many or fewer in most places; if not, they are looked for nearer.
-constexpr std::uint32_t least_candidates = 512;
+constexpr std::uint32_t min_candidates = 512;
 
 /// How often the radius can be halved and is not less than the smallest: of each such size one
 /// grid.
 std::uint32_t size_class(double radius, double smallest) {
     std::uint32_t halvings = 0;
-    for (; radius >= 2.0 * smallest && halvings + 1 < most_grids; radius *= 0.5) ++halvings;
+    for (; radius >= 2.0 * smallest && halvings + 1 < max_grids; radius *= 0.5) ++halvings;
     return halvings;
 }
 
@@ -121,8 +121,8 @@ struct PathExtent {
     double radius;
 
     /// As far as the container goes in half a swirl, if the path is round: π/√2 times the radius.
-    double most_drift() const { return 2.25 * radius; }
-    double reach() const { return radius + most_drift(); }
+    double max_drift() const { return 2.25 * radius; }
+    double reach() const { return radius + max_drift(); }
 };
 PathExtent extent_of(const ContainerPath& path) {
     Vec2 low{never, never}, high{-never, -never};
@@ -130,23 +130,24 @@ PathExtent extent_of(const ContainerPath& path) {
         low = {smaller(low.x, at.x), smaller(low.y, at.y)};
         high = {larger(high.x, at.x), larger(high.y, at.y)};
     };
-    for (const Leg& leg : path.legs) {
-        reach_to(leg.position_at(leg.begin));
-        reach_to(leg.position_at(leg.end));
-        if (leg.turning == 0.0) continue;
-        const Vec2 from_centre = (-1.0 / leg.turning) * perpendicular(leg.velocity);
+    for (const Segment& segment : path.segments) {
+        reach_to(segment.position_at(segment.begin));
+        reach_to(segment.position_at(segment.end));
+        if (segment.turning == 0.0) continue;
+        const Vec2 from_centre = (-1.0 / segment.turning) * perpendicular(segment.velocity);
         const double radius = square_root(dot(from_centre, from_centre));
-        reach_to(leg.start - from_centre + Vec2{radius, radius});
-        reach_to(leg.start - from_centre - Vec2{radius, radius});
+        reach_to(segment.start - from_centre + Vec2{radius, radius});
+        reach_to(segment.start - from_centre - Vec2{radius, radius});
     }
     const Vec2 half = 0.5 * (high - low);
     return {low + half, square_root(dot(half, half))};
 }
 
 bool rests(const InitialState& scene) {
-    return std::all_of(scene.path.legs.begin(), scene.path.legs.end(), [](const Leg& leg) {
-        return leg.velocity.x == 0.0 && leg.velocity.y == 0.0;
-    });
+    return std::all_of(scene.path.segments.begin(), scene.path.segments.end(),
+                       [](const Segment& segment) {
+                           return segment.velocity.x == 0.0 && segment.velocity.y == 0.0;
+                       });
 }
 
 /// Of linked cells (linked_cells.hpp).
@@ -160,10 +161,10 @@ CellWidths cell_widths(const InitialState& scene, const Radii& radii) {
     constexpr double discs_per_cell = 0.6, cells_per_disc = 16.0;
     const double R = scene.container_radius, discs = static_cast<double>(scene.discs.size());
     const double side = 2.0 * (R + extent_of(scene.path).reach());
-    const double least =
+    const double minimum =
         larger(2.05 * radii.largest, side / square_root(64.0 + cells_per_disc * discs));
-    const double wanted = larger(square_root(discs_per_cell * pi * R * R / discs), least);
-    return {least, wanted, 1.2 * wanted};
+    const double wanted = larger(square_root(discs_per_cell * pi * R * R / discs), minimum);
+    return {minimum, wanted, 1.2 * wanted};
 }
 /// If the discs are spread evenly.
 double discs_per_cell(const InitialState& scene, double width) {
@@ -173,18 +174,20 @@ double discs_per_cell(const InitialState& scene, double width) {
 /// Small discs among large ones may fill cells. Where they are spread evenly, one cell in a million
 /// is not to overflow. In a dish that swirls discs gather, and where cells overflow lists are
 /// faster.
-std::uint32_t annex_room(const InitialState& scene, double width) {
+std::uint32_t overflow_capacity(const InitialState& scene, double width) {
     const double mean = discs_per_cell(scene, width);
-    const double annex = mean + 6.0 * square_root(mean) - Cell::room;
-    if (annex <= 0.0 || !rests(scene)) return 0;
-    return static_cast<std::uint32_t>(smaller(annex / 8.0, most_annex_room / 8 - 1.0)) * 8 + 8;
+    const double overflow = mean + 6.0 * square_root(mean) - Cell::room;
+    if (overflow <= 0.0 || !rests(scene)) return 0;
+    return static_cast<std::uint32_t>(smaller(overflow / 8.0, max_overflow_capacity / 8 - 1.0)) *
+               8 +
+           8;
 }
 
 /// The corners of a path are only told on straight legs (linked_cells.hpp); a circle has none.
 bool cells_can_be_laid(const InitialState& scene) {
-    return scene.path.legs.size() == 1 ||
-           std::all_of(scene.path.legs.begin(), scene.path.legs.end(),
-                       [](const Leg& leg) { return leg.turning == 0.0; });
+    return scene.path.segments.size() == 1 ||
+           std::all_of(scene.path.segments.begin(), scene.path.segments.end(),
+                       [](const Segment& segment) { return segment.turning == 0.0; });
 }
 
 /// So thin that lists do not last. For equal discs that is asked of their packing, for others of
@@ -210,8 +213,8 @@ NeighbourSearch neighbours_for(const InitialState& scene, const Radii& radii, co
     if (are_spheres(scene)) {
         const bool wanted = tuning.neighbours == NeighbourSearch::best ||
                             tuning.neighbours == NeighbourSearch::all_pairs;
-        return wanted && scene.discs.size() <= SpheresSideBySide::most ? NeighbourSearch::all_pairs
-                                                                       : NeighbourSearch::cells;
+        return wanted && scene.discs.size() <= SphereColumns::maximum ? NeighbourSearch::all_pairs
+                                                                      : NeighbourSearch::cells;
     }
     const bool few_enough = scene.discs.size() <= few;
     switch (tuning.neighbours) {
@@ -244,7 +247,7 @@ const EventLoop& loop_for(const InitialState& scene, NeighbourSearch neighbours,
 struct Simulation::Storage {
     const EventLoop* loop;
     Width vectors;
-    std::vector<Leg> legs;
+    std::vector<Segment> segments;
     std::vector<DiscKind> kinds;
     AlignedMemory memory;
     EngineState state{};
@@ -261,7 +264,7 @@ struct Simulation::Storage {
     bool stopped() const { return state.stops_at(0); }
     void allocate(const InitialState& scene, NeighbourSearch neighbours);
     void lay_grids(const InitialState& scene, const Radii& radii, int cells_per_side);
-    double lay_grid(Grid& grid, double least_width, double side);
+    double lay_grid(Grid& grid, double min_width, double side);
     void lay_lists(const InitialState& scene, const Radii& radii);
     void lay_cells(const InitialState& scene, const Radii& radii, const CellWidths& widths);
     void place(const InitialState& scene);
@@ -271,7 +274,7 @@ struct Simulation::Storage {
 
 Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
                              const Tuning& tuning, const Storage* outgrown)
-    : vectors(tuning.width), legs(scene.path.legs), memory(tuning.is_stopped) {
+    : vectors(tuning.width), segments(scene.path.segments), memory(tuning.is_stopped) {
     const EventLoops& loops = event_loops(tuning.width);
     state.size = static_cast<std::uint32_t>(scene.discs.size());
     const Radii radii = radii_of(scene);
@@ -280,14 +283,14 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
         neighbours == NeighbourSearch::cells && tuning.neighbours == NeighbourSearch::best;
     if (outgrown != nullptr) neighbours = take_over(outgrown->state);
     loop = &loop_for(scene, neighbours, loops);
-    state.legs = legs.data();
-    state.leg_count = static_cast<std::uint32_t>(legs.size());
-    state.leg = progress.leg;
+    state.segments = segments.data();
+    state.segment_count = static_cast<std::uint32_t>(segments.size());
+    state.segment = progress.segment;
     state.period = scene.path.period;
     state.container_radius = scene.container_radius;
     state.disc_surface = scene.disc_surface;
     state.wall_surface = scene.wall_surface;
-    state.swirls = progress.swirls;
+    state.periods = progress.periods;
     state.clock = progress.clock;
     state.disc_disc = progress.events.disc_disc;
     state.disc_wall = progress.events.disc_wall;
@@ -303,8 +306,8 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
             ? list_capacity(smaller(radii.largest / radii.smallest, ratio_without_tail))
             : 0;
     if (state.capacity > 0 &&
-        scene.container_radius > dish_too_wide_for_narrow_skins * radii.smallest)
-        state.capacity = most_capacity;
+        scene.container_radius > container_too_wide_for_narrow_skins * radii.smallest)
+        state.capacity = max_capacity;
     state.cold_bytes = static_cast<std::uint32_t>(sizeof(ColdDisc)) + 4 * state.capacity;
     state.prefetches = state.size > 4000 && !are_spheres(scene);
     if (tuning.is_stopped) {
@@ -316,7 +319,7 @@ Simulation::Storage::Storage(const InitialState& scene, const Progress& progress
     if (prepare(scene, neighbours, radii, tuning.cells_per_side, outgrown)) loop->start(state);
     if (stopped()) {
         state.size = 0;
-        state.is_outgrown = false;
+        state.should_switch_search = false;
     }
     state.is_stopped = nullptr;
 }
@@ -362,9 +365,9 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
     if (are_spheres(scene)) state.spheres = memory.add<SphereState>(size);
     if (neighbours == NeighbourSearch::all_pairs) {
         if (are_spheres(scene))
-            state.spheres_side_by_side = memory.add<SpheresSideBySide>(1);
+            state.sphere_columns = memory.add<SphereColumns>(1);
         else
-            state.side_by_side = memory.add<SideBySide>(1);
+            state.columns = memory.add<Columns>(1);
         return;
     }
     state.skins = memory.add<Skin>(size);
@@ -372,12 +375,12 @@ void Simulation::Storage::allocate(const InitialState& scene, NeighbourSearch ne
     do {
         std::size_t padded = (entries + 7) / 8 * 8;
         // One row, or an even number.
-        if (padded > 8 && padded <= 8 * most_top_rows) padded = (padded + 15) / 16 * 16;
+        if (padded > 8 && padded <= 8 * max_top_rows) padded = (padded + 15) / 16 * 16;
         state.level_times[state.levels] = memory.add<double>(padded);
         if (state.levels > 0) state.level_winners[state.levels] = memory.add<std::uint32_t>(padded);
         ++state.levels;
         entries = padded / 8;
-    } while (entries > most_top_rows);
+    } while (entries > max_top_rows);
     state.top_rows = static_cast<std::uint32_t>(entries);
     std::fill_n(state.level_times[state.levels - 1], 8 * entries, never);  // more than there are
 }
@@ -392,7 +395,7 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
     const double side = 2.0 * reach;
     state.cell_origin = -reach;
     constexpr std::uint32_t few = 100;
-    state.has_no_grid = cells_per_side == 1 ? state.size <= least_candidates
+    state.has_no_grid = cells_per_side == 1 ? state.size <= min_candidates
                                             : cells_per_side == 0 && state.size <= few;
     state.grid_count = 1;
     state.grids[0].largest_radius = radii.largest;
@@ -401,9 +404,9 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
         return;
     }
 
-    std::array<double, most_grids> largest{}, smallest{};
+    std::array<double, max_grids> largest{}, smallest{};
     smallest.fill(never);
-    std::array<std::size_t, most_grids> discs{};
+    std::array<std::size_t, max_grids> discs{};
     for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         const std::uint32_t size = size_class(d.radius, radii.smallest);
@@ -411,9 +414,9 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
         smallest[size] = smaller(smallest[size], d.radius);
         ++discs[size];
     }
-    std::array<std::uint32_t, most_grids> row{};
+    std::array<std::uint32_t, max_grids> row{};
     state.grid_count = 0;
-    for (std::uint32_t size = 0; size < most_grids; ++size) {
+    for (std::uint32_t size = 0; size < max_grids; ++size) {
         row[size] = state.grid_count;
         if (discs[size] == 0) continue;
         Grid& grid = state.grids[state.grid_count++];
@@ -434,7 +437,7 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
     constexpr double worth_searching = 0.75;
     state.largest_skin_radius = (0.5 * width - largest[0]) * (1.0 - 1e-6);
     if (state.grid_count > 1) state.largest_skin_radius *= worth_searching;
-    for (std::uint32_t size = 1; size < most_grids; ++size) {
+    for (std::uint32_t size = 1; size < max_grids; ++size) {
         if (discs[size] == 0) continue;
         const double three = square_root(3.0 * area / static_cast<double>(discs[size]));
         lay_grid(state.grids[row[size]],
@@ -443,9 +446,9 @@ void Simulation::Storage::lay_grids(const InitialState& scene, const Radii& radi
 }
 
 /// No narrower than told; says how wide.
-double Simulation::Storage::lay_grid(Grid& grid, double least_width, double side) {
+double Simulation::Storage::lay_grid(Grid& grid, double min_width, double side) {
     grid.cells_per_side =
-        static_cast<std::uint32_t>(larger(1.0, smaller(side / least_width, 30000.0)));
+        static_cast<std::uint32_t>(larger(1.0, smaller(side / min_width, 30000.0)));
     grid.cells_per_length = grid.cells_per_side / side;
     const std::size_t cells = static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side;
     constexpr std::uint32_t too_many_for_room = 200000;
@@ -474,7 +477,7 @@ void Simulation::Storage::lay_lists(const InitialState& scene, const Radii& radi
 
     const std::uint32_t longest = list_room(radii.largest);
     CandidateColumns& candidates = state.candidates;
-    candidates.room = std::max(least_candidates, (2 * longest + 7) / 8 * 8);
+    candidates.room = std::max(min_candidates, (2 * longest + 7) / 8 * 8);
     // Behind the last candidate stand eight that are nobody.
     candidates.gap = memory.add<double>(candidates.room + 8);
     candidates.reach = memory.add<double>(candidates.room + 8);
@@ -516,16 +519,16 @@ void Simulation::Storage::lay_cells(const InitialState& scene, const Radii& radi
     state.widest_cell = widths.widest;
     state.cell_origin = -0.5 * widths.wanted * grid.cells_per_side;
     state.middle_of_path = path.middle;
-    state.most_drift = path.most_drift();
+    state.max_drift = path.max_drift();
     const std::size_t cells = static_cast<std::size_t>(grid.cells_per_side) * grid.cells_per_side;
     state.cells = memory.add<Cell>(cells);
-    state.annex_room = annex_room(scene, widths.wanted);
-    state.annexes = memory.add<std::uint32_t>(cells * state.annex_room);
+    state.overflow_capacity = overflow_capacity(scene, widths.wanted);
+    state.annexes = memory.add<std::uint32_t>(cells * state.overflow_capacity);
     // Half a cell's diagonal, and a hair for the rounding of its centre to single precision.
     state.reach_of_far_cells =
         (R - path.radius) * (1.0 - 1e-6) - radii.largest - 0.71 * widths.wanted;
     state.near_wall = memory.add<std::uint32_t>(state.size + 8);
-    state.strays = memory.add<std::uint32_t>(state.size + 8);
+    state.unassigned = memory.add<std::uint32_t>(state.size + 8);
 }
 
 /// Three spheres' worth of area on average, no narrower than one of them (many_spheres.hpp).
@@ -552,9 +555,9 @@ void Simulation::Storage::place(const InitialState& scene) {
     state.kinds = kinds.data();
     const double nowhere = std::numeric_limits<double>::quiet_NaN();
     state.discs[state.size] = {{nowhere, nowhere}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0, 0, 0, 0};
-    if (state.side_by_side == nullptr) return;
-    for (std::uint32_t k = 0; k < SideBySide::most; ++k) {
-        SideBySide& all = *state.side_by_side;
+    if (state.columns == nullptr) return;
+    for (std::uint32_t k = 0; k < Columns::maximum; ++k) {
+        Columns& all = *state.columns;
         const bool somebody = k < state.size;
         all.x[k] = all.y[k] = somebody ? 0.0 : nowhere;
         all.radius[k] = somebody ? state.discs[k].radius : 0.0;
@@ -564,15 +567,15 @@ void Simulation::Storage::place(const InitialState& scene) {
 }
 
 void Simulation::Storage::place_spheres(const InitialState& scene) {
-    const Vec2 floor_velocity = legs[state.leg].velocity;
+    const Vec2 floor_velocity = segments[state.segment].velocity;
     for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         state.spheres[i] = {floor_motion(d, scene.floor, floor_velocity), d.rolling_spin,
                             d.last_collision};
     }
-    if (state.spheres_side_by_side == nullptr) return;
-    SpheresSideBySide& all = *state.spheres_side_by_side;
-    for (std::uint32_t k = 0; k < SpheresSideBySide::most; ++k) {
+    if (state.sphere_columns == nullptr) return;
+    SphereColumns& all = *state.sphere_columns;
+    for (std::uint32_t k = 0; k < SphereColumns::maximum; ++k) {
         all.x[k] = all.y[k] = all.X[k] = all.Y[k] = std::numeric_limits<double>::quiet_NaN();
         all.radius[k] = k < state.size ? state.discs[k].radius : 0.0;
         all.reach[k] = 0.0;
@@ -581,17 +584,20 @@ void Simulation::Storage::place_spheres(const InitialState& scene) {
 }
 
 Progress Simulation::Storage::progress() const {
-    return {state.swirls,
+    return {state.periods,
             state.clock,
-            state.leg,
+            state.segment,
             {state.disc_disc, state.disc_wall, state.path_vertex, state.elastic_by_tc,
              state.begun_to_roll}};
 }
 
 /// Resumed from this, with whatever search, it goes on bit for bit.
 InitialState Simulation::Storage::as_it_stands() const {
-    InitialState scene{
-        {}, {state.period, legs}, state.container_radius, state.disc_surface, state.wall_surface};
+    InitialState scene{{},
+                       {state.period, segments},
+                       state.container_radius,
+                       state.disc_surface,
+                       state.wall_surface};
     scene.discs.reserve(state.size);
     for (std::uint32_t i = 0; i < state.size; ++i) scene.discs.push_back(disc(i));
     return scene;
@@ -599,7 +605,7 @@ InitialState Simulation::Storage::as_it_stands() const {
 
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
     : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
-    while (storage_->state.is_outgrown)
+    while (storage_->state.should_switch_search)
         storage_ = std::make_unique<Storage>(scene, progress, tuning, storage_.get());
 }
 Simulation::~Simulation() = default;
@@ -607,11 +613,11 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 /// Other cells take over, or lists.
-void Simulation::renew_outgrown() {
+void Simulation::switch_search() {
     const InitialState scene = storage_->as_it_stands();
     Tuning tuning;
     tuning.width = storage_->vectors;
-    while (storage_->state.is_outgrown) {
+    while (storage_->state.should_switch_search) {
         const LoopCounts before = loop_counts();
         storage_ = std::make_unique<Storage>(scene, progress(), tuning, storage_.get());
         EngineState& state = storage_->state;
@@ -624,17 +630,17 @@ void Simulation::renew_outgrown() {
 
 Event Simulation::step() {
     const Event event = storage_->loop->step(storage_->state);
-    if (storage_->state.is_outgrown) [[unlikely]]
-        renew_outgrown();
+    if (storage_->state.should_switch_search) [[unlikely]]
+        switch_search();
     return event;
 }
 
-std::uint64_t Simulation::run(std::uint64_t count, std::int64_t swirls, double clock) {
+std::uint64_t Simulation::run(std::uint64_t count, std::int64_t periods, double clock) {
     std::uint64_t done = 0;
     for (;;) {
-        done += storage_->loop->run(storage_->state, count - done, swirls, clock);
-        if (!storage_->state.is_outgrown) return done;
-        renew_outgrown();
+        done += storage_->loop->run(storage_->state, count - done, periods, clock);
+        if (!storage_->state.should_switch_search) return done;
+        switch_search();
     }
 }
 
@@ -642,18 +648,18 @@ void Simulation::run(std::uint64_t count) {
     run(count, std::numeric_limits<std::int64_t>::max(), never);
 }
 
-void Simulation::advance_to(std::int64_t swirls, double clock) {
-    advance_to(swirls, clock, std::numeric_limits<std::uint64_t>::max());
+void Simulation::advance_to(std::int64_t periods, double clock) {
+    advance_to(periods, clock, std::numeric_limits<std::uint64_t>::max());
 }
 
-bool Simulation::advance_to(std::int64_t swirls, double clock, std::uint64_t most) {
-    if (run(most, swirls, clock) == most) return false;
+bool Simulation::advance_to(std::int64_t periods, double clock, std::uint64_t maximum) {
+    if (run(maximum, periods, clock) == maximum) return false;
     EngineState& state = storage_->state;
-    if (state.swirls == swirls && state.clock < clock) state.clock = clock;
+    if (state.periods == periods && state.clock < clock) state.clock = clock;
     return true;
 }
 
-std::int64_t Simulation::swirls() const { return storage_->state.swirls; }
+std::int64_t Simulation::periods() const { return storage_->state.periods; }
 double Simulation::clock() const { return storage_->state.clock; }
 std::size_t Simulation::size() const { return storage_->state.size; }
 EventCounts Simulation::events() const { return storage_->progress().events; }
@@ -700,7 +706,7 @@ Snapshot Simulation::snapshot() const {
 
 void Simulation::refresh(Snapshot& s, const Event& event) const {
     const EngineState& state = storage_->state;
-    const Leg& leg = state.legs[state.leg];
+    const Segment& segment = state.segments[state.segment];
     const auto hand_over_sphere = [&](std::uint32_t i) __attribute__((noinline)) {
         if (!s.turned.empty()) s.turned[i] = s.quaternion(i, event.clock);
         const SphereState& sphere = state.spheres[i];
@@ -714,14 +720,14 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
     if (event.kind != EventKind::path_vertex) {
         hand_over(event.i);
         if (event.j != event.i) hand_over(event.j);
-    } else if (state.leg == 0 || s.on_floor) {
+    } else if (state.segment == 0 || s.on_floor) {
         for (std::uint32_t i = 0; i < state.size; ++i) hand_over(i);
     }
     // Last: how spheres have turned follows from the floor's velocity up to now.
-    s.swirls = state.swirls;
+    s.periods = state.periods;
     s.clock = state.clock;
-    s.container_centre = leg.position_at(state.clock);
-    s.container_velocity = leg.velocity_at(state.clock);
+    s.container_centre = segment.position_at(state.clock);
+    s.container_velocity = segment.velocity_at(state.clock);
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -736,8 +742,8 @@ std::uint64_t Simulation::state_hash() const {
         mix(bits);
     };
     const EngineState& state = storage_->state;
-    mix(static_cast<std::uint64_t>(state.swirls));
-    mix(state.leg);
+    mix(static_cast<std::uint64_t>(state.periods));
+    mix(state.segment);
     mix(events().total());
     for (std::size_t i = 0; i < size(); ++i) {
         const Disc d = disc(i);

@@ -25,9 +25,9 @@ struct EventCounts {
 /// How far a trajectory has come. Together with the discs, each at its own time, this is all there
 /// is to save: a simulation resumed from it continues bit for bit.
 struct Progress {
-    std::int64_t swirls = 0;
+    std::int64_t periods = 0;
     double clock = 0.0;
-    std::uint32_t leg = 0;
+    std::uint32_t segment = 0;
     EventCounts events;
 };
 
@@ -76,11 +76,11 @@ class Simulation {
 
     /// Executes every event up to and including the given moment, and stands there. Discs are not
     /// touched, so looking never changes a bit.
-    void advance_to(std::int64_t swirls, double clock);
+    void advance_to(std::int64_t periods, double clock);
     /// The same, but no more than `most` events; says whether it stands there.
-    bool advance_to(std::int64_t swirls, double clock, std::uint64_t most);
+    bool advance_to(std::int64_t periods, double clock, std::uint64_t maximum);
 
-    std::int64_t swirls() const;
+    std::int64_t periods() const;
     double clock() const;
     EventCounts events() const;
     Progress progress() const;
@@ -100,8 +100,8 @@ class Simulation {
 
   private:
     struct Storage;
-    std::uint64_t run(std::uint64_t count, std::int64_t swirls, double clock);
-    void renew_outgrown();
+    std::uint64_t run(std::uint64_t count, std::int64_t periods, double clock);
+    void switch_search();
     std::unique_ptr<Storage> storage_;
 };
 

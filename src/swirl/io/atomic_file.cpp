@@ -71,7 +71,7 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
     return true;
 }
 
-void refuse_irregular(const std::filesystem::path& path) {
+void reject_irregular(const std::filesystem::path& path) {
     std::error_code ignored;
     throw FileError(fmt::format("'{}' is {}.", path.string(),
                                 std::filesystem::is_directory(path, ignored)
@@ -107,7 +107,7 @@ void SyncTogether::sync() {
     if (::syncfs(handle_) != 0) fail();
 }
 
-void refuse_to_replace(const std::filesystem::path& path) {
+void reject_to_replace(const std::filesystem::path& path) {
     std::error_code unknown;
     const auto kind = std::filesystem::status(path, unknown).type();
     if (kind == std::filesystem::file_type::regular ||
@@ -120,15 +120,15 @@ void refuse_to_replace(const std::filesystem::path& path) {
 }
 
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
-    refuse_to_replace(path);
+    reject_to_replace(path);
     if (::rename(partial.c_str(), path.c_str()) != 0)
         throw FileError(fmt::format("'{}' could not be renamed to '{}': {}.", partial.string(),
                                     path.string(), system_reason()));
     sync_folder_of(path);
 }
 
-WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
-    refuse_to_replace(path);
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
+    reject_to_replace(path);
     // Again if the name is taken, or if somebody took the file for a leftover before it was locked.
     for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
         aside_ = path.string() + "." + random_name() + std::string(partial_suffix);
@@ -142,22 +142,22 @@ WholeFile::WholeFile(const std::filesystem::path& path) : path_(path) {
     if (file_ < 0) fail();
 }
 
-WholeFile::~WholeFile() {
+AtomicFile::~AtomicFile() {
     if (file_ < 0) return;
     ::unlink(aside_.c_str());
     ::close(file_);
 }
 
-void WholeFile::fail() {
+void AtomicFile::fail() {
     throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
 }
 
-void WholeFile::empty_buffer() {
+void AtomicFile::empty_buffer() {
     if (!write_at(file_, size_ - buffer_.size(), buffer_)) fail();
     buffer_.clear();
 }
 
-void WholeFile::append(std::string_view bytes) {
+void AtomicFile::append(std::string_view bytes) {
     if (buffer_.size() + bytes.size() < buffer_size) {
         buffer_ += bytes;
         size_ += bytes.size();
@@ -168,24 +168,24 @@ void WholeFile::append(std::string_view bytes) {
     size_ += bytes.size();
 }
 
-void WholeFile::replace(std::uint64_t offset, std::string_view bytes) {
+void AtomicFile::replace(std::uint64_t offset, std::string_view bytes) {
     empty_buffer();
     if (!write_at(file_, offset, bytes)) fail();
 }
 
-void WholeFile::finish() {
+void AtomicFile::finish() {
     empty_buffer();
     if (::fsync(file_) != 0) fail();
     give_name();
     sync_folder_of(path_);
 }
 
-void WholeFile::give_name() {
+void AtomicFile::give_name() {
     if (::rename(aside_.c_str(), path_.c_str()) != 0) fail();
     if (::close(std::exchange(file_, -1)) != 0) fail();
 }
 
-bool WholeFile::finish_as_new() {
+bool AtomicFile::finish_as_new() {
     empty_buffer();
     if (::fsync(file_) != 0) fail();
     if (!rename_to_new_name(aside_, path_)) {
@@ -197,14 +197,14 @@ bool WholeFile::finish_as_new() {
     return true;
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
-    WholeFile file(path);
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+    AtomicFile file(path);
     file.append(bytes);
     file.finish();
 }
 
 bool write_new_file(const std::filesystem::path& path, std::string_view bytes) {
-    WholeFile file(path);
+    AtomicFile file(path);
     file.append(bytes);
     return file.finish_as_new();
 }
@@ -218,20 +218,20 @@ std::filesystem::path free_name(const std::string& first) {
 }
 
 void write_named_file(const std::filesystem::path& path, std::string_view bytes) {
-    write_whole_file(path, bytes);
+    write_file_atomically(path, bytes);
     remove_leftovers_of(path);
 }
 
 namespace {
 
-std::string read_to_the_end(int file, const std::filesystem::path& path, std::size_t most) {
+std::string read_to_the_end(int file, const std::filesystem::path& path, std::size_t maximum) {
     std::string bytes;
     struct stat about;
     if (::fstat(file, &about) == 0 && about.st_size > 0)
-        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), most));
+        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), maximum));
     char block[65536];
     ssize_t got;
-    while (bytes.size() <= most && (got = ::read(file, block, sizeof block)) != 0) {
+    while (bytes.size() <= maximum && (got = ::read(file, block, sizeof block)) != 0) {
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
             throw FileError(
@@ -242,7 +242,7 @@ std::string read_to_the_end(int file, const std::filesystem::path& path, std::si
 }
 
 std::string read_file(const std::filesystem::path& path, bool regular_only,
-                      std::size_t most = std::string::npos - 1) {
+                      std::size_t maximum = std::string::npos - 1) {
     // A pipe that nobody writes to would keep us waiting in open().
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (regular_only ? O_NONBLOCK : 0));
     if (file < 0)
@@ -253,21 +253,21 @@ std::string read_file(const std::filesystem::path& path, bool regular_only,
     struct stat about;
     const bool known = ::fstat(file, &about) == 0;
     if (known && (S_ISDIR(about.st_mode) || (regular_only && !S_ISREG(about.st_mode))))
-        refuse_irregular(path);
-    return read_to_the_end(file, path, most);
+        reject_irregular(path);
+    return read_to_the_end(file, path, maximum);
 }
 
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& path, std::size_t most) {
-    return read_file(path, false, most);
+std::string read_whole_file(const std::filesystem::path& path, std::size_t maximum) {
+    return read_file(path, false, maximum);
 }
 std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
 
 std::string first_bytes(const std::filesystem::path& path) {
     std::error_code unknown;
     if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-        refuse_irregular(path);
+        reject_irregular(path);
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw FileError(fmt::format("'{}' cannot be opened.", path.string()));
     std::string bytes(8, '\0');

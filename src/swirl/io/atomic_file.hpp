@@ -13,12 +13,12 @@
 namespace swirl {
 
 /// A file written piece by piece. Throws FileError, leaving what was there.
-class WholeFile {
+class AtomicFile {
   public:
-    explicit WholeFile(const std::filesystem::path& path);
-    ~WholeFile();  // unfinished: nothing is left
-    WholeFile(const WholeFile&) = delete;
-    WholeFile& operator=(const WholeFile&) = delete;
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();  // unfinished: nothing is left
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
 
     void append(std::string_view bytes);
     /// Changes bytes that have been appended.
@@ -44,7 +44,7 @@ class WholeFile {
 };
 
 /// All at once.
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 /// The same for a file of which there are few in a folder, as somebody named it: what killed
 /// writers left of it goes, too.
 void write_named_file(const std::filesystem::path& path, std::string_view bytes);
@@ -58,7 +58,7 @@ std::filesystem::path free_name(const std::string& name);
 /// Throws FileError when it cannot be read. Of a file that is longer it reads one byte more than
 /// `most`, however long it is: a device may never end.
 std::string read_whole_file(const std::filesystem::path& path,
-                            std::size_t most = std::string::npos - 1);
+                            std::size_t maximum = std::string::npos - 1);
 /// The same, but throws for pipes, devices and the like, which may never end.
 std::string read_regular_file(const std::filesystem::path& path);
 /// What a file begins with, by which it is told what it is: eight bytes or as many as there are.
@@ -76,7 +76,7 @@ inline constexpr std::string_view partial_suffix = ".partial";
 /// Throws FileError if something stands there that no file may take the place of: who is allowed to
 /// would lose a device or a pipe for good. The writers here ask it; who computes for long before he
 /// writes asks it at once.
-void refuse_to_replace(const std::filesystem::path& path);
+void reject_to_replace(const std::filesystem::path& path);
 
 /// Gives a finished file its final name, on the disk too. Throws FileError.
 void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
@@ -101,7 +101,7 @@ class SyncTogether {
 void sync_folder_of(const std::filesystem::path& path);
 
 /// Throws FileError that says what stands there in place of a regular file.
-[[noreturn]] void refuse_irregular(const std::filesystem::path& path);
+[[noreturn]] void reject_irregular(const std::filesystem::path& path);
 
 /// Why the last system call failed, in words.
 std::string system_reason();

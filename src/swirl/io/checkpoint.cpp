@@ -28,7 +28,7 @@ std::uint64_t number_at(std::string_view bytes) {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
     Checksum sum;
-    WholeFile file(path);
+    AtomicFile file(path);
     const auto add = [&](std::string_view bytes) {
         sum.add(bytes.data(), bytes.size());
         file.append(bytes);
@@ -46,27 +46,27 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const std::string bytes = read_regular_file(path);
     std::string_view rest = bytes;
-    const auto refuse = [&](const std::string& why) {
+    const auto reject = [&](const std::string& why) {
         throw FileError(fmt::format("'{}' {}.", path.string(), why));
     };
-    if (!rest.starts_with(this_kind)) refuse("is not a checkpoint of swirl");
+    if (!rest.starts_with(this_kind)) reject("is not a checkpoint of swirl");
     const std::size_t line = rest.find('\n');
     if (rest.substr(0, line + 1) != first_line)
-        refuse(fmt::format(
+        reject(fmt::format(
             "is a checkpoint in format {}, but this program reads format {}; resume it with the "
             "program that wrote it",
             rest.substr(this_kind.size(), std::min<std::size_t>(line, 40) - this_kind.size()),
             first_line.substr(this_kind.size(), first_line.size() - this_kind.size() - 1)));
     const std::string damaged =
         "is damaged: its checksum does not fit its content; it was cut off or changed";
-    if (rest.size() < first_line.size() + 24) refuse(damaged);
+    if (rest.size() < first_line.size() + 24) reject(damaged);
     const std::uint64_t written = number_at(rest.substr(rest.size() - 8));
     rest.remove_suffix(8);
-    if (checksum(rest) != written) refuse(damaged);
+    if (checksum(rest) != written) reject(damaged);
     rest.remove_prefix(first_line.size());
     Checkpoint checkpoint;
     for (std::string* part : {&checkpoint.about, &checkpoint.state}) {
-        if (rest.size() < 8 || number_at(rest) > rest.size() - 8) refuse(damaged);
+        if (rest.size() < 8 || number_at(rest) > rest.size() - 8) reject(damaged);
         *part = rest.substr(8, number_at(rest));
         rest.remove_prefix(8 + part->size());
     }

@@ -34,7 +34,7 @@ void append(Column& column, const std::vector<Event>& events, Field&& field) {
 
 MovingFloor moving_floor(const Floor& floor, const ContainerPath& path) {
     MovingFloor moving{floor, {}};
-    for (const Leg& leg : path.legs) moving.velocity.push_back(leg.velocity);
+    for (const Segment& segment : path.segments) moving.velocity.push_back(segment.velocity);
     return moving;
 }
 
@@ -46,7 +46,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, Hdf5File file)
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot& initial,
                                double swirl_end, const Provenance& provenance, int compression,
                                const MovingFloor& floor)
-    : EventLogWriter(path, Hdf5File(partial_name(path), StagedFile::Mode::create)) {
+    : EventLogWriter(path, Hdf5File(partial_name(path), JournaledFile::Mode::create)) {
     Hdf5File& file = *file_;
     const std::uint64_t n = initial.size();
     file.create_group("/initial");
@@ -103,7 +103,7 @@ EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::ui
     writer.open_columns();
     Columns& c = writer.columns_;
     for (Column* column :
-         {&c.swirls, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y, &c.normal_impulse,
+         {&c.periods, &c.clock, &c.kind, &c.i, &c.j, &c.normal_x, &c.normal_y, &c.normal_impulse,
           &c.tangential_impulse, &c.sticks, &c.vertical_impulse}) {
         if (column == &c.vertical_impulse && !writer.file_->has("/floor")) continue;
         if (column->rows() < events)
@@ -136,7 +136,7 @@ void EventLogWriter::open_columns() {
 
 void EventLogWriter::empty_buffer() {
     Columns& c = columns_;
-    append<std::int64_t>(c.swirls, buffer_, [](const Event& e) { return e.swirls; });
+    append<std::int64_t>(c.periods, buffer_, [](const Event& e) { return e.periods; });
     append<double>(c.clock, buffer_, [](const Event& e) { return e.clock; });
     append<std::uint8_t>(c.kind, buffer_, [](const Event& e) { return e.kind; });
     append<std::uint32_t>(c.i, buffer_, [](const Event& e) { return e.i; });
@@ -171,11 +171,11 @@ void EventLogWriter::finish() {
 }
 
 bool is_event_log(const std::filesystem::path& path) {
-    return Hdf5File(path, StagedFile::Mode::read).has("/events/clock");
+    return Hdf5File(path, JournaledFile::Mode::read).has("/events/clock");
 }
 
 EventLogReader::EventLogReader(const std::filesystem::path& path)
-    : file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
+    : file_(std::make_unique<Hdf5File>(path, JournaledFile::Mode::read)) {
     if (!file_->has("/events/clock") || !file_->has("/initial/position"))
         throw FileError(fmt::format(
             "'{}' is an HDF5 file, but not an event log: it has no /events.", path.string()));
@@ -183,7 +183,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     const auto column = [&](const char* name) {
         return file_->column(std::string("/events/") + name);
     };
-    swirls_ = column("swirls");
+    periods_ = column("swirls");
     clock_ = column("clock");
     kind_ = column("kind");
     i_ = column("i");
@@ -193,7 +193,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
     normal_impulse_ = column("normal_impulse");
     tangential_impulse_ = column("tangential_impulse");
     sticks_ = column("sticks");
-    for (const Column* each : {&swirls_, &clock_, &kind_, &i_, &j_, &normal_x_, &normal_y_,
+    for (const Column* each : {&periods_, &clock_, &kind_, &i_, &j_, &normal_x_, &normal_y_,
                                &normal_impulse_, &tangential_impulse_, &sticks_})
         if (!each->row_shape().empty())
             throw FileError(
@@ -230,7 +230,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& path)
                 path.string()));
     }
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
-    std::vector<std::uint64_t> lengths{swirls_.rows(),
+    std::vector<std::uint64_t> lengths{periods_.rows(),
                                        clock_.rows(),
                                        kind_.rows(),
                                        i_.rows(),
@@ -282,7 +282,7 @@ std::string EventLogReader::provenance(const std::string& name) const {
 }
 
 std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count) const {
-    const auto swirls = swirls_.read<std::int64_t>(first, count);
+    const auto periods = periods_.read<std::int64_t>(first, count);
     const auto clock = clock_.read<double>(first, count);
     const auto kind = kind_.read<std::uint8_t>(first, count);
     const auto i = i_.read<std::uint32_t>(first, count), j = j_.read<std::uint32_t>(first, count);
@@ -299,7 +299,7 @@ std::vector<Event> EventLogReader::read(std::uint64_t first, std::uint64_t count
         if (kind[k] > (floor_ ? 3 : 2) || sticks[k] > 1 || i[k] >= initial_.size() ||
             j[k] >= initial_.size())
             throw FileError(fmt::format("Event {} of the log is damaged.", first + k));
-        events.push_back({swirls[k],
+        events.push_back({periods[k],
                           clock[k],
                           EventKind(kind[k]),
                           i[k],
@@ -321,7 +321,7 @@ Replay::Replay(std::vector<Disc> initial, double swirl_end, std::optional<Moving
 
 /// How a sphere moves from the state it has got.
 void Replay::let_fly(std::size_t i) {
-    if (floor_) motions_[i] = floor_motion(discs_[i], floor_->floor, floor_->velocity.at(leg_));
+    if (floor_) motions_[i] = floor_motion(discs_[i], floor_->floor, floor_->velocity.at(segment_));
 }
 
 void Replay::bring_to(std::size_t i, double t) {
@@ -330,8 +330,8 @@ void Replay::bring_to(std::size_t i, double t) {
 
 void Replay::pass_vertex(const Event& event) {
     const bool is_last = event.clock == swirl_end_;
-    if (floor_) leg_ = is_last ? 0 : leg_ + 1;
-    if (floor_ && leg_ >= floor_->velocity.size())
+    if (floor_) segment_ = is_last ? 0 : segment_ + 1;
+    if (floor_ && segment_ >= floor_->velocity.size())
         throw FileError(
             "An event log contradicts itself: it has more path vertices in a swirl than "
             "its floor has legs.");
@@ -341,7 +341,7 @@ void Replay::pass_vertex(const Event& event) {
         if (is_last) discs_[i].time = 0.0;
         let_fly(i);
     }
-    swirls_ += is_last ? 1 : 0;
+    periods_ += is_last ? 1 : 0;
 }
 
 void Replay::apply(const Event& event) {
@@ -349,7 +349,7 @@ void Replay::apply(const Event& event) {
     if (event.kind == EventKind::begins_to_roll) {
         if (!floor_) return;
         discs_.at(event.i) = set_rolling(discs_[event.i], motions_[event.i], floor_->floor,
-                                         floor_->velocity.at(leg_));
+                                         floor_->velocity.at(segment_));
         return let_fly(event.i);
     }
     const Vec2 tangent{event.normal.y, -event.normal.x};

@@ -90,7 +90,7 @@ class EventLogWriter {
     void empty_buffer();
 
     struct Columns {
-        Column swirls, clock, kind, i, j, normal_x, normal_y, normal_impulse, tangential_impulse;
+        Column periods, clock, kind, i, j, normal_x, normal_y, normal_impulse, tangential_impulse;
         Column sticks, vertical_impulse;
     };
     std::filesystem::path path_;
@@ -122,7 +122,7 @@ class EventLogReader {
 
   private:
     std::unique_ptr<Hdf5File> file_;
-    Column swirls_, clock_, kind_, i_, j_, normal_x_, normal_y_, normal_impulse_;
+    Column periods_, clock_, kind_, i_, j_, normal_x_, normal_y_, normal_impulse_;
     Column tangential_impulse_, sticks_, vertical_impulse_;
     std::vector<Disc> initial_;
     std::optional<MovingFloor> floor_;
@@ -139,7 +139,7 @@ class Replay {
 
     void apply(const Event& event);
     const std::vector<Disc>& discs() const { return discs_; }
-    std::int64_t swirls() const { return swirls_; }
+    std::int64_t periods() const { return periods_; }
 
   private:
     void pass_vertex(const Event& event);
@@ -150,8 +150,8 @@ class Replay {
     double swirl_end_;
     std::optional<MovingFloor> floor_;
     std::vector<FloorMotion> motions_;  // of spheres, from the state that is held
-    std::size_t leg_ = 0;
-    std::int64_t swirls_ = 0;
+    std::size_t segment_ = 0;
+    std::int64_t periods_ = 0;
 };
 
 }  // namespace swirl

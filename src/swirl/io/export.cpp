@@ -58,7 +58,7 @@ bool has_spheres(const SnapshotSeries& series) {
     return first.are_spheres() && !first.turned.empty();
 }
 
-void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         int kinds;
         const std::vector<int> species = species_of(s, kinds);
@@ -86,7 +86,7 @@ void write_lammps(const SnapshotSeries& series, WholeFile& file, const ExportOpt
     });
 }
 
-void write_xyz(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     write_frames(series, options, [&](std::uint64_t, const Snapshot& s) {
         int kinds;
         const std::vector<int> species = species_of(s, kinds);
@@ -112,7 +112,7 @@ void write_xyz(const SnapshotSeries& series, WholeFile& file, const ExportOption
     });
 }
 
-void write_csv(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+void write_csv(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     file.append("frame,particle,x,y\n");
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
@@ -134,7 +134,7 @@ void add_known(Text& text, double value) {
         add(text, ",{}", value);
 }
 
-void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     const bool spheres = has_spheres(series);
     file.append(
         "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
@@ -146,8 +146,9 @@ void write_table(const SnapshotSeries& series, WholeFile& file, const ExportOpti
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.listen_at(i);
             const Vec2 p = s.position(i);
-            add(text, "{},{},{},{},{},{},{},{}", k, s.time(), double(s.swirls) + s.clock / s.period,
-                s.container_centre.x, s.container_centre.y, i, p.x, p.y);
+            add(text, "{},{},{},{},{},{},{},{}", k, s.time(),
+                double(s.periods) + s.clock / s.period, s.container_centre.x, s.container_centre.y,
+                i, p.x, p.y);
             for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
                                        s.mass[i], s.inertia[i]})
                 add_known(text, value);
@@ -267,7 +268,7 @@ std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem
         SyncTogether frames(folder);
         write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
             const std::string name = fmt::format("{:06}.vtp", k);
-            WholeFile frame(folder / name);  // the index waits for the disk, not each frame
+            AtomicFile frame(folder / name);  // the index waits for the disk, not each frame
             frame.append(vtp_of(s));
             frame.empty_buffer();
             frame.give_name();
@@ -299,7 +300,7 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
         throw FileError(fmt::format("The folder '{}' could not be made: {}.", folder.string(),
                                     error.message()));
     remove_leftovers(folder);
-    refuse_to_replace(path);
+    reject_to_replace(path);
     std::filesystem::remove(path, error);
     write_named_file(path, write_vtp_frames(series, folder, options));
 }
@@ -338,7 +339,7 @@ enum GsdType : std::uint8_t {
 
 class GsdWriter {
   public:
-    GsdWriter(WholeFile& file, bool of_spheres) : file_(file) {
+    GsdWriter(AtomicFile& file, bool of_spheres) : file_(file) {
         file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
         std::string list;
         // A name that is there must have values.
@@ -388,7 +389,7 @@ class GsdWriter {
                                       "log/particles/angular_velocity",
                                       "log/time",
                                       "log/particles/rolling_spin"};
-    WholeFile& file_;
+    AtomicFile& file_;
     GsdHeader header_;
     std::vector<GsdEntry> entries_;
     std::uint64_t frame_ = 0;
@@ -402,7 +403,7 @@ Quaternion angular_momentum(const Snapshot& s, std::size_t i, const Quaternion& 
     return Quaternion{0.0, twice * rolling.x, twice * rolling.y, twice * known(s.spin[i])} * q;
 }
 
-void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOptions& options) {
+void write_gsd(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     GsdWriter gsd(file, has_spheres(series));
     const float width = float(2.0 * series.reach);
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
@@ -467,7 +468,7 @@ void write_gsd(const SnapshotSeries& series, WholeFile& file, const ExportOption
 template <auto write>
 void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
                 const ExportOptions& options) {
-    WholeFile file(path);
+    AtomicFile file(path);
     write(series, file, options);
     file.finish();
     remove_leftovers_of(path);

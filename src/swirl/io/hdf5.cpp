@@ -106,28 +106,28 @@ std::uint64_t product(const Dimensions& shape) {
 
 struct Hdf5File::State {
     std::string path;
-    StagedFile staged;
+    JournaledFile journaled;
     std::string failure;
     hid_t id = -1;
 
     const bool is_ours;  // nobody else has written into it
 
-    State(const std::filesystem::path& p, StagedFile::Mode mode)
-        : path(p.string()), staged(p, mode), is_ours(mode == StagedFile::Mode::create) {}
+    State(const std::filesystem::path& p, JournaledFile::Mode mode)
+        : path(p.string()), journaled(p, mode), is_ours(mode == JournaledFile::Mode::create) {}
 
     static void leak(const std::shared_ptr<State>& state) { new std::shared_ptr<State>(state); }
     std::string sentence(std::string_view what) const {
         return fmt::format("'{}': {} failed ({}).", path, what, library_reason());
     }
     [[noreturn]] void fail(std::string_view what) {
-        refuse_overtaken();
+        reject_overtaken();
         if (failure.empty()) failure = sentence(what);
-        staged.abandon();
+        journaled.abandon();
         throw FileError(failure);
     }
     /// The library knows what was where when the file was opened.
-    void refuse_overtaken() const {
-        if (staged.is_overtaken())
+    void reject_overtaken() const {
+        if (journaled.is_overtaken())
             throw FileError(
                 fmt::format("'{}' is being recorded by a run, which has added to it while it was "
                             "read; it can be read when that run has ended or was interrupted.",
@@ -144,9 +144,9 @@ struct Hdf5File::State {
     }
     /// A file that promises more than it can hold lies, and memory for that must not even be asked
     /// for. Deflate makes at best a byte of a thousand; what is not packed is there as it is.
-    void refuse_more_than_it_holds(const std::string& name, double bytes,
-                                   double most_packed = 2048.0) const {
-        if (bytes > most_packed * double(staged.size()))
+    void reject_more_than_it_holds(const std::string& name, double bytes,
+                                   double max_packed = 2048.0) const {
+        if (bytes > max_packed * double(journaled.size()))
             throw FileError(fmt::format(
                 "'{}' is damaged: its {} is said to hold more than such a small file can.", path,
                 name));
@@ -154,7 +154,7 @@ struct Hdf5File::State {
     /// A dataset that lies in one piece lies in the file, and is as large as its shape says: the
     /// library copies as much as the shape says from as much as there is. One in chunks may lack
     /// some, but each is made in memory first.
-    void refuse_false_storage(hid_t set, const std::string& name) const {
+    void reject_false_storage(hid_t set, const std::string& name) const {
         if (is_ours) return;
         const Handle properties(H5Dget_create_plist(set), H5Pclose);
         const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
@@ -166,19 +166,19 @@ struct Hdf5File::State {
             const int rank = H5Pget_chunk(properties, H5S_MAX_RANK, chunk);
             double values = rank == H5Sget_simple_extent_ndims(space) ? value : never;
             for (int d = 0; d < rank; ++d) values *= double(chunk[d]);
-            return refuse_more_than_it_holds(name, values);
+            return reject_more_than_it_holds(name, values);
         }
         const haddr_t at = layout == H5D_CONTIGUOUS ? H5Dget_offset(set) : 0;
         const bool is_there = layout == H5D_COMPACT || bytes == 0.0 ||
                               (layout == H5D_CONTIGUOUS && at != HADDR_UNDEF &&
-                               double(at) + bytes <= double(staged.size()));
+                               double(at) + bytes <= double(journaled.size()));
         if (!is_there || double(H5Dget_storage_size(set)) != bytes)
             throw FileError(fmt::format(
                 "'{}' is damaged: its {} does not lie in the file as its shape says.", path, name));
     }
     void commit() {
         try {
-            staged.commit();
+            journaled.commit();
         } catch (const FileError& error) {
             if (failure.empty()) failure = error.what();
             fail("writing");
@@ -295,34 +295,34 @@ std::vector<T> Column::read(std::uint64_t first, std::uint64_t count) const {
                                     handle_->file->path, rows_, name_, first, first + count));
     double bytes = double(count) * sizeof(T);
     for (const std::uint64_t d : row_shape_) bytes *= double(d);
-    handle_->file->refuse_more_than_it_holds(name_, bytes);
+    handle_->file->reject_more_than_it_holds(name_, bytes);
     std::vector<T> values(count * product(row_shape_));
     if (values.empty()) return values;
     const Selection rows(*this, first, count, {});
     handle_->file->check(
         H5Dread(handle_->id, memory_type<T>(), rows.here, rows.there, H5P_DEFAULT, values.data()),
         "reading " + name_);
-    handle_->file->refuse_overtaken();
+    handle_->file->reject_overtaken();
     return values;
 }
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
+Hdf5File::Hdf5File(const std::filesystem::path& path, JournaledFile::Mode mode) {
     const Locked lock(library_lock());
-    const hid_t driver = staged_driver();
+    const hid_t driver = journaled_driver();
     state_ = std::make_shared<State>(path, mode);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_driver(access, driver, nullptr);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    const OpensOnly opens_only(state_->staged, state_->failure);
-    if (mode == StagedFile::Mode::create) {
+    const OpensOnly opens_only(state_->journaled, state_->failure);
+    if (mode == JournaledFile::Mode::create) {
         // Without access times two runs with the same data write the same bytes.
         state_->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
         state_->check(state_->id, "creating the file");
         return;
     }
-    const unsigned how = mode == StagedFile::Mode::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+    const unsigned how = mode == JournaledFile::Mode::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
     state_->id = H5Fopen(path.c_str(), how, access);
-    if (state_->id < 0) state_->refuse_overtaken();
+    if (state_->id < 0) state_->reject_overtaken();
     if (state_->id < 0)
         throw FileError(fmt::format("'{}' is not an HDF5 file, or is damaged ({}).", path.string(),
                                     library_reason()));
@@ -331,7 +331,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode) {
 Hdf5File::~Hdf5File() {
     if (state_ == nullptr || state_->id < 0) return;
     const Locked lock(library_lock());
-    state_->staged.abandon();
+    state_->journaled.abandon();
     // If the library cannot let go of the file it will try again at exit; what it then reaches for
     // must still be there.
     if (H5Fclose(std::exchange(state_->id, -1)) < 0) state_->leak(state_);
@@ -357,7 +357,7 @@ void Hdf5File::finish(const std::filesystem::path& final_name) {
     state_->check(closed, "closing");
     // Closing may have trimmed the file.
     state_->commit();
-    state_->staged.rename_to(final_name);
+    state_->journaled.rename_to(final_name);
 }
 
 void Hdf5File::create_group(const std::string& name) {
@@ -454,7 +454,7 @@ Column Hdf5File::column(const std::string& name) const {
     const hid_t id = H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT);
     if (id < 0) throw FileError(fmt::format("{} in '{}' is not a dataset.", name, state_->path));
     const auto handle = std::make_shared<Column::Handle>(state_, id);
-    state_->refuse_false_storage(id, name);
+    state_->reject_false_storage(id, name);
     return {handle, name};
 }
 
@@ -469,7 +469,7 @@ std::string Hdf5File::read_text(const std::string& name) const {
         H5Sget_simple_extent_npoints(space) != 1)
         throw FileError(
             fmt::format("{} in '{}' is not one text of fixed length.", name, state_->path));
-    state_->refuse_false_storage(set, name);
+    state_->reject_false_storage(set, name);
     std::string text(H5Tget_size(type), '\0');
     state_->check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
                   "reading " + name);
@@ -556,7 +556,7 @@ void Hdf5File::read_attribute(const std::string& object, const std::string& name
     if (!has_attribute(object, name))
         throw FileError(fmt::format("'{}' has no attribute {} at {}.", state_->path, name, object));
     const Attribute attribute(state_->id, object, name);
-    state_->refuse_more_than_it_holds(
+    state_->reject_more_than_it_holds(
         "attribute " + name, double(attribute.count) * double(H5Tget_size(attribute.type)), 1.0);
     if (!read(attribute))
         throw FileError(fmt::format("Attribute {} at {} in '{}' is not {}.", name, object,

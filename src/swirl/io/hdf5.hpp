@@ -84,7 +84,7 @@ class Column {
 class Hdf5File {
   public:
     /// Throws FileError, also when the file is no HDF5 file.
-    Hdf5File(const std::filesystem::path& path, StagedFile::Mode mode);
+    Hdf5File(const std::filesystem::path& path, JournaledFile::Mode mode);
     /// Closes. What was not flushed is lost; see close().
     ~Hdf5File();
     Hdf5File(Hdf5File&&) noexcept;

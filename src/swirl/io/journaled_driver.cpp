@@ -8,20 +8,20 @@
 namespace swirl {
 namespace {
 
-struct StagedDriver {
+struct JournaledDriver {
     H5FD_t common;  // must come first: the library sees this
-    StagedFile* file;
+    JournaledFile* file;
     haddr_t end_of_allocation;
     std::string* failure;  // the sentence of the first failure
 };
 
-StagedDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<StagedDriver*>(file); }
-const StagedDriver& driver_of(const H5FD_t* file) {
-    return *reinterpret_cast<const StagedDriver*>(file);
+JournaledDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<JournaledDriver*>(file); }
+const JournaledDriver& driver_of(const H5FD_t* file) {
+    return *reinterpret_cast<const JournaledDriver*>(file);
 }
 
 template <class Action>
-herr_t guarded(StagedDriver& driver, Action&& action) {
+herr_t guarded(JournaledDriver& driver, Action&& action) {
     try {
         action();
         return 0;
@@ -32,7 +32,7 @@ herr_t guarded(StagedDriver& driver, Action&& action) {
 }
 
 struct Opening {
-    StagedFile* file;
+    JournaledFile* file;
     std::string* failure;
 };
 Opening opening;
@@ -46,7 +46,7 @@ const H5FD_class_t& driver_class() {
         c.fc_degree = H5F_CLOSE_STRONG;
         c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
             if (opening.file == nullptr) return nullptr;
-            auto* d = static_cast<StagedDriver*>(std::calloc(1, sizeof(StagedDriver)));
+            auto* d = static_cast<JournaledDriver*>(std::calloc(1, sizeof(JournaledDriver)));
             if (d == nullptr) return nullptr;
             d->file = opening.file;
             d->failure = opening.failure;
@@ -95,12 +95,12 @@ const H5FD_class_t& driver_class() {
 
 }  // namespace
 
-hid_t staged_driver() {
+hid_t journaled_driver() {
     static const hid_t id = H5FDregister(&driver_class());
     return id;
 }
 
-OpensOnly::OpensOnly(StagedFile& file, std::string& failure) { opening = {&file, &failure}; }
+OpensOnly::OpensOnly(JournaledFile& file, std::string& failure) { opening = {&file, &failure}; }
 OpensOnly::~OpensOnly() { opening = {}; }
 
 }  // namespace swirl

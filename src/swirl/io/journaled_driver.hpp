@@ -10,14 +10,14 @@
 namespace swirl {
 
 /// For H5Pset_driver.
-hid_t staged_driver();
+hid_t journaled_driver();
 
 /// What the library opens by this driver while it lives, under the lock: this file and no other, so
 /// a link or a virtual dataset that leads to another file leads nowhere. `failure` becomes the
 /// sentence of the first failure of the file.
 class OpensOnly {
   public:
-    OpensOnly(StagedFile& file, std::string& failure);
+    OpensOnly(JournaledFile& file, std::string& failure);
     ~OpensOnly();
     OpensOnly(const OpensOnly&) = delete;
     OpensOnly& operator=(const OpensOnly&) = delete;

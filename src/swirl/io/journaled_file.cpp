@@ -32,7 +32,7 @@ void close_if_open(int& file) {
 
 }  // namespace
 
-StagedFile::StagedFile(const std::filesystem::path& path, Mode mode)
+JournaledFile::JournaledFile(const std::filesystem::path& path, Mode mode)
     : path_(path), journal_path_(path.string() + ".journal") {
     try {
         open(mode);
@@ -43,7 +43,7 @@ StagedFile::StagedFile(const std::filesystem::path& path, Mode mode)
     }
 }
 
-void StagedFile::open(Mode mode) {
+void JournaledFile::open(Mode mode) {
     const int how = mode == Mode::read     ? O_RDONLY | O_NONBLOCK
                     : mode == Mode::change ? O_RDWR | O_NOFOLLOW | O_NONBLOCK
                                            : O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CREAT;
@@ -51,7 +51,7 @@ void StagedFile::open(Mode mode) {
     if (file_ < 0) fail("could not be opened");
     struct stat about;
     if (::fstat(file_, &about) != 0) fail("could not be opened");
-    if (!S_ISREG(about.st_mode)) refuse_irregular(path_);
+    if (!S_ISREG(about.st_mode)) reject_irregular(path_);
     if (mode != Mode::read && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw FileError(fmt::format(
             "'{}' is being written by another process; wait for it or choose another name.",
@@ -69,18 +69,18 @@ void StagedFile::open(Mode mode) {
     if (load_journal() && mode == Mode::change) commit();
 }
 
-StagedFile::Page StagedFile::first_page() const {
+JournaledFile::Page JournaledFile::first_page() const {
     Page page(page_size);
     const ssize_t got = ::pread(file_, page.data(), page_size, 0);
     page.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
     return page;
 }
 
-bool StagedFile::is_overtaken() const {
+bool JournaledFile::is_overtaken() const {
     return !first_page_when_opened_.empty() && first_page() != first_page_when_opened_;
 }
 
-void StagedFile::begin_anew() {
+void JournaledFile::begin_anew() {
     new_ = true;
     // What an older journal says must not come over the new file, not after a power cut either.
     if (::access(journal_path_.c_str(), F_OK) == 0) {
@@ -91,23 +91,23 @@ void StagedFile::begin_anew() {
     if (::ftruncate(file_, 0) != 0) fail("could not be emptied");
 }
 
-StagedFile::~StagedFile() {
+JournaledFile::~JournaledFile() {
     // An empty journal says nothing; a full one is the rest of a commit that failed half-way.
     if (journal_ >= 0 && !journal_counts_) ::unlink(journal_path_.c_str());
     close_if_open(journal_);
     close_if_open(file_);
 }
 
-void StagedFile::fail(std::string_view what) {
+void JournaledFile::fail(std::string_view what) {
     failure_ = fmt::format("'{}' {}: {}.", path_.string(), what, system_reason());
     throw FileError(failure_);
 }
 
-void StagedFile::refuse_after_failure() const {
+void JournaledFile::reject_after_failure() const {
     if (!failure_.empty()) throw FileError(failure_);
 }
 
-bool StagedFile::load_journal() {
+bool JournaledFile::load_journal() {
     std::error_code absent;
     if (!std::filesystem::exists(journal_path_, absent)) return false;
     const std::string bytes = read_regular_file(journal_path_);
@@ -131,7 +131,7 @@ bool StagedFile::load_journal() {
     return true;
 }
 
-void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t size) {
+void JournaledFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t size) {
     auto* p = static_cast<unsigned char*>(bytes);
     while (size > 0) {
         const ssize_t got = ::pread(file_, p, size, static_cast<off_t>(offset));
@@ -147,8 +147,8 @@ void StagedFile::read_from_disk(std::uint64_t offset, void* bytes, std::size_t s
     }
 }
 
-void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
-    refuse_after_failure();
+void JournaledFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
+    reject_after_failure();
     read_from_disk(offset, bytes, size);
     if (waiting_.empty() || size == 0) return;
     const std::uint64_t end = offset + size;
@@ -161,7 +161,7 @@ void StagedFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
     }
 }
 
-void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
+void JournaledFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
     if (!write_at(file_, offset, {static_cast<const char*>(bytes), size}))
         fail("could not be written");
 #ifdef __linux__
@@ -173,13 +173,13 @@ void StagedFile::write_to_disk(std::uint64_t offset, const void* bytes, std::siz
 }
 
 /// Whole pages wait, so the committed size counts as rounded up to a page.
-bool StagedFile::waits(std::uint64_t offset) const {
+bool JournaledFile::waits(std::uint64_t offset) const {
     return new_ || offset < (committed_ + page_size - 1) / page_size * page_size;
 }
 
-void StagedFile::write(std::uint64_t offset, const void* bytes, std::size_t size) {
+void JournaledFile::write(std::uint64_t offset, const void* bytes, std::size_t size) {
     if (abandoned_) return;
-    refuse_after_failure();
+    reject_after_failure();
     size_ = std::max(size_, offset + size);
     const auto* p = static_cast<const unsigned char*>(bytes);
     while (size > 0 && waits(offset)) {
@@ -199,15 +199,15 @@ void StagedFile::write(std::uint64_t offset, const void* bytes, std::size_t size
     if (size > 0) write_to_disk(offset, p, size);
 }
 
-void StagedFile::resize(std::uint64_t size) {
+void JournaledFile::resize(std::uint64_t size) {
     if (!abandoned_) size_ = size;
 }
 
-void StagedFile::sync() {
+void JournaledFile::sync() {
     if (::fdatasync(file_) != 0) fail("could not be brought onto the disk");
 }
 
-void StagedFile::open_journal() {
+void JournaledFile::open_journal() {
     if (journal_ >= 0) return;
     journal_ =
         ::open(journal_path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
@@ -216,7 +216,7 @@ void StagedFile::open_journal() {
     sync_folder_of(path_);
 }
 
-void StagedFile::write_journal() {
+void JournaledFile::write_journal() {
     open_journal();
     std::vector<unsigned char> bytes(sizeof(JournalHead));
     for (const auto& [number, page] : waiting_) {
@@ -235,20 +235,20 @@ void StagedFile::write_journal() {
     if (::fdatasync(journal_) != 0) fail("has a journal that could not be brought onto the disk");
 }
 
-void StagedFile::empty_journal() {
+void JournaledFile::empty_journal() {
     if (::ftruncate(journal_, 0) != 0) fail("has a journal that could not be emptied");
     journal_counts_ = false;
 }
 
-void StagedFile::copy_pages() {
+void JournaledFile::copy_pages() {
     for (const auto& [number, page] : waiting_)
         write_to_disk(number * page_size, page.data(), page_size);
     if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) fail("could not be resized");
 }
 
-void StagedFile::commit() {
+void JournaledFile::commit() {
     if (abandoned_) return;
-    refuse_after_failure();
+    reject_after_failure();
     sync();
     write_journal();
     committed_ = size_;
@@ -259,8 +259,8 @@ void StagedFile::commit() {
     new_ = false;
 }
 
-void StagedFile::rename_to(const std::filesystem::path& path) {
-    refuse_after_failure();
+void JournaledFile::rename_to(const std::filesystem::path& path) {
+    reject_after_failure();
     // A journal that came back after a power cut must not be that of the next file of this name.
     open_journal();
     if (::fdatasync(journal_) != 0) fail("has a journal that could not be brought onto the disk");
@@ -271,7 +271,7 @@ void StagedFile::rename_to(const std::filesystem::path& path) {
     if (::close(std::exchange(file_, -1)) != 0) fail("could not be closed");
 }
 
-void StagedFile::abandon() {
+void JournaledFile::abandon() {
     if (abandoned_) return;
     abandoned_ = true;
     waiting_.clear();

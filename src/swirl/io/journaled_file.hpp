@@ -36,17 +36,17 @@
 
 namespace swirl {
 
-class StagedFile {
+class JournaledFile {
   public:
     enum class Mode { create, change, read };
 
     /// Throws FileError, also for what is no regular file, and for a symbolic link that is to be
     /// written. Finishes an interrupted commit (in memory only, when reading).
-    StagedFile(const std::filesystem::path& path, Mode mode);
+    JournaledFile(const std::filesystem::path& path, Mode mode);
     /// Commits nothing.
-    ~StagedFile();
-    StagedFile(const StagedFile&) = delete;
-    StagedFile& operator=(const StagedFile&) = delete;
+    ~JournaledFile();
+    JournaledFile(const JournaledFile&) = delete;
+    JournaledFile& operator=(const JournaledFile&) = delete;
 
     /// Bytes never written read as zero.
     void read(std::uint64_t offset, void* bytes, std::size_t size);
@@ -73,7 +73,7 @@ class StagedFile {
     using Page = std::vector<unsigned char>;
 
     [[noreturn]] void fail(std::string_view what);
-    void refuse_after_failure() const;
+    void reject_after_failure() const;
     void open(Mode mode);
     void begin_anew();
     void write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size);

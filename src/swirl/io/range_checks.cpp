@@ -11,13 +11,13 @@
 namespace swirl {
 namespace {
 
-class PossibleDish {
+class PossibleContainer {
   public:
-    PossibleDish(const Snapshot& snapshot, Spins spins, const std::string& file)
+    PossibleContainer(const Snapshot& snapshot, Spins spins, const std::string& file)
         : s_(snapshot), spins_(spins), file_(file) {}
 
     void container() const {
-        between("number of swirls", double(s_.swirls), -most_periods, most_periods);
+        between("number of swirls", double(s_.periods), -max_periods, max_periods);
         between("period", s_.period, smallest_value, largest_value);
         // Rounded: of a camera's tracks it is the time less the whole swirls before.
         const double rounding = 1e-6 * s_.period;
@@ -34,10 +34,10 @@ class PossibleDish {
         between("mass", s_.mass[i], smallest_value, largest_value);
         within("velocity", s_.velocity(i), largest_magnitude);
         within("position", s_.position(i), largest_coordinate);
-        if (is_known(s_.inertia[i]))
+        if (is_available(s_.inertia[i]))
             between("moment of inertia", s_.inertia[i], smallest_inertia, largest_inertia);
-        if (is_known(s_.angle[i])) within("angle", s_.angle[i], largest_magnitude);
-        if (is_known(s_.spin[i])) within("spin", s_.spin[i], largest_magnitude);
+        if (is_available(s_.angle[i])) within("angle", s_.angle[i], largest_magnitude);
+        if (is_available(s_.spin[i])) within("spin", s_.spin[i], largest_magnitude);
         if (!s_.are_spheres()) return;
         within("rolling spin", Vec2{s_.spin_x[i], s_.spin_y[i]}, largest_magnitude);
         if (s_.turned.empty()) return;
@@ -47,20 +47,20 @@ class PossibleDish {
     }
 
   private:
-    bool is_known(double value) const { return spins_ == Spins::known || !std::isnan(value); }
+    bool is_available(double value) const { return spins_ == Spins::known || !std::isnan(value); }
     void between(const char* name, double value, double from, double to) const {
         if (value >= from && value <= to) return;
         throw FileError(fmt::format("{} {}{} is {} in swirl {}, but must be from {} to {}.",
                                     file_.empty() ? "The" : fmt::format("'{}': the", file_), name,
                                     disc_ ? fmt::format(" of disc {}", *disc_) : "", value,
-                                    s_.swirls, from, to));
+                                    s_.periods, from, to));
     }
-    void within(const char* name, double value, double most) const {
-        between(name, value, -most, most);
+    void within(const char* name, double value, double maximum) const {
+        between(name, value, -maximum, maximum);
     }
-    void within(const char* name, const Vec2& value, double most) const {
-        within(name, value.x, most);
-        within(name, value.y, most);
+    void within(const char* name, const Vec2& value, double maximum) const {
+        within(name, value.x, maximum);
+        within(name, value.y, maximum);
     }
 
     const Snapshot& s_;
@@ -72,7 +72,7 @@ class PossibleDish {
 }  // namespace
 
 void require_possible(const Snapshot& snapshot, Spins spins, const std::string& file) {
-    PossibleDish check(snapshot, spins, file);
+    PossibleContainer check(snapshot, spins, file);
     check.container();
     for (std::size_t i = 0; i < snapshot.size(); ++i) check.disc(i);
 }

@@ -14,13 +14,13 @@ std::filesystem::path partial_name(const std::filesystem::path& path) {
 }
 
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name) {
-    const Hdf5File recording(file, StagedFile::Mode::read);
+    const Hdf5File recording(file, JournaledFile::Mode::read);
     h5md::require_known_format(recording, file);
     const std::string at = "/parameters/" + name;
     return recording.has(at) ? recording.read_text(at) : "";
 }
 
-void refuse_recording_of_another(const std::filesystem::path& file, const std::string& run) {
+void reject_recording_of_another(const std::filesystem::path& file, const std::string& run) {
     if (recorded_entry(file, run_entry) != run)
         throw FileError(fmt::format(
             "'{}' was recorded by another run than the checkpoint, and is left as it is; the run "
@@ -28,12 +28,12 @@ void refuse_recording_of_another(const std::filesystem::path& file, const std::s
             file.string()));
 }
 
-void refuse_foreign_recording(const std::filesystem::path& path, const std::string& run) {
+void reject_foreign_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
     std::error_code ignored;
     if (!std::filesystem::exists(partial, ignored)) return;
     // Killed before its first commit: nothing was ever in there.
-    if (StagedFile(partial, StagedFile::Mode::read).size() == 0) return;
+    if (JournaledFile(partial, JournaledFile::Mode::read).size() == 0) return;
     if (recorded_entry(partial, run_entry) != run)
         throw FileError(
             fmt::format("'{}' is the unfinished recording of another run; finish that one with "
@@ -48,9 +48,9 @@ Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& 
     const bool finished =
         !std::filesystem::exists(partial, ignored) && std::filesystem::exists(path, ignored);
     const auto& there = finished ? path : partial;
-    refuse_recording_of_another(there, run);
+    reject_recording_of_another(there, run);
     if (finished) give_final_name(path, partial);
-    return {partial, StagedFile::Mode::change};
+    return {partial, JournaledFile::Mode::change};
 }
 
 std::uint64_t common_length(const std::filesystem::path& path, bool complete,

@@ -18,13 +18,13 @@ inline constexpr const char* run_entry = "run";
 std::filesystem::path partial_name(const std::filesystem::path& path);
 
 /// Throws FileError if NAME.partial holds something of another run, or of nobody knows which.
-void refuse_foreign_recording(const std::filesystem::path& path, const std::string& run);
+void reject_foreign_recording(const std::filesystem::path& path, const std::string& run);
 
 /// What a recording says of itself under this name (parameters/NAME), "" if nothing.
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name);
 
 /// Throws FileError if this recording belongs to another run.
-void refuse_recording_of_another(const std::filesystem::path& file, const std::string& run);
+void reject_recording_of_another(const std::filesystem::path& file, const std::string& run);
 
 /// Opens a recording to go on with it. Throws FileError if it belongs to another run. A kill can
 /// come after a recording got its name and before the result that belongs to it was written: it

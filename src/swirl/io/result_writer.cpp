@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds gathering(200);
 /// Each has a descriptor until it has its name, and a process may have a thousand or so.
-constexpr std::size_t most_at_once = 128;
+constexpr std::size_t max_at_once = 128;
 
 }  // namespace
 
@@ -54,8 +54,8 @@ void ResultWriter::work() {
         lock.unlock();
         std::exception_ptr failure;
         try {
-            for (std::size_t k = 0; k < items.size(); k += most_at_once)
-                write_together({items.data() + k, std::min(most_at_once, items.size() - k)});
+            for (std::size_t k = 0; k < items.size(); k += max_at_once)
+                write_together({items.data() + k, std::min(max_at_once, items.size() - k)});
         } catch (...) {
             failure = std::current_exception();
         }
@@ -67,9 +67,9 @@ void ResultWriter::work() {
 void ResultWriter::write_together(std::span<Item> items) {
     SyncTogether together(folder_);
     // Unfinished ones remove themselves.
-    std::vector<std::unique_ptr<WholeFile>> files;
+    std::vector<std::unique_ptr<AtomicFile>> files;
     for (const Item& item : items) {
-        files.push_back(std::make_unique<WholeFile>(folder_ / item.name));
+        files.push_back(std::make_unique<AtomicFile>(folder_ / item.name));
         files.back()->append(item.bytes);
         files.back()->empty_buffer();
     }

@@ -105,7 +105,7 @@ class TrackWriter {
 class TrackReader {
   public:
     explicit TrackReader(const std::filesystem::path& path)
-        : path_(path), file_(path, StagedFile::Mode::read) {
+        : path_(path), file_(path, JournaledFile::Mode::read) {
         if (!file_.has(place_of("position/value")) || !file_.has(place_of("id/value")))
             throw FileError(fmt::format("'{}' is an HDF5 file, but holds no tracks: it has no {}.",
                                         path.string(), place_of("position")));
@@ -171,7 +171,7 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
                            const std::vector<double>& times,
                            const std::vector<TrackColumn>& columns, const Provenance& provenance) {
     const std::filesystem::path partial = partial_name(path);
-    Hdf5File file(partial, StagedFile::Mode::create);
+    Hdf5File file(partial, JournaledFile::Mode::create);
     try {
         h5md::create_head(file, h5md::tracks);
         h5md::create_parameters(file, provenance);
@@ -192,7 +192,7 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
 
 bool is_track_recording(const std::filesystem::path& path) {
     try {
-        return Hdf5File(path, StagedFile::Mode::read).has(place_of("position/value"));
+        return Hdf5File(path, JournaledFile::Mode::read).has(place_of("position/value"));
     } catch (const FileError&) {
         return false;
     }

@@ -170,12 +170,12 @@ void mend(Tracks& tracks, double radius) {
     std::vector<Piece> pieces;
     if (dense_enough(given, step, radius)) {
         pieces = cut_at_jumps(given, step, radius);
-        tracks.mended.renamed = join(pieces, step, radius);
+        tracks.repaired.renamed = join(pieces, step, radius);
     } else {
         for (const auto& [id, track] : given) pieces.push_back({id, track});
     }
-    tracks.mended.filled = fill_gaps(pieces, step);
-    tracks.mended.dropped = drop_lonely(pieces, step);
+    tracks.repaired.filled = fill_gaps(pieces, step);
+    tracks.repaired.dropped = drop_lonely(pieces, step);
     name_anew(pieces);
     std::sort(pieces.begin(), pieces.end(),
               [](const Piece& a, const Piece& b) { return a.id < b.id; });

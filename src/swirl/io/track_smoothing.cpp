@@ -11,7 +11,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::size_t fewest_places = 400;  // for a noise known to some per cent
+constexpr std::size_t min_places = 400;  // for a noise known to some per cent
 constexpr int rounds = 8;
 constexpr double rarest_kick = 1e-6;
 // A kick is of the speeds there are; those of many weak collisions count as three swirls'
@@ -93,7 +93,7 @@ double noise_of(const std::vector<Stretch>& stretches) {
             const Vec2 d = p.place[k + 1] - 2.0 * p.place[k] + p.place[k - 1];
             squares.push_back(dot(d, d));
         }
-    if (squares.size() < fewest_places) return -1.0;
+    if (squares.size() < min_places) return -1.0;
     const auto quartile = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
     std::nth_element(squares.begin(), quartile, squares.end());
     return *quartile / (12.0 * std::log(4.0 / 3.0));
@@ -256,7 +256,7 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
     const auto given = [](const TrackFrame& f) { return !f.velocity.empty(); };
     if (std::any_of(tracks.frames.begin(), tracks.frames.end(), given)) return found;
     const double rate = scale.frames_per_time / double(commonest_step(tracks));
-    if (rate * scale.period < fewest_pictures) return found;
+    if (rate * scale.period < min_pictures) return found;
     std::vector<Stretch> stretches = stretches_of(tracks, scale);
     const double measured = noise_of(stretches);
     if (!(measured >= 0.0)) return found;

@@ -36,7 +36,7 @@
 
 namespace swirl {
 
-inline constexpr double fewest_pictures = 100.0;
+inline constexpr double min_pictures = 100.0;
 
 struct TrackSmoothing {
     bool done = false;

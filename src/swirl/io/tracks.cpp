@@ -137,8 +137,8 @@ class TrackSeries {
         s.resize(f.id.size());
         const double time = time_of(k);
         s.period = period_;
-        s.swirls = static_cast<std::int64_t>(std::floor(time / s.period));
-        s.clock = time - double(s.swirls) * s.period;
+        s.periods = static_cast<std::int64_t>(std::floor(time / s.period));
+        s.clock = time - double(s.periods) * s.period;
         s.container_radius = scale_.container_radius;
         const Vec2 direction = unit_circle(phase() / (2.0 * pi) + s.clock / s.period);
         s.container_centre = scale_.amplitude * direction;

@@ -45,7 +45,7 @@ struct Tracks {
         std::uint64_t filled = 0;   // positions put back into short gaps
         std::uint64_t renamed = 0;  // tracks that went on under another name
         std::uint64_t dropped = 0;  // positions of discs seen in a single frame
-    } mended;                       // by track_repair.hpp
+    } repaired;                     // by track_repair.hpp
 };
 
 /// A disc missing for longer is not put back, and has no velocity across the gap.

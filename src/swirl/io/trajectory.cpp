@@ -29,7 +29,7 @@ bool lie_in_plane(const std::vector<double>& vectors) {
 }  // namespace
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
-    : path_(path.string()), file_(std::make_unique<Hdf5File>(path, StagedFile::Mode::read)) {
+    : path_(path.string()), file_(std::make_unique<Hdf5File>(path, JournaledFile::Mode::read)) {
     if (!file_->has_attribute("/h5md", "version") || !file_->has(particles + "/position/value"))
         throw FileError(
             fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}/position.",
@@ -59,7 +59,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
         return of_frames(observables + "/" + name + "/value");
     };
     const auto numbers = [&](const char* name) { return observed(name).read<double>(); };
-    swirls_ = observed("swirls").read<std::int64_t>();
+    periods_ = observed("swirls").read<std::int64_t>();
     events_ = observed("events").read<std::int64_t>();
     clock_ = numbers("clock");
     container_x_ = numbers("container_x");
@@ -71,7 +71,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
     std::vector<std::uint64_t> lengths{
         position_.rows(),    velocity_.rows(),    angle_.rows(),       angular_velocity_.rows(),
-        step_.rows(),        time_.rows(),        swirls_.size(),      events_.size(),
+        step_.rows(),        time_.rows(),        periods_.size(),     events_.size(),
         clock_.size(),       container_x_.size(), container_y_.size(), container_vx_.size(),
         container_vy_.size()};
     if (are_spheres_) {
@@ -136,7 +136,7 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
         throw FileError(fmt::format("Frame {} was asked for, but there are {}.", k, frames_));
     load_block_of(k);
     Snapshot s = fixed_;
-    s.swirls = swirls_[k];
+    s.periods = periods_[k];
     s.clock = clock_[k];
     s.container_centre = {container_x_[k], container_y_[k]};
     s.container_velocity = {container_vx_[k], container_vy_[k]};
@@ -221,7 +221,8 @@ std::string TrajectoryReader::contradicted_by_names_or_times() const {
         const auto times = time.read<double>(0, frames_);
         for (std::uint64_t k = 0; k < frames_; ++k) {
             if (steps[k] != std::int64_t(k)) return series + "/step";
-            if (times[k] != double(swirls_[k]) * fixed_.period + clock_[k]) return series + "/time";
+            if (times[k] != double(periods_[k]) * fixed_.period + clock_[k])
+                return series + "/time";
         }
     }
     return "";

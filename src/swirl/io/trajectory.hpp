@@ -121,7 +121,7 @@ class TrajectoryReader {
     Column position_, velocity_, angle_, angular_velocity_, rolling_spin_, orientation_;
     Column step_, time_;
     bool are_spheres_ = false;
-    std::vector<std::int64_t> swirls_, events_;
+    std::vector<std::int64_t> periods_, events_;
     std::vector<double> clock_, container_x_, container_y_, container_vx_, container_vy_;
     Snapshot fixed_;
     std::uint64_t frames_ = 0, block_ = 0, block_begin_ = 0, block_end_ = 0;

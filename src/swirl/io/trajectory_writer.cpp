@@ -33,16 +33,16 @@ constexpr std::chrono::milliseconds flush_interval(500);
 // A chunk is what is compressed, written and read in one piece. Small enough for six of them to
 // stay near the processor, large enough for their number not to matter.
 constexpr std::uint64_t chunk_bytes = 128 * 1024;
-constexpr std::uint64_t most_frames_per_chunk = 1024;
+constexpr std::uint64_t max_frames_per_chunk = 1024;
 
 std::uint64_t frames_per_chunk(std::uint64_t discs) {
     const std::uint64_t frame = std::max<std::uint64_t>(1, discs) * sizeof(double);
-    return std::clamp<std::uint64_t>(chunk_bytes / frame, 1, most_frames_per_chunk);
+    return std::clamp<std::uint64_t>(chunk_bytes / frame, 1, max_frames_per_chunk);
 }
 /// Of the columns with one value for each frame; whole chunks of the others.
 std::uint64_t moments_per_chunk(std::uint64_t discs) {
     const std::uint64_t frames = frames_per_chunk(discs);
-    return most_frames_per_chunk / frames * frames;
+    return max_frames_per_chunk / frames * frames;
 }
 
 /// The columns with one value for each disc and frame, and where they are in the file. Those from
@@ -77,7 +77,7 @@ constexpr bool shares_dataset(int quantity) { return places[quantity].component.
 enum Moment {
     step,
     time,
-    swirls,
+    periods,
     clock,
     events,
     centre_x,
@@ -90,7 +90,7 @@ constexpr const char* moment_names[moments] = {"step",        "time",         "s
                                                "clock",       "events",       "container_x",
                                                "container_y", "container_vx", "container_vy"};
 constexpr bool is_whole(int moment) {
-    return moment == step || moment == swirls || moment == events;
+    return moment == step || moment == periods || moment == events;
 }
 std::string moment_place(int moment) {
     if (moment == step || moment == time) return particles + "/position/" + moment_names[moment];
@@ -434,7 +434,7 @@ class TrajectoryWriter::Work {
         }
         b.of_frames[step][k] = frames_;
         b.of_frames[time][k] = bits_of(s.time());
-        b.of_frames[swirls][k] = static_cast<std::uint64_t>(s.swirls);
+        b.of_frames[periods][k] = static_cast<std::uint64_t>(s.periods);
         b.of_frames[clock][k] = bits_of(s.clock);
         b.of_frames[events][k] = events_before;
         b.of_frames[centre_x][k] = bits_of(s.container_centre.x);
@@ -552,7 +552,7 @@ namespace {
 
 FrameFile new_file(const std::filesystem::path& path, const Snapshot& first,
                    const Provenance& provenance, int compression) {
-    Hdf5File file(partial_name(path), StagedFile::Mode::create);
+    Hdf5File file(partial_name(path), JournaledFile::Mode::create);
     create_layout(file, first, Compression(compression));
     create_parameters(file, first, provenance);
     return {path, std::move(file)};

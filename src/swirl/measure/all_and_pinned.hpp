@@ -21,27 +21,28 @@ namespace swirl {
 class AllAndPinned {
   public:
     /// After every sample of the discs: who is on a long stay.
-    void sample_stays(const LongStays& stays) {
-        if (held_.empty() || !stays.knows(held_at_)) return;
+    void sample_residences(const LongResidences& residences) {
+        if (held_.empty() || !residences.knows(held_at_)) return;
         for (std::size_t i = 0; i < held_.size(); ++i)
-            if (held_[i] == held_[i] && stays.pinned(i, held_at_)) on_stays_.add(held_[i]);
+            if (held_[i] == held_[i] && residences.pinned(i, held_at_))
+                on_residences_.add(held_[i]);
         held_.clear();
     }
     void close_block() {
-        for (BlockMean* mean : {&all_, &pinned_, &on_stays_}) mean->close_block();
+        for (BlockMean* mean : {&all_, &pinned_, &on_residences_}) mean->close_block();
     }
     Estimate all() const { return all_.estimate(); }
     Estimate pinned() const { return pinned_.estimate(); }
-    Estimate on_stays() const { return on_stays_.estimate(); }
+    Estimate on_residences() const { return on_residences_.estimate(); }
 
     void merge(const AllAndPinned& other) {
         all_.merge(other.all_);
         pinned_.merge(other.pinned_);
-        on_stays_.merge(other.on_stays_);
+        on_residences_.merge(other.on_residences_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        for (BlockMean* mean : {&all_, &pinned_, &on_stays_}) visit(*mean);
+        for (BlockMean* mean : {&all_, &pinned_, &on_residences_}) visit(*mean);
         visit(held_);
         visit(held_at_);
     }
@@ -63,7 +64,7 @@ class AllAndPinned {
     }
 
   private:
-    BlockMean all_, pinned_, on_stays_;
+    BlockMean all_, pinned_, on_residences_;
     std::vector<double> held_;  // of each disc, until it is known who was on a long stay then
     double held_at_ = 0.0;
 };

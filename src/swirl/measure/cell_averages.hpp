@@ -80,7 +80,7 @@ class CellMeans {
     double visits(std::size_t cell) const { return sums_[cell].w; }
     double mean(std::size_t cell, std::size_t quantity = 0) const {
         const Sums& t = sums_[cell];
-        return t.w != 0.0 ? t.s[quantity] / t.w : not_known;
+        return t.w != 0.0 ? t.s[quantity] / t.w : not_available;
     }
     Estimate estimate(std::size_t cell, std::size_t quantity = 0) const {
         const Sums& t = sums_[cell];
@@ -152,7 +152,7 @@ class CellRates {
     }
     double weight() const { return w_; }
     double sum(std::size_t cell) const { return s_[cell]; }
-    double mean(std::size_t cell) const { return w_ != 0.0 ? s_[cell] / w_ : not_known; }
+    double mean(std::size_t cell) const { return w_ != 0.0 ? s_[cell] / w_ : not_available; }
     Estimate estimate(std::size_t cell) const {
         return RatioSums{s_[cell], w_, ss_[cell], sw_[cell], ww_}.estimate(blocks_);
     }

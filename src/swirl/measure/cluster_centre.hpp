@@ -55,8 +55,8 @@ class ClusterCentre {
             const double coriolis = 2.0 * omega * square_root(dot(v, v));
             centrifugal_.add(centrifugal);
             coriolis_.add(coriolis);
-            most_centrifugal_ = std::max(most_centrifugal_, centrifugal);
-            most_coriolis_ = std::max(most_coriolis_, coriolis);
+            max_centrifugal_ = std::max(max_centrifugal_, centrifugal);
+            max_coriolis_ = std::max(max_coriolis_, coriolis);
         }
         left_.add(left / n);
         const double mean = 0.5 * (xx + yy);
@@ -99,13 +99,13 @@ class ClusterCentre {
         visit(ReportRow{"most_centrifugal",
                         "v²/r",
                         "the highest centrifugal force",
-                        {.mean = samples_ > 0 ? most_centrifugal_ : not_known},
+                        {.mean = samples_ > 0 ? max_centrifugal_ : not_available},
                         {},
                         false});
         visit(ReportRow{"most_coriolis",
                         "v²/r",
                         "the highest Coriolis force",
-                        {.mean = samples_ > 0 ? most_coriolis_ : not_known},
+                        {.mean = samples_ > 0 ? max_coriolis_ : not_available},
                         {},
                         false});
     }
@@ -119,14 +119,14 @@ class ClusterCentre {
         coriolis_.merge(other.coriolis_);
         direction_.merge(other.direction_);
         samples_ += other.samples_;
-        most_centrifugal_ = std::max(most_centrifugal_, other.most_centrifugal_);
-        most_coriolis_ = std::max(most_coriolis_, other.most_coriolis_);
+        max_centrifugal_ = std::max(max_centrifugal_, other.max_centrifugal_);
+        max_coriolis_ = std::max(max_coriolis_, other.max_coriolis_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        visit(most_centrifugal_);
-        visit(most_coriolis_);
+        visit(max_centrifugal_);
+        visit(max_coriolis_);
         for (BlockMean* mean : means()) visit(*mean);
         visit(direction_);
     }
@@ -138,7 +138,7 @@ class ClusterCentre {
 
     int every_;
     std::int64_t samples_ = 0;
-    double most_centrifugal_ = 0.0, most_coriolis_ = 0.0;
+    double max_centrifugal_ = 0.0, max_coriolis_ = 0.0;
     BlockMean x_, y_, distance_, left_, elongation_, centrifugal_, coriolis_;
     CircularMean direction_;
 };

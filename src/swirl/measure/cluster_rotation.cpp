@@ -29,7 +29,7 @@ RotationCentre centre_one_by_one(const Snapshot& s) {
 }
 
 RotationSample rates_one_by_one(const Snapshot& s, const RotationCentre& c, double closest_square) {
-    if (s.size() < 2) return {not_known, not_known};
+    if (s.size() < 2) return {not_available, not_available};
     const Vec2 centre = c.position + (s.clock - c.held_at) * c.velocity;
     double individual = 0.0, counted = 0.0, angular = 0.0, square = 0.0;
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -41,8 +41,8 @@ RotationSample rates_one_by_one(const Snapshot& s, const RotationCentre& c, doub
         individual += l / q;
         counted += 1.0;
     }
-    return {counted > 0.0 ? individual / counted : not_known,
-            square > closest_square ? angular / square : not_known};
+    return {counted > 0.0 ? individual / counted : not_available,
+            square > closest_square ? angular / square : not_available};
 }
 
 RotationCentre centre_of(const Snapshot& s, const RotationKernel& kernel) {

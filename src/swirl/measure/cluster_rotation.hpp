@@ -143,7 +143,7 @@ class ClusterRotation {
 
   private:
     struct OpenBlock {
-        double individual = 0.0, rigid = 0.0, samples = 0.0, period = not_known;
+        double individual = 0.0, rigid = 0.0, samples = 0.0, period = not_available;
 
         void add(const RotationSample& sample, double snapshot_period) {
             individual += sample.individual;

@@ -227,22 +227,22 @@ struct Centre {
 };
 
 struct Turning {
-    Eight individual, angular, square, least;
+    Eight individual, angular, square, minimum;
 
     SWIRL_INLINE explicit Turning(const Arm& a)
-        : individual(a.l / a.q), angular(a.l), square(a.q), least(a.q) {}
+        : individual(a.l / a.q), angular(a.l), square(a.q), minimum(a.q) {}
     SWIRL_INLINE void add(const Arm& a) {
         individual = individual + a.l / a.q;
         angular = angular + a.l;
         square = square + a.q;
-        least = smaller_of(a.q, least);
+        minimum = smaller_of(a.q, minimum);
     }
     /// With one division for both.
     SWIRL_INLINE void add(const Arm& a, const Arm& b) {
         individual = individual + (a.l * b.q + b.l * a.q) / (a.q * b.q);
         angular = (angular + a.l) + b.l;
         square = (square + a.q) + b.q;
-        least = smaller_of(b.q, smaller_of(a.q, least));
+        minimum = smaller_of(b.q, smaller_of(a.q, minimum));
     }
     /// Where a lane counts (1) or has counted before (0).
     SWIRL_INLINE void add(const Arm& a, const Eight& counts) {
@@ -250,7 +250,7 @@ struct Turning {
         individual = individual + l / a.q;
         angular = angular + l;
         square = square + a.q * counts;
-        least = smaller_of(a.q, least);
+        minimum = smaller_of(a.q, minimum);
     }
 };
 
@@ -296,7 +296,7 @@ SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& abou
     for (; i + lanes < rows.whole; i += 2 * lanes) t.add(arm(i), arm(i + lanes));
     if (i < rows.whole) t.add(arm(i));
     if (rows.left > 0) t.add(arm(rows.last), rows.counts());
-    t.individual = where_above(t.least, closest_square, t.individual);
+    t.individual = where_above(t.minimum, closest_square, t.individual);
     const Double2 above = sums(t.individual, t.angular);
     const Double2 below{static_cast<double>(about.discs), sums(t.square, t.square)[0]};
     return above / below;

@@ -64,7 +64,7 @@ double FittingPhase::protrusion() const {
 
 FittingPhase::Fit FittingPhase::best(bool clockwise) const {
     std::vector<double> sums;
-    double least = never;
+    double minimum = never;
     for (int k = 0; k < directions; ++k) {
         const double begin = double(k) / directions;
         double sum = 0.0;
@@ -74,13 +74,13 @@ FittingPhase::Fit FittingPhase::best(bool clockwise) const {
             sum += protrusion(sample, amplitude_ * unit_circle(turns - whole));
         }
         sums.push_back(sum);
-        least = std::min(least, sum);
+        minimum = std::min(minimum, sum);
     }
     // Where several fit as well, the middle of them.
     Vec2 middle{0.0, 0.0};
     for (int k = 0; k < directions; ++k)
-        if (sums[std::size_t(k)] <= least) middle = middle + unit_circle(double(k) / directions);
-    return {2.0 * pi * turns_of(middle), least};
+        if (sums[std::size_t(k)] <= minimum) middle = middle + unit_circle(double(k) / directions);
+    return {2.0 * pi * turns_of(middle), minimum};
 }
 
 }  // namespace swirl

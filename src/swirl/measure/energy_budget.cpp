@@ -95,7 +95,7 @@ void EnergyBudget::compare(double energy) {
 }
 
 double EnergyBudget::unaccounted_share() const {
-    if (!begun_) return not_known;
+    if (!begun_) return not_available;
     return worst_ / std::fmax(std::fabs(total_work()), std::fabs(total_loss()));
 }
 

@@ -68,7 +68,7 @@ class GranularTemperature {
             sum += cells_.visits(c) * temperature(c);
             visits += cells_.visits(c);
         }
-        e.mean = visits > 0.0 ? sum / visits + missing_ : not_known;
+        e.mean = visits > 0.0 ? sum / visits + missing_ : not_available;
         return e;
     }
     Estimate of_the_spin() const {

@@ -39,7 +39,7 @@ inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::s
         im += b->length * (four.x * two.y + four.y * two.x);
         total += b->length;
     }
-    return total > 0.0 ? square_root(re * re + im * im) / total : not_known;
+    return total > 0.0 ? square_root(re * re + im * im) / total : not_available;
 }
 
 class HexaticOrder : public AllAndPinned {
@@ -69,7 +69,7 @@ class HexaticOrder : public AllAndPinned {
         visit(ReportRow{"all", "1", "hexatic order ψ6 of all discs", all()});
         visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
         visit(ReportRow{"stays", "1", "hexatic order ψ6 of the discs on a stay at the wall",
-                        on_stays()});
+                        on_residences()});
         visit(ReportRow{"six", "1", "share with six neighbours, of the discs away from the wall",
                         six()});
         visit(ReportRow{"six_pinned", "1", "the same of the pinned discs", six_pinned()});

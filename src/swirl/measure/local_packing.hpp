@@ -26,7 +26,7 @@ class LocalPacking : public AllAndPinned {
                 std::span<const std::uint8_t> pinned = {}) {
         add(view, pinned, [&](std::size_t i) {
             const double area = cells.area(i);
-            return area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_known;
+            return area > 0.0 ? pi * view.radius[i] * view.radius[i] / area : not_available;
         });
     }
 
@@ -35,7 +35,7 @@ class LocalPacking : public AllAndPinned {
         visit(ReportRow{"all", "1", "local packing fraction φ of all discs", all()});
         visit(ReportRow{"pinned", "1", "local packing fraction φ of the pinned discs", pinned()});
         visit(ReportRow{"stays", "1", "local packing fraction φ of the discs on a stay at the wall",
-                        on_stays()});
+                        on_residences()});
     }
 };
 

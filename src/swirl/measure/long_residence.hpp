@@ -23,7 +23,7 @@
 namespace swirl {
 
 /// Of the wall's layer in disc radii, and the least length of a stay in periods.
-inline constexpr double wall_layer = 1.5, long_stay = 40.0 / 511.0;
+inline constexpr double wall_layer = 1.5, long_residence = 40.0 / 511.0;
 
 /// Is disc i within so many of its radii of the wall? A layer thicker than the dish is all of it.
 inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = wall_layer) {
@@ -32,7 +32,7 @@ inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = 
     return !(inner > 0.0) || dot(p, p) > inner * inner;
 }
 
-class LongStays {
+class LongResidences {
   public:
     /// All samples at equal steps of time.
     void sample(const MFrameView& view) {
@@ -41,7 +41,7 @@ class LongStays {
             begin_anew(view.size(), view.time);
         } else {
             // Half a step, since times are rounded.
-            least_ = long_stay * (2.0 * pi / view.frame.omega) - 0.5 * step;
+            minimum_ = long_residence * (2.0 * pi / view.frame.omega) - 0.5 * step;
         }
         for (std::size_t i = 0; i < view.size(); ++i) {
             const bool there = in_wall_layer(view, i);
@@ -50,7 +50,7 @@ class LongStays {
                 begin_[i] = view.time;
                 continue;
             }
-            if (last_ - begin_[i] >= least_) long_begin_[i] = begin_[i], long_end_[i] = last_;
+            if (last_ - begin_[i] >= minimum_) long_begin_[i] = begin_[i], long_end_[i] = last_;
             begin_[i] = never;
         }
         last_ = view.time;
@@ -58,7 +58,7 @@ class LongStays {
     /// The discs of the next sample are not those of the last.
     void begin_anew() { begin_.clear(); }
 
-    bool knows(double time) const { return !sees(time) || last_ - time >= least_; }
+    bool knows(double time) const { return !sees(time) || last_ - time >= minimum_; }
     bool pinned(std::size_t disc, double time) const {
         if (!sees(time) || disc >= begin_.size()) return false;
         return begin_[disc] <= time || (long_begin_[disc] <= time && time <= long_end_[disc]);
@@ -66,7 +66,7 @@ class LongStays {
 
     template <class Visitor>
     void fields(Visitor&& visit) {
-        for (double* value : {&first_, &last_, &least_}) visit(*value);
+        for (double* value : {&first_, &last_, &minimum_}) visit(*value);
         for (auto* column : {&begin_, &long_begin_, &long_end_}) visit(*column);
     }
     /// Where the discs are to begin again, what is kept of those before does not matter.
@@ -79,13 +79,13 @@ class LongStays {
     bool sees(double time) const { return first_ <= time && time <= last_; }
     void begin_anew(std::size_t discs, double time) {
         first_ = time;
-        least_ = never;
+        minimum_ = never;
         begin_.assign(discs, never);
         long_begin_.assign(discs, never);
         long_end_.assign(discs, never);
     }
 
-    double first_ = never, last_ = -never, least_ = never;  // times; in periods of the views
+    double first_ = never, last_ = -never, minimum_ = never;  // times; in periods of the views
     std::vector<double> begin_;                  // of the present stay; never: it is not there
     std::vector<double> long_begin_, long_end_;  // of the last long one; never: there was none
 };

@@ -72,7 +72,7 @@ struct CentreOfMass {
         const Vec2 r = p - position;
         const double square = dot(r, r);
         const double rate = cross(r, u - velocity) / square;
-        return square > closest_square ? rate : not_known;
+        return square > closest_square ? rate : not_available;
     }
 };
 

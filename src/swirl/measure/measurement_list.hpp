@@ -56,7 +56,7 @@ inline constexpr std::tuple measurement_list{
         "angular velocity about the centre of mass against θ (Fig. 3)"),
     measurement<PinnedByCollisions>("pinned", "pinned_loose.hpp",
         "where discs become pinned and free, by tracks and by collisions (Fig. 3)"),
-    measurement<WallStays>("stays", "wall_residence.hpp",
+    measurement<WallResidences>("stays", "wall_residence.hpp",
         "stays in the wall layer: where discs become pinned and free there (Fig. 3)"),
     measurement<ClusterCentre>("centre", "cluster_centre.hpp",
         "where the cluster is in the M-frame, its shape, centrifugal and Coriolis force"),

@@ -16,8 +16,8 @@ concept TakesPinned = requires(M& m, const MFrameView& view, Pinned pinned) {
     m.sample(view, pinned);
 };
 template <class M>
-concept TakesStays = requires(M& m, const LongStays& stays) {
-    m.sample_stays(stays);
+concept TakesResidences = requires(M& m, const LongResidences& residences) {
+    m.sample_residences(residences);
 };
 template <class M>
 concept TakesView = !TakesCells<M> && !TakesPinned<M> && requires(M & m, const MFrameView& view) {
@@ -134,7 +134,7 @@ Observation::Observation(double container_radius, double period, std::vector<std
         views_samples_ |= TakesView<M> || kind.needs_pinned || kind.needs_cells;
         follows_pinned_ |= same_discs && (kind.needs_pinned || kind.needs_cells);
         finds_cells_ |= kind.needs_cells;
-        follows_stays_ |= same_discs && TakesStays<M>;
+        follows_residences_ |= same_discs && TakesResidences<M>;
         samples_by_event_ |= TakesViewByEvent<M>;
     };
     std::apply(
@@ -149,7 +149,7 @@ void Observation::sample(const Snapshot& lab) {
     const MFrameView& now = follows_pinned_ ? pinned_.sample(lab) : view_;
     const MFrameView* const then = pinned_.earlier();
     const Pinned pinned = pinned_.pinned_loose().pinned();
-    if (follows_stays_ && then) stays_.sample(*then);
+    if (follows_residences_ && then) residences_.sample(*then);
     const bool positions = samples_ % samples_per_position == 0;
     const bool structure = finds_cells_ && (samples_ + 1) % samples_per_structure == 0;
     const MFrameView* const with_cells = structure ? frame_with_cells(now) : nullptr;
@@ -161,8 +161,8 @@ void Observation::sample(const Snapshot& lab) {
         } else if constexpr (TakesView<M>) {
             m.sample(now);
         }
-        if constexpr (TakesStays<M>) {
-            if (follows_stays_) m.sample_stays(stays_);
+        if constexpr (TakesResidences<M>) {
+            if (follows_residences_) m.sample_residences(residences_);
         }
         if constexpr (TakesLab<M>) m.sample_in_lab(lab);
         if constexpr (TakesPositions<M>) {
@@ -197,7 +197,7 @@ void Observation::sample(const Event& event, const Snapshot& after) {
 
 void Observation::begin_tracks() {
     pinned_.begin_tracks();
-    stays_.begin_anew();
+    residences_.begin_anew();
     each([]<class M>(M& m) {
         if constexpr (TakesPositions<M>) m.begin_anew();
     });

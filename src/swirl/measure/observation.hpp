@@ -147,7 +147,7 @@ class Observation {
         visit(discs_);
         visit(block_begins_);
         visit(pinned_);
-        visit(stays_);
+        visit(residences_);
         each([&](auto& m) { visit(m); });
     }
 
@@ -169,7 +169,7 @@ class Observation {
     double period_;
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
-    bool views_samples_ = false, follows_pinned_ = false, follows_stays_ = false;
+    bool views_samples_ = false, follows_pinned_ = false, follows_residences_ = false;
     bool finds_cells_ = false, samples_by_event_ = false;
 
     std::int64_t samples_ = 0;
@@ -177,8 +177,8 @@ class Observation {
     std::size_t discs_ = 0;     // at the last event
     bool block_begins_ = true;  // nothing has been sampled of it
     PinnedFrames pinned_;
-    LongStays stays_;  // of the frames that pinned_ knows
-    MFrameView view_;  // of now, where the pinned are not followed; and of the last event
+    LongResidences residences_;  // of the frames that pinned_ knows
+    MFrameView view_;            // of now, where the pinned are not followed; and of the last event
     Voronoi cells_;
 };
 

@@ -26,44 +26,44 @@ class SampleTimes {
     /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
     /// period; false if there is none left. Asked before every event, and mostly there is none.
     SWIRL_INLINE bool next(Snapshot& s, const ContainerPath& path, double clock) {
-        if (s.swirls == swirls_ && due_ > clock) return false;
+        if (s.periods == periods_ && due_ > clock) return false;
         return take_next(s, path, clock);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(index_, swirls_);
+        visit(index_, periods_);
     }
     /// By an interval every moment of the swirls before has been taken. (One less for rounding.)
     bool is_consistent() const {
         if (interval_ == 0.0) return index_ <= per_period_;
-        const double due = static_cast<double>(swirls_) * period_ / interval_;
+        const double due = static_cast<double>(periods_) * period_ / interval_;
         return static_cast<double>(index_) + 1.0 >= due * (1.0 - 1e-9);
     }
 
   private:
     bool take_next(Snapshot& s, const ContainerPath& path, double clock) {
-        if (s.swirls != swirls_) begin_period(s.swirls);
-        if (due_ == not_asked) due_ = next_in(s.swirls);
+        if (s.periods != periods_) begin_period(s.periods);
+        if (due_ == not_asked) due_ = next_in(s.periods);
         if (!(due_ <= clock)) return false;
         s.clock = due_;
-        const Leg& leg = path.leg_at(s.clock);
-        s.container_centre = leg.position_at(s.clock);
-        s.container_velocity = leg.velocity_at(s.clock);
+        const Segment& segment = path.segment_at(s.clock);
+        s.container_centre = segment.position_at(s.clock);
+        s.container_velocity = segment.velocity_at(s.clock);
         ++index_;
-        due_ = next_in(s.swirls);
+        due_ = next_in(s.periods);
         return true;
     }
-    void begin_period(std::int64_t swirls) {
+    void begin_period(std::int64_t periods) {
         if (interval_ == 0.0) index_ = 0;
-        swirls_ = swirls;
+        periods_ = periods;
         due_ = not_asked;
     }
     /// The next moment on the clock of this period; never, if it is not in it.
-    double next_in(std::int64_t swirls) const {
+    double next_in(std::int64_t periods) const {
         const auto k = static_cast<double>(index_);
         if (interval_ == 0.0) return index_ < per_period_ ? period_ * k / per_period_ : never;
         const double swirl = std::floor(k * interval_ / period_);
-        const auto now = static_cast<double>(swirls);
+        const auto now = static_cast<double>(periods);
         return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
     }
 
@@ -71,9 +71,9 @@ class SampleTimes {
 
     int per_period_;
     double period_, interval_;
-    std::int64_t index_ = 0;   // of the next
-    std::int64_t swirls_ = 0;  // whole periods before the one it counts in
-    double due_ = not_asked;   // its moment in this period, once it has been asked for
+    std::int64_t index_ = 0;    // of the next
+    std::int64_t periods_ = 0;  // whole periods before the one it counts in
+    double due_ = not_asked;    // its moment in this period, once it has been asked for
 };
 
 }  // namespace swirl

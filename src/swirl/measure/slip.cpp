@@ -4,12 +4,12 @@ namespace swirl {
 namespace {
 
 double perimeter_of(const MFrameView& view, std::vector<Vec2>& centres) {
-    if (view.size() == 0) return not_known;
+    if (view.size() == 0) return not_available;
     centres.clear();
     double radius = 0.0;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const Vec2 p = view.position(i);
-        if (!(dot(p, p) < never)) return not_known;
+        if (!(dot(p, p) < never)) return not_available;
         centres.push_back(p);
         radius += view.radius[i] / static_cast<double>(view.size());
     }
@@ -59,12 +59,13 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
     if (pinned_ones.count > 0.0) pinned_.add((omega - pinned_ones.mean()) * factor);
 }
 
-void Slip::sample_stays(const LongStays& stays) {
-    if (held_.empty() || !stays.knows(held_at_)) return;
-    Rates on_stays;
+void Slip::sample_residences(const LongResidences& residences) {
+    if (held_.empty() || !residences.knows(held_at_)) return;
+    Rates on_residences;
     for (const Rate& rate : held_)
-        if (stays.pinned(rate.disc, held_at_)) on_stays.add(rate.varpi);
-    if (on_stays.count > 0.0) stays_.add((held_omega_ - on_stays.mean()) * held_factor_);
+        if (residences.pinned(rate.disc, held_at_)) on_residences.add(rate.varpi);
+    if (on_residences.count > 0.0)
+        residences_.add((held_omega_ - on_residences.mean()) * held_factor_);
     held_.clear();
 }
 

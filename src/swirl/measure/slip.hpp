@@ -51,15 +51,15 @@ class Slip {
     /// `pinned`: for each disc whether it is pinned; empty where that is not known.
     void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
     /// After every sample of the discs, used or not: who is on a long stay.
-    void sample_stays(const LongStays& stays);
+    void sample_residences(const LongResidences& residences);
     void close_block() {
-        for (BlockMean* mean : {&cluster_, &pinned_, &stays_, &perimeter_, &pancake_})
+        for (BlockMean* mean : {&cluster_, &pinned_, &residences_, &perimeter_, &pancake_})
             mean->close_block();
     }
 
     Estimate cluster() const { return cluster_.estimate(); }
     Estimate pinned_region() const { return pinned_.estimate(); }
-    Estimate on_stays() const { return stays_.estimate(); }
+    Estimate on_residences() const { return residences_.estimate(); }
     /// P_cluster, in units of the snapshot's length.
     Estimate cluster_perimeter() const { return perimeter_.estimate(); }
     /// ϖ/Ω of the pancake with the cluster's momentary perimeter, averaged.
@@ -71,7 +71,7 @@ class Slip {
         visit(ReportRow{"pinned_region", "1", "slip parameter s of the pinned discs",
                         pinned_region()});
         visit(ReportRow{"stays", "1", "slip parameter s of the discs on a stay at the wall",
-                        on_stays()});
+                        on_residences()});
         visit(ReportRow{"cluster_perimeter", "r", "perimeter of the cluster", cluster_perimeter()});
         visit(ReportRow{"pancake", "Ω",
                         "rotation of a pancake of that perimeter that does not slip", pancake()});
@@ -79,14 +79,15 @@ class Slip {
     void merge(const Slip& other) {
         cluster_.merge(other.cluster_);
         pinned_.merge(other.pinned_);
-        stays_.merge(other.stays_);
+        residences_.merge(other.residences_);
         perimeter_.merge(other.perimeter_);
         pancake_.merge(other.pancake_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : {&cluster_, &pinned_, &stays_, &perimeter_, &pancake_}) visit(*mean);
+        for (BlockMean* mean : {&cluster_, &pinned_, &residences_, &perimeter_, &pancake_})
+            visit(*mean);
         visit(held_);
         for (double* value : {&held_at_, &held_factor_, &held_omega_}) visit(*value);
     }
@@ -99,7 +100,7 @@ class Slip {
   private:
     int every_;
     std::int64_t samples_ = 0;
-    BlockMean cluster_, pinned_, stays_, perimeter_, pancake_;
+    BlockMean cluster_, pinned_, residences_, perimeter_, pancake_;
     std::vector<Vec2> centres_;
     // Of the discs in the wall layer at a moment, until it is known which were on a long stay then.
     std::vector<Rate> held_;

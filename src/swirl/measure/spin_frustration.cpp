@@ -49,14 +49,14 @@ void SpinFrustration::sample(const MFrameView& view, std::span<const std::uint8_
     }
 }
 
-void SpinFrustration::sample_stays(const LongStays& stays) {
-    if (held_spins_.empty() || !stays.knows(held_at_)) return;
-    const auto pinned = [&](std::size_t disc) { return stays.pinned(disc, held_at_); };
+void SpinFrustration::sample_residences(const LongResidences& residences) {
+    if (held_spins_.empty() || !residences.knows(held_at_)) return;
+    const auto pinned = [&](std::size_t disc) { return residences.pinned(disc, held_at_); };
     for (const Spin& one : held_spins_)
-        if (pinned(one.disc)) stay_spin_.add(one.spin);
+        if (pinned(one.disc)) residence_spin_.add(one.spin);
     for (const Spins& pair : held_pairs_) {
         const bool i = pinned(pair.i), j = pinned(pair.j);
-        if (i || j) add_pair(stay_correlation_, pair.a, pair.b);
+        if (i || j) add_pair(residence_correlation_, pair.a, pair.b);
         if (i && j) add_pair(along_wall_, pair.a, pair.b);
     }
     held_spins_.clear();

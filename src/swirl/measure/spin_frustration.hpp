@@ -56,7 +56,7 @@ class SpinFrustration {
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }
     /// After every sample of the discs, used or not: who is on a long stay.
-    void sample_stays(const LongStays& stays);
+    void sample_residences(const LongResidences& residences);
     void close_block() {
         for (BlockMean* mean : means()) mean->close_block();
     }
@@ -65,8 +65,8 @@ class SpinFrustration {
     Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
     Estimate correlation() const { return correlation_.estimate(); }
     Estimate pinned_correlation() const { return pinned_correlation_.estimate(); }
-    Estimate stay_spin() const { return stay_spin_.estimate(); }
-    Estimate stay_correlation() const { return stay_correlation_.estimate(); }
+    Estimate residence_spin() const { return residence_spin_.estimate(); }
+    Estimate residence_correlation() const { return residence_correlation_.estimate(); }
     Estimate along_wall() const { return along_wall_.estimate(); }
     Estimate correlation_by_impulse() const { return by_impulse_.estimate(); }
     Estimate triangles() const { return triangles_.estimate(); }
@@ -82,13 +82,13 @@ class SpinFrustration {
         visit(ReportRow{"pinned_wall_spin", "Ω", "size of the spin of the pinned discs at the wall",
                         pinned_wall_spin()});
         visit(ReportRow{"stay_spin", "Ω", "size of the spin of the discs on a stay at the wall",
-                        stay_spin()});
+                        residence_spin()});
         visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
         visit(ReportRow{"pinned_correlation", "1", "the same of touching discs that are pinned",
                         pinned_correlation()});
         visit(ReportRow{"stay_correlation", "1",
                         "the same of a disc on a stay at the wall and any that it touches",
-                        stay_correlation()});
+                        residence_correlation()});
         visit(ReportRow{"along_wall", "1", "the same of touching discs that are both on a stay",
                         along_wall()});
         visit(ReportRow{"correlation_by_impulse", "1",
@@ -105,10 +105,10 @@ class SpinFrustration {
     void merge(const SpinFrustration& other) {
         wall_spin_.merge(other.wall_spin_);
         pinned_wall_spin_.merge(other.pinned_wall_spin_);
-        stay_spin_.merge(other.stay_spin_);
+        residence_spin_.merge(other.residence_spin_);
         correlation_.merge(other.correlation_);
         pinned_correlation_.merge(other.pinned_correlation_);
-        stay_correlation_.merge(other.stay_correlation_);
+        residence_correlation_.merge(other.residence_correlation_);
         along_wall_.merge(other.along_wall_);
         by_impulse_.merge(other.by_impulse_);
         triangles_.merge(other.triangles_);
@@ -136,9 +136,9 @@ class SpinFrustration {
 
   private:
     std::vector<BlockMean*> means() {
-        return {&wall_spin_,          &pinned_wall_spin_, &stay_spin_,     &correlation_,
-                &pinned_correlation_, &stay_correlation_, &along_wall_,    &by_impulse_,
-                &triangles_,          &coordination_,     &disc_sticking_, &wall_sticking_};
+        return {&wall_spin_,          &pinned_wall_spin_,      &residence_spin_, &correlation_,
+                &pinned_correlation_, &residence_correlation_, &along_wall_,     &by_impulse_,
+                &triangles_,          &coordination_,          &disc_sticking_,  &wall_sticking_};
     }
     /// ω_i ω_j over ½ (ω_i² + ω_j²), as a ratio of sums.
     static void add_pair(BlockMean& correlation, double a, double b, double weight = 1.0) {
@@ -146,14 +146,15 @@ class SpinFrustration {
         if (square > 0.0)
             correlation.add(a * b / square, weight * square);
         else if (!(square == square))
-            correlation.add(not_known);
+            correlation.add(not_available);
     }
 
     double gap_;
     int every_;
     std::int64_t samples_ = 0;
-    BlockMean wall_spin_, pinned_wall_spin_, stay_spin_, correlation_, triangles_, coordination_;
-    BlockMean pinned_correlation_, stay_correlation_, along_wall_, by_impulse_, disc_sticking_,
+    BlockMean wall_spin_, pinned_wall_spin_, residence_spin_, correlation_, triangles_,
+        coordination_;
+    BlockMean pinned_correlation_, residence_correlation_, along_wall_, by_impulse_, disc_sticking_,
         wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;

@@ -40,11 +40,12 @@
 
 namespace swirl {
 
-class WallStays {
+class WallResidences {
   public:
     static constexpr std::array layers{1.3, wall_layer, 1.7};  // radii between centre and wall
-    static constexpr std::array least{0.5 * long_stay, long_stay, 2.0 * long_stay};  // periods
-    static constexpr std::size_t standard = 1;                                       // of both
+    static constexpr std::array minimum{0.5 * long_residence, long_residence,
+                                        2.0 * long_residence};  // periods
+    static constexpr std::size_t standard = 1;                  // of both
 
     /// All samples at equal steps of time.
     void sample(const MFrameView& view);
@@ -85,12 +86,12 @@ class WallStays {
                                  {"share", "1"},
                                  {"share_error", "1"}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
-            for (std::size_t d = 0; d < least.size(); ++d) {
+            for (std::size_t d = 0; d < minimum.size(); ++d) {
                 const Kind& kind = kinds_[l][d];
                 const Estimate pinned = scaled(kind.begin.angle(), degrees_per_radian),
                                free = scaled(kind.end.angle(), degrees_per_radian),
                                held = kind.share.estimate();
-                sensitivity.add({layers[l], least[d], pinned.mean, pinned.error,
+                sensitivity.add({layers[l], minimum[d], pinned.mean, pinned.error,
                                  kind.begin.concentration(), free.mean, free.error,
                                  kind.end.concentration(), held.mean, held.error});
             }
@@ -98,12 +99,12 @@ class WallStays {
         visit(table_of("how the places of becoming pinned and free are distributed over θ", begins_,
                        ends_));
     }
-    void merge(const WallStays& other);
+    void merge(const WallResidences& other);
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(last_time_);
         visit(discs_);
-        visit(stays_);
+        visit(residences_);
         for (auto& layer : kinds_)
             for (Kind& kind : layer) {
                 visit(kind.begin);
@@ -114,11 +115,12 @@ class WallStays {
         for (DirectionHistogram* places : {&begins_, &ends_}) visit(*places);
     }
     bool is_consistent() const {
-        return stays_.size() % layers.size() == 0 && stays_.size() / layers.size() == discs_;
+        return residences_.size() % layers.size() == 0 &&
+               residences_.size() / layers.size() == discs_;
     }
 
     /// Of one disc in one layer.
-    struct Stay {
+    struct Residence {
         double samples = 0.0;  // so far; 0: it is not there
         double begin_time = 0.0, knows_begin = 0.0;
         Vec2 begin{}, last{};
@@ -129,12 +131,12 @@ class WallStays {
         CircularMean begin, end;
         BlockMean share;
     };
-    void end(std::size_t layer, const Stay& stay, double period);
+    void end(std::size_t layer, const Residence& residence, double period);
 
     double last_time_ = 0.0;
     std::size_t discs_ = 0;
-    std::vector<Stay> stays_;  // of every disc, layer by layer
-    std::array<std::array<Kind, least.size()>, layers.size()> kinds_;
+    std::vector<Residence> residences_;  // of every disc, layer by layer
+    std::array<std::array<Kind, minimum.size()>, layers.size()> kinds_;
     BlockMean length_;
     DirectionHistogram begins_, ends_;
 };

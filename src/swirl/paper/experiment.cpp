@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// Dishes of one set-up: their sizes agree to this share.
-constexpr double same_dish = 0.02;
+constexpr double same_container = 0.02;
 /// Below this many whole swirls an error says little of itself.
 constexpr std::size_t few_blocks = 5;
 
@@ -53,18 +53,18 @@ const std::vector<std::string>& numbers_against_n() {
     return names;
 }
 
-double of_camera(const FilmedDish& film, const char* name) {
-    return number(at(film.found, {"camera", name}));
+double of_camera(const FilmedContainer& video, const char* name) {
+    return number(at(video.found, {"camera", name}));
 }
-std::int64_t discs_of(const FilmedDish& film) {
-    const Json& discs = at(film.found, {"discs"});
+std::int64_t discs_of(const FilmedContainer& video) {
+    const Json& discs = at(video.found, {"discs"});
     return discs.is_number_integer() ? discs.get<std::int64_t>() : 0;
 }
-double frames_per_swirl(const FilmedDish& film) {
-    return 2.0 * pi / of_camera(film, "omega") * of_camera(film, "camera-fps");
+double frames_per_swirl(const FilmedContainer& video) {
+    return 2.0 * pi / of_camera(video, "omega") * of_camera(video, "camera-fps");
 }
-double position_error(const FilmedDish& film) {
-    const double error = number(at(film.found, {"quality", "position_error"}));
+double position_error(const FilmedContainer& video) {
+    const double error = number(at(video.found, {"quality", "position_error"}));
     return std::isfinite(error) ? error : 0.0;
 }
 const char* kind_of(bool smooth) { return smooth ? "smooth" : "rough"; }
@@ -80,13 +80,13 @@ struct Counterpart {
 
 class Experiment {
   public:
-    Experiment(const std::vector<FilmedDish>& films, const ExperimentSettings& settings)
-        : films_(films), settings_(settings) {
+    Experiment(const std::vector<FilmedContainer>& videos, const ExperimentSettings& settings)
+        : videos_(videos), settings_(settings) {
         radius_ = median_of("container-radius");
         amplitude_ = median_of("amplitude");
         if (settings.simulate)
-            for (std::size_t k = 0; k < films.size(); ++k)
-                if (films[k].good()) add_counterpart(k);
+            for (std::size_t k = 0; k < videos.size(); ++k)
+                if (videos[k].good()) add_counterpart(k);
     }
 
     void simulate(const PaperControl& control, ExperimentResult& result);
@@ -97,35 +97,35 @@ class Experiment {
   private:
     double median_of(const char* name) const {
         std::vector<double> values;
-        for (const FilmedDish& film : films_)
-            if (film.good()) values.push_back(of_camera(film, name));
-        if (values.empty()) return not_known;
+        for (const FilmedContainer& video : videos_)
+            if (video.good()) values.push_back(of_camera(video, name));
+        if (values.empty()) return not_available;
         std::sort(values.begin(), values.end());
         return values[values.size() / 2];
     }
     /// The films of one set-up share what all of them say of the dish.
-    double shared(const FilmedDish& film, const char* name, double median) const {
-        const double own = of_camera(film, name);
-        return std::abs(own - median) <= same_dish * median ? median : own;
+    double shared(const FilmedContainer& video, const char* name, double median) const {
+        const double own = of_camera(video, name);
+        return std::abs(own - median) <= same_container * median ? median : own;
     }
-    void add_counterpart(std::size_t film);
-    const Json& simulated(std::size_t film) const {
+    void add_counterpart(std::size_t video);
+    const Json& simulated(std::size_t video) const {
         static const Json nothing;
-        const auto found = counterpart_of_.find(film);
+        const auto found = counterpart_of_.find(video);
         return found == counterpart_of_.end() ? nothing : counterparts_[found->second].result;
     }
     template <class Visit>
     void each_side(Visit&& visit) const;
     std::vector<NamedCurve> curves() const;
 
-    fs::path write_films() const;
+    fs::path write_videos() const;
     fs::path write_points() const;
     fs::path write_profiles() const;
-    fs::path write_maps(std::size_t film) const;
-    void add_film_findings(const FilmedDish& film, const Json& simulated,
-                           std::vector<std::string>& findings) const;
+    fs::path write_maps(std::size_t video) const;
+    void add_video_findings(const FilmedContainer& video, const Json& simulated,
+                            std::vector<std::string>& findings) const;
 
-    const std::vector<FilmedDish>& films_;
+    const std::vector<FilmedContainer>& videos_;
     const ExperimentSettings& settings_;
     double radius_, amplitude_;
     std::vector<Counterpart> counterparts_;
@@ -133,23 +133,23 @@ class Experiment {
 };
 
 /// Everything of the film but what was given by hand.
-RunConfig config_of(const FilmedDish& film, const ExperimentSettings& settings, double radius,
+RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& settings, double radius,
                     double amplitude) {
     ParameterTexts texts{{"events", "5e5"}, {"path", "circle"}};
     texts = overridden(texts, settings.parameters);
-    texts["discs"] = std::to_string(discs_of(film));
+    texts["discs"] = std::to_string(discs_of(video));
     if (!texts.contains("container_radius"))
         texts["container_radius"] = fmt::format("{:.4f}", radius);
     if (!texts.contains("amplitude")) texts["amplitude"] = fmt::format("{:.4f}", amplitude);
     if (!texts.contains("period") && !texts.contains("speed")) texts["speed"] = "1";
-    if (const Json& kinds = at(film.found, {"kinds"}); kinds.is_array() && kinds.size() == 2) {
+    if (const Json& kinds = at(video.found, {"kinds"}); kinds.is_array() && kinds.size() == 2) {
         // The commoner size is the unit of length.
         const bool first = number(kinds[0]["number"]) >= number(kinds[1]["number"]);
         const Json &unit = kinds[first ? 0 : 1], &other = kinds[first ? 1 : 0];
         texts["mixture"] = fmt::format("{}:{:.4f}", other["number"].get<std::int64_t>(),
                                        number(other["radius"]) / number(unit["radius"]));
     }
-    if (film.smooth) {
+    if (video.smooth) {
         texts.erase("mu_disc");
         texts.erase("mu_wall");
         texts["mu"] = settings.smooth_mu;
@@ -158,19 +158,19 @@ RunConfig config_of(const FilmedDish& film, const ExperimentSettings& settings, 
 }
 
 void Experiment::add_counterpart(std::size_t k) {
-    const FilmedDish& film = films_[k];
-    Counterpart made{film.smooth,
-                     config_of(film, settings_, shared(film, "container-radius", radius_),
-                               shared(film, "amplitude", amplitude_)),
+    const FilmedContainer& video = videos_[k];
+    Counterpart made{video.smooth,
+                     config_of(video, settings_, shared(video, "container-radius", radius_),
+                               shared(video, "amplitude", amplitude_)),
                      {},
                      {}};
-    made.seen.frames_per_swirl = std::max(4, int(std::lround(frames_per_swirl(film))));
+    made.seen.frames_per_swirl = std::max(4, int(std::lround(frames_per_swirl(video))));
     made.seen.position_error =
-        std::round(1e4 * position_error(film) / of_camera(film, "scale")) * 1e-4;
+        std::round(1e4 * position_error(video) / of_camera(video, "scale")) * 1e-4;
     const std::string what = fmt::format("{} {} {}", config_text(made.config),
                                          made.seen.frames_per_swirl, made.seen.position_error);
-    const std::string key =
-        fmt::format("seen_{}_N{}_{:016x}", kind_of(film.smooth), made.config.discs, checksum(what));
+    const std::string key = fmt::format("seen_{}_N{}_{:016x}", kind_of(video.smooth),
+                                        made.config.discs, checksum(what));
     for (std::size_t c = 0; c < counterparts_.size(); ++c)
         if (counterparts_[c].runs.front().key.starts_with(key)) {
             counterpart_of_[k] = c;
@@ -181,7 +181,7 @@ void Experiment::add_counterpart(std::size_t k) {
         config.seed += static_cast<std::uint64_t>(seed);
         made.runs.push_back({fmt::format("{}_seed{}", key, config.seed), double(config.events),
                              [config, seen = made.seen](const RunControl& control) {
-                                 return seen_run(config, seen, measurements_of_a_film(), control);
+                                 return seen_run(config, seen, measurements_of_a_video(), control);
                              }});
     }
     counterpart_of_[k] = counterparts_.size();
@@ -204,7 +204,7 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
         }
     std::mutex mutex;
     std::vector<double> shares(left.size(), 0.0);
-    on_all_cores(
+    parallel_for(
         left.size(),
         [&](std::size_t k) {
             RunControl inner;
@@ -233,16 +233,16 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
     for (Counterpart& c : counterparts_) {
         std::vector<Json> seeds;
         for (const PaperTask& task : c.runs) seeds.push_back(done.at(task.key));
-        c.result = several_seeds(seeds);
+        c.result = replicates(seeds);
     }
 }
 
 /// visit(source, kind, name, film, result) for every film and every simulation that there is.
 template <class Visit>
 void Experiment::each_side(Visit&& visit) const {
-    for (const FilmedDish& film : films_)
-        if (film.good())
-            visit("film", kind_of(film.smooth), film.name, discs_of(film), film.result);
+    for (const FilmedContainer& video : videos_)
+        if (video.good())
+            visit("film", kind_of(video.smooth), video.name, discs_of(video), video.result);
     for (const Counterpart& c : counterparts_)
         if (!c.result.is_null() && !failed(c.result))
             visit("simulation", kind_of(c.smooth), std::string(), c.config.discs, c.result);
@@ -266,17 +266,16 @@ std::vector<NamedCurve> Experiment::curves() const {
                         rotation_point(double(discs), *r, rotation_rates[k].name);
                     estimates.push_back({.mean = p.mean, .error = p.error});
                 }
-                const Estimate e =
-                    estimates.size() == 1
-                        ? estimates.front()
-                        : several_runs(estimates, std::span<const double>()).estimate;
+                const Estimate e = estimates.size() == 1
+                                       ? estimates.front()
+                                       : ensemble(estimates, std::span<const double>()).estimate;
                 all.back().curves[k].push_back({double(discs), e.mean, e.error});
             }
     }
     return all;
 }
 
-fs::path Experiment::write_films() const {
+fs::path Experiment::write_videos() const {
     Table table({"film",
                  "kind",
                  "discs",
@@ -297,34 +296,34 @@ fs::path Experiment::write_films() const {
                  "simulated",
                  "simulated_error",
                  "failed"});
-    for (std::size_t k = 0; k < films_.size(); ++k) {
-        const FilmedDish& film = films_[k];
+    for (std::size_t k = 0; k < videos_.size(); ++k) {
+        const FilmedContainer& video = videos_[k];
         const auto found = [&](std::initializer_list<std::string_view> path) {
-            return number(at(film.found, path));
+            return number(at(video.found, path));
         };
         const auto mean = [&](const Json& result, const char* which, const char* what) {
             return number(at(result, {"rotation", which, what}));
         };
-        table.add({film.name,
-                   std::string(kind_of(film.smooth)),
-                   whole(at(film.found, {"discs"})),
-                   whole(at(film.found, {"pictures"})),
-                   number(at(film.result, {"periods"})),
-                   frames_per_swirl(film),
-                   of_camera(film, "scale"),
-                   of_camera(film, "container-radius"),
-                   of_camera(film, "amplitude"),
+        table.add({video.name,
+                   std::string(kind_of(video.smooth)),
+                   whole(at(video.found, {"discs"})),
+                   whole(at(video.found, {"pictures"})),
+                   number(at(video.result, {"periods"})),
+                   frames_per_swirl(video),
+                   of_camera(video, "scale"),
+                   of_camera(video, "container-radius"),
+                   of_camera(video, "amplitude"),
                    found({"path", "omega"}),
                    found({"path", "omega_error"}),
                    found({"quality", "pictures_with_all_discs"}),
                    found({"quality", "position_error"}),
-                   mean(film.result, "by_time", "mean"),
-                   mean(film.result, "by_time", "error"),
-                   mean(film.result, "rigid_by_time", "mean"),
-                   mean(film.result, "rigid_by_time", "error"),
+                   mean(video.result, "by_time", "mean"),
+                   mean(video.result, "by_time", "error"),
+                   mean(video.result, "rigid_by_time", "mean"),
+                   mean(video.result, "rigid_by_time", "error"),
                    mean(simulated(k), "by_time", "mean"),
                    mean(simulated(k), "by_time", "error"),
-                   film.good() ? std::string() : film.result["failed"].get<std::string>()});
+                   video.good() ? std::string() : video.result["failed"].get<std::string>()});
     }
     const fs::path file = settings_.out / "films.csv";
     table.write(file);
@@ -381,38 +380,38 @@ fs::path Experiment::write_maps(std::size_t k) const {
         if (!density.is_object() || !flow.is_object()) return;
         for (std::size_t r = 0; r < density["x"].size(); ++r)
             table.add({std::string(source), std::string("density"), discs, number(density["x"][r]),
-                       number(density["y"][r]), number(density["by_time"][r]), not_known, not_known,
-                       not_known});
+                       number(density["y"][r]), number(density["by_time"][r]), not_available,
+                       not_available, not_available});
         for (std::size_t r = 0; r < flow["x"].size(); ++r)
             table.add({std::string(source), std::string("flow"), discs, number(flow["x"][r]),
-                       number(flow["y"][r]), not_known, number(flow["u_x"][r]),
+                       number(flow["y"][r]), not_available, number(flow["u_x"][r]),
                        number(flow["u_y"][r]), number(flow["visits"][r])});
     };
-    add("film", discs_of(films_[k]), films_[k].result);
-    add("simulation", discs_of(films_[k]), simulated(k));
-    const fs::path file = settings_.out / fmt::format("maps_{}.csv", films_[k].name);
+    add("film", discs_of(videos_[k]), videos_[k].result);
+    add("simulation", discs_of(videos_[k]), simulated(k));
+    const fs::path file = settings_.out / fmt::format("maps_{}.csv", videos_[k].name);
     table.write(file);
     return file;
 }
 
 std::vector<fs::path> Experiment::write_tables() const {
-    std::vector<fs::path> files{write_films(), write_points(), write_profiles()};
-    for (std::size_t k = 0; k < films_.size(); ++k)
-        if (films_[k].good()) files.push_back(write_maps(k));
+    std::vector<fs::path> files{write_videos(), write_points(), write_profiles()};
+    for (std::size_t k = 0; k < videos_.size(); ++k)
+        if (videos_[k].good()) files.push_back(write_maps(k));
     files.push_back(settings_.out / "crossings.csv");
     write_crossings(curves(), files.back());
     return files;
 }
 
-void Experiment::add_film_findings(const FilmedDish& film, const Json& simulation,
-                                   std::vector<std::string>& findings) const {
-    if (!film.good()) {
-        findings.push_back(fmt::format("{} could not be used: {}", film.name,
-                                       film.result["failed"].get<std::string>()));
+void Experiment::add_video_findings(const FilmedContainer& video, const Json& simulation,
+                                    std::vector<std::string>& findings) const {
+    if (!video.good()) {
+        findings.push_back(fmt::format("{} could not be used: {}", video.name,
+                                       video.result["failed"].get<std::string>()));
         return;
     }
-    const RotationPoint seen = rotation_point(double(discs_of(film)), film.result, "by_time");
-    std::string text = fmt::format("{}: {} discs, ϖ/Ω = {} by time", film.name, discs_of(film),
+    const RotationPoint seen = rotation_point(double(discs_of(video)), video.result, "by_time");
+    std::string text = fmt::format("{}: {} discs, ϖ/Ω = {} by time", video.name, discs_of(video),
                                    with_error(seen.mean, seen.error));
     if (failed(simulation)) {
         text += fmt::format("; its simulation failed: {}", simulation["failed"].get<std::string>());
@@ -425,20 +424,20 @@ void Experiment::add_film_findings(const FilmedDish& film, const Json& simulatio
                                 std::abs(seen.mean - run.mean) / error);
     }
     findings.push_back(text + ".");
-    const Json& blocks = at(film.result, {"rotation", "by_time", "blocks"});
+    const Json& blocks = at(video.result, {"rotation", "by_time", "blocks"});
     if (blocks.is_number_integer() && blocks.get<std::size_t>() < few_blocks)
         findings.push_back(fmt::format(
             "{} shows {:.1f} swirls: an error from {} blocks is a guess; twenty swirls would make "
             "it one to rely on.",
-            film.name, number(at(film.result, {"periods"})), blocks.get<std::size_t>()));
+            video.name, number(at(video.result, {"periods"})), blocks.get<std::size_t>()));
     for (const char* name : {"container-radius", "amplitude"}) {
         const double median = name[0] == 'c' ? radius_ : amplitude_;
-        const double own = of_camera(film, name);
-        if (std::abs(own - median) > same_dish * median)
+        const double own = of_camera(video, name);
+        if (std::abs(own - median) > same_container * median)
             findings.push_back(fmt::format(
                 "The {} of {} is {:.3f} disc radii, where that of the films is {:.3f} in the "
                 "median: another dish, or other discs; its simulation has its own.",
-                name[0] == 'c' ? "dish" : "amplitude", film.name, own, median));
+                name[0] == 'c' ? "dish" : "amplitude", video.name, own, median));
     }
 }
 
@@ -458,17 +457,19 @@ std::vector<std::string> Experiment::findings() const {
                         crosses ? "" : "these numbers of discs and errors show no crossing: ",
                         crossing_sentence(curve)));
     }
-    for (std::size_t k = 0; k < films_.size(); ++k)
-        add_film_findings(films_[k], simulated(k), findings);
-    const bool spins = std::any_of(films_.begin(), films_.end(), [](const FilmedDish& film) {
-        return std::isfinite(
-            number(at(film.result, {"measured", "frustration", "wall_spin", "mean"})));
-    });
+    for (std::size_t k = 0; k < videos_.size(); ++k)
+        add_video_findings(videos_[k], simulated(k), findings);
+    const bool spins =
+        std::any_of(videos_.begin(), videos_.end(), [](const FilmedContainer& video) {
+            return std::isfinite(
+                number(at(video.result, {"measured", "frustration", "wall_spin", "mean"})));
+        });
     if (!spins)
         findings.push_back(
             "No film tells the spins of its discs, so Figure 4b has the simulation alone; --spin "
             "measures them where discs have a texture.");
-    if (std::none_of(films_.begin(), films_.end(), [](const FilmedDish& f) { return f.smooth; }))
+    if (std::none_of(videos_.begin(), videos_.end(),
+                     [](const FilmedContainer& f) { return f.smooth; }))
         findings.push_back(
             "All films are of one kind of disc, so there is no Figure 4c; --smooth takes films of "
             "a second, smoother kind.");
@@ -479,28 +480,28 @@ std::vector<std::string> Experiment::findings() const {
 }
 
 Json Experiment::json() const {
-    Json films = Json::array();
-    for (std::size_t k = 0; k < films_.size(); ++k) {
-        const FilmedDish& film = films_[k];
+    Json videos = Json::array();
+    for (std::size_t k = 0; k < videos_.size(); ++k) {
+        const FilmedContainer& video = videos_[k];
         Json pictures = Json::array();
-        for (const fs::path& picture : film.pictures) pictures.push_back(picture.string());
-        films.push_back({{"name", film.name},
-                         {"kind", kind_of(film.smooth)},
-                         {"film", film.film},
-                         {"result", film.result},
-                         {"simulation", simulated(k)},
-                         {"found", film.found},
-                         {"remarks", film.remarks},
-                         {"pictures", pictures}});
+        for (const fs::path& picture : video.pictures) pictures.push_back(picture.string());
+        videos.push_back({{"name", video.name},
+                          {"kind", kind_of(video.smooth)},
+                          {"film", video.video},
+                          {"result", video.result},
+                          {"simulation", simulated(k)},
+                          {"found", video.found},
+                          {"remarks", video.remarks},
+                          {"pictures", pictures}});
     }
     return {{"command", settings_.command}, {"version", version()},
             {"build", build_description()}, {"seeds", settings_.seeds},
-            {"findings", findings()},       {"films", films}};
+            {"findings", findings()},       {"films", videos}};
 }
 
 }  // namespace
 
-const std::vector<std::string>& measurements_of_a_film() {
+const std::vector<std::string>& measurements_of_a_video() {
     static const std::vector<std::string> names{"density",     "flow",   "profile", "pinned",
                                                 "stays",       "centre", "slip",    "frustration",
                                                 "temperature", "order"};
@@ -509,22 +510,22 @@ const std::vector<std::string>& measurements_of_a_film() {
 
 void check(const ExperimentSettings& settings) {
     if (settings.seeds < 1)
-        throw WrongCall(fmt::format("--seeds is {}, but it must be at least 1.", settings.seeds));
+        throw UsageError(fmt::format("--seeds is {}, but it must be at least 1.", settings.seeds));
     resolve(settings.parameters);
     resolve({{"mu", settings.smooth_mu}});
 }
 
-ExperimentResult make_experiment(const std::vector<FilmedDish>& films,
+ExperimentResult make_experiment(const std::vector<FilmedContainer>& videos,
                                  const ExperimentSettings& settings, const PaperControl& control) {
     ExperimentResult result;
-    Experiment experiment(films, settings);
+    Experiment experiment(videos, settings);
     if (settings.simulate) experiment.simulate(control, result);
     result.files = experiment.write_tables();
     result.findings = experiment.findings();
     result.json = experiment.json();
     result.json["runs"] = result.runs;
     const fs::path about = settings.out / "experiment.json";
-    write_whole_file(about, result.json.dump(2) + "\n");
+    write_file_atomically(about, result.json.dump(2) + "\n");
     result.files.push_back(about);
     run_python_script("experiment.py", {settings.out.string()}, control.stop);
     for (const fs::directory_entry& entry : fs::directory_iterator(settings.out))

@@ -14,10 +14,10 @@
 
 namespace swirl {
 
-struct FilmedDish {
+struct FilmedContainer {
     std::string name;  // of its files and in the report
     bool smooth = false;
-    std::string film;                             // where it was
+    std::string video;                            // where it was
     nlohmann::ordered_json result;                // as of a run; {"failed": why}
     nlohmann::ordered_json found;                 // what stands beside the tracks
     std::vector<std::string> remarks;             // sentences
@@ -37,7 +37,7 @@ struct ExperimentSettings {
 };
 
 /// What of the paper's can be measured on tracks.
-const std::vector<std::string>& measurements_of_a_film();
+const std::vector<std::string>& measurements_of_a_video();
 
 struct ExperimentResult {
     std::vector<std::string> findings;
@@ -49,7 +49,7 @@ struct ExperimentResult {
 /// Throws WrongCall before any work if the parameters are wrong, Failure, and Interrupted: what is
 /// done until then is remembered in OUT/parts.
 void check(const ExperimentSettings& settings);
-ExperimentResult make_experiment(const std::vector<FilmedDish>& films,
+ExperimentResult make_experiment(const std::vector<FilmedContainer>& videos,
                                  const ExperimentSettings& settings, const PaperControl& control);
 
 }  // namespace swirl

@@ -60,7 +60,7 @@ FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>
     table.write(outcome.files.back());
 
     std::vector<NamedCurve> curves;
-    for (const Friction& friction : frictions_of_5b) {
+    for (const Friction& friction : friction_coefficients_of_5b) {
         NamedCurve curve{friction.name, 0};  // by event, as the paper's figure
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (points[k].friction.name != friction.name) continue;
@@ -80,7 +80,7 @@ FigureOutcome finish(const std::string& name, const std::vector<PointOfFigure5b>
 
 std::vector<PointOfFigure5b> points_of_5b(const PaperSettings& settings) {
     std::vector<PointOfFigure5b> points;
-    for (const Friction& friction : frictions_of_5b)
+    for (const Friction& friction : friction_coefficients_of_5b)
         for (const std::int64_t n : numbers_of_discs(settings)) points.push_back({friction, n});
     return points;
 }
@@ -95,7 +95,7 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
         plan.points.push_back(point(settings, p.friction, p.discs));
     // With both frictions 1, where ϖ has its minimum and rises again; with the others, whether a
     // curve that does not cross up to the paper's last number crosses beyond it.
-    for (const Friction& friction : frictions_of_5b)
+    for (const Friction& friction : friction_coefficients_of_5b)
         for (const std::int64_t n : numbers_beyond(settings)) {
             points.push_back({friction, n});
             plan.points.push_back(friction.name == high_friction.name
@@ -112,7 +112,7 @@ static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_5b.py";
     std::vector<PointOfFigure5b> points;
-    for (const Friction& friction : frictions_of_5b)
+    for (const Friction& friction : friction_coefficients_of_5b)
         for (const std::int64_t n :
              settings.quick ? sparse_numbers(settings) : numbers_of_discs(settings))
             points.push_back({friction, n});

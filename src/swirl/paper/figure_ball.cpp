@@ -36,8 +36,8 @@ RunConfig ball_run(const PaperSettings& settings, const Ball& ball) {
     config.inertia = solid_inertia(config.mass, ball.radius);
     config.mu_disc = config.mu_wall = ball.mu;
     config.restitution = ball.restitution;
-    config.warmup = settings.swirls(settings.quick ? 100 : 200, 5);
-    config.periods = *config.warmup + settings.swirls(settings.quick ? 100 : 300, 5);
+    config.warmup = settings.periods(settings.quick ? 100 : 200, 5);
+    config.periods = *config.warmup + settings.periods(settings.quick ? 100 : 300, 5);
     return config;
 }
 
@@ -53,14 +53,14 @@ BallAverages ball_averages(const RunConfig& config, const RunControl& control) {
     BlockMean gamma;
     CircularMean direction;
     while (run.next_event()) {
-        const bool counts = run.event().swirls >= *config.warmup;
+        const bool counts = run.event().periods >= *config.warmup;
         while (run.next_sample(times)) {
             if (!counts) continue;
             gamma.add(1.0 - run.snapshot().spin.front() / config.omega());
             direction.add(MFrameView(run.snapshot()).position(0));
         }
         run.pass_event();
-        if (!counts || run.snapshot().swirls == run.event().swirls) continue;
+        if (!counts || run.snapshot().periods == run.event().periods) continue;
         gamma.close_block();
         direction.close_block();
     }
@@ -83,7 +83,7 @@ PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
                     gammas.push_back(found.gamma);
                     thetas.push_back(found.theta);
                 }
-                const SeveralRuns all = several_runs(gammas);
+                const Ensemble all = ensemble(gammas);
                 const Estimate theta = several_directions(thetas).estimate;
                 return Json{{"mean", all.estimate.mean},
                             {"error", all.estimate.error},

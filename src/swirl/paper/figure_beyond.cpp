@@ -27,7 +27,7 @@ struct VariedCurve {
 };
 
 /// "For each N between 5 and 48" (SI).
-constexpr std::int64_t most_discs_of_the_paper = 48;
+constexpr std::int64_t max_discs_of_the_paper = 48;
 
 /// Half the events of the paper: many curves, and the error is small enough.
 std::int64_t events_of_a_curve(const PaperSettings& settings) {
@@ -49,9 +49,9 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
             RunConfig config = paper_config(settings, high_friction, n);
             config.events = events_of_a_curve(settings);
             // Denser than in the paper, where states last longer and events are many: by periods.
-            if (n > most_discs_of_the_paper) {
-                config.warmup = settings.swirls(settings.quick ? 20 : 40, 1);
-                config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 3);
+            if (n > max_discs_of_the_paper) {
+                config.warmup = settings.periods(settings.quick ? 20 : 40, 1);
+                config.periods = *config.warmup + settings.periods(settings.quick ? 60 : 200, 3);
             }
             curves[c].change(config);
             points.push_back({c, n});
@@ -95,13 +95,13 @@ namespace {
 
 /// Where the two averages differ most.
 std::string farthest_apart(const Friction& friction, std::span<const Json> results) {
-    double most = -1.0;
+    double maximum = -1.0;
     std::string found = "no runs";
     for (const Json& r : results) {
         const RotationPoint event = rotation_point(0.0, r, "by_event"),
                             time = rotation_point(0.0, r, "by_time");
-        if (!(std::fabs(event.mean - time.mean) > most)) continue;
-        most = std::fabs(event.mean - time.mean);
+        if (!(std::fabs(event.mean - time.mean) > maximum)) continue;
+        maximum = std::fabs(event.mean - time.mean);
         found = fmt::format("farthest apart at N = {}, ϖ/Ω = {} by event and {} by time",
                             number(at(r, {"config", "discs"})), with_error(event.mean, event.error),
                             with_error(time.mean, time.error));
@@ -121,12 +121,12 @@ static FigurePlan plan_figure_averages(const PaperSettings& settings) {
         FigureOutcome outcome = table_of_5b(results, out);
         // The table has the runs of one friction after those of the other, and then the densest.
         const fs::path table = out / "figure_averages.csv";
-        write_whole_file(table, read_whole_file(outcome.files.front()));
+        write_file_atomically(table, read_whole_file(outcome.files.front()));
         outcome.files = {table};
         outcome.findings.clear();
-        for (std::size_t f = 0; f < std::size(frictions_of_5b); ++f)
+        for (std::size_t f = 0; f < std::size(friction_coefficients_of_5b); ++f)
             outcome.findings.push_back(farthest_apart(
-                frictions_of_5b[f], std::span(results).subspan(f * numbers, numbers)));
+                friction_coefficients_of_5b[f], std::span(results).subspan(f * numbers, numbers)));
         return outcome;
     };
     return plan;
@@ -155,7 +155,7 @@ Json transient(const RunConfig& config, const RunControl& control) {
         }
         run.pass_event();
         events += 1.0;
-        if (run.snapshot().swirls == run.event().swirls) continue;
+        if (run.snapshot().periods == run.event().periods) continue;
         json["varpi"].push_back(rotation / looks);
         json["spin"].push_back(spin / looks);
         json["events"].push_back(events);
@@ -172,24 +172,24 @@ static FigurePlan plan_figure_transient(const PaperSettings& settings) {
     plan.script = "figure_transient.py";
     const std::vector<std::int64_t> numbers =
         settings.quick ? std::vector<std::int64_t>{48} : std::vector<std::int64_t>{40, 44, 46, 48};
-    const std::int64_t swirls = settings.swirls(settings.quick ? 200 : 600, 20);
+    const std::int64_t periods = settings.periods(settings.quick ? 200 : 600, 20);
     for (const std::int64_t n : numbers)
         for (int s = 0; s < seeds_of_the_transient; ++s) {
             RunConfig config = paper_config(settings, no_disc_friction, n);
-            config.periods = swirls;
+            config.periods = periods;
             config.warmup = 0;
             config.seed += static_cast<std::uint64_t>(s);
             plan.points.push_back(PaperTask{
-                fmt::format("transient_N{}_{}swirls_seed{}", n, swirls, config.seed),
-                expected_events_per_swirl(config) * static_cast<double>(swirls),
+                fmt::format("transient_N{}_{}swirls_seed{}", n, periods, config.seed),
+                expected_events_per_swirl(config) * static_cast<double>(periods),
                 [config](const RunControl& control) { return transient(config, control); }});
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"discs", "swirl", "varpi", "varpi_error", "spin", "spin_error", "events"});
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            double early = 0.0, late = 0.0, spin = 0.0, reached = not_known;
-            for (std::int64_t t = 0; t < swirls; ++t) {
+            double early = 0.0, late = 0.0, spin = 0.0, reached = not_available;
+            for (std::int64_t t = 0; t < periods; ++t) {
                 std::vector<double> varpi, spins;
                 double events = 0.0;
                 for (int s = 0; s < seeds_of_the_transient; ++s) {
@@ -202,17 +202,17 @@ static FigurePlan plan_figure_transient(const PaperSettings& settings) {
                 events /= static_cast<double>(varpi.size());
                 const Estimate v = estimate_of(varpi), w = estimate_of(spins);
                 table.add({numbers[k], t + 1, v.mean, v.error, w.mean, w.error, events});
-                if (t < swirls / 10) early += v.mean / static_cast<double>(swirls / 10);
-                if (t >= swirls / 2) late += v.mean / static_cast<double>(swirls - swirls / 2);
-                if (t + 1 == swirls) spin = w.mean;
+                if (t < periods / 10) early += v.mean / static_cast<double>(periods / 10);
+                if (t >= periods / 2) late += v.mean / static_cast<double>(periods - periods / 2);
+                if (t + 1 == periods) spin = w.mean;
                 if (std::isnan(reached) && events >= 1e6) reached = static_cast<double>(t + 1);
             }
             outcome.findings.push_back(fmt::format(
                 "μ_d = 0, N = {}: ϖ/Ω = {:.3f} in the first {} swirls, {:.4f} in the last {}, when "
                 "the mean spin is {} Ω; 10^6 events last {} swirls.",
-                numbers[k], early, swirls / 10, late, swirls - swirls / 2,
-                with_error(spin, not_known),
-                std::isnan(reached) ? fmt::format("more than {}", swirls)
+                numbers[k], early, periods / 10, late, periods - periods / 2,
+                with_error(spin, not_available),
+                std::isnan(reached) ? fmt::format("more than {}", periods)
                                     : fmt::format("{:.0f}", reached)));
         }
         outcome.files.push_back(out / "figure_transient.csv");
@@ -227,10 +227,10 @@ static FigurePlan plan_figure_transient(const PaperSettings& settings) {
 static FigurePlan plan_figure_friction(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_friction.py";
-    const std::vector<double> frictions =
+    const std::vector<double> friction_coefficients =
         settings.quick ? std::vector<double>{0.1, 0.5, 1.0}
                        : std::vector<double>{0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0};
-    for (const double mu : frictions) {
+    for (const double mu : friction_coefficients) {
         CrossingSettings search;
         search.config = paper_config(settings, {"", "", mu, mu}, 48);
         search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
@@ -267,11 +267,11 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
                             "events", "runs_not_steady", "steady_state"},
                            rates_columns()));
         FigureOutcome outcome;
-        for (std::size_t k = 0; k < frictions.size(); ++k) {
+        for (std::size_t k = 0; k < friction_coefficients.size(); ++k) {
             const Json& r = results[k];
             if (failed(r)) continue;
             std::vector<Table::Cell> row{
-                frictions[k],
+                friction_coefficients[k],
                 std::int64_t{r["crosses"].get<bool>()},
                 number(r["discs"]),
                 number(r["error"]),
@@ -283,8 +283,8 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
                 std::string(r["not_steady"] == 0 ? "steady" : "not steady")};
             for (const Json& value : r["by_rate"]) row.emplace_back(number(value));
             table.add(std::move(row));
-            outcome.findings.push_back(
-                fmt::format("μ = {}: {}", frictions[k], r["report"].get<std::string>()));
+            outcome.findings.push_back(fmt::format("μ = {}: {}", friction_coefficients[k],
+                                                   r["report"].get<std::string>()));
         }
         outcome.files.push_back(out / "figure_friction.csv");
         table.write(outcome.files.back());
@@ -335,9 +335,9 @@ static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
         for (const int m : sides) {
             RunConfig config = paper_config(settings, high_friction, n);
             // Corners are events too: swirls, not events, so that every path gets the same time.
-            const std::int64_t swirls =
+            const std::int64_t periods =
                 n == 28 ? (settings.quick ? 300 : 2000) : (settings.quick ? 60 : 300);
-            config.periods = settings.swirls(swirls, 5);
+            config.periods = settings.periods(periods, 5);
             if (m > 0)
                 config.sides = m;
             else
@@ -402,13 +402,13 @@ Json energy_series(const RunConfig& config, const RunControl& control) {
 static FigurePlan plan_figure_energy(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_energy.py";
-    const std::int64_t discs = 28, swirls = settings.swirls(settings.quick ? 100 : 400, 10);
+    const std::int64_t discs = 28, periods = settings.periods(settings.quick ? 100 : 400, 10);
     const std::vector<int> sides{6, 30, 300, 0};
     const int seeds = settings.seeds();
     for (const int m : sides)
         for (int s = 0; s < seeds; ++s) {
             RunConfig config = paper_config(settings, {"", "", 0.0, 0.0}, discs);
-            config.periods = swirls;
+            config.periods = periods;
             config.warmup = 0;
             config.seed += static_cast<std::uint64_t>(s);
             if (m > 0)
@@ -416,8 +416,8 @@ static FigurePlan plan_figure_energy(const PaperSettings& settings) {
             else
                 config.path = PathShape::circle;
             plan.points.push_back(PaperTask{
-                fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, swirls, config.seed),
-                3.0 * expected_events_per_swirl(config) * static_cast<double>(swirls),
+                fmt::format("energy_M{}_N{}_{}swirls_seed{}", m, discs, periods, config.seed),
+                3.0 * expected_events_per_swirl(config) * static_cast<double>(periods),
                 [config](const RunControl& control) { return energy_series(config, control); }});
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
@@ -435,9 +435,9 @@ static FigurePlan plan_figure_energy(const PaperSettings& settings) {
             outcome.findings.push_back(fmt::format(
                 "No friction at all, {}: in {} swirls the energy goes from {:.0f} to {:.0f}, and "
                 "K − ΩL changes by {} (first seed).",
-                m > 0 ? fmt::format("{} sides", m) : "the true circle", swirls,
+                m > 0 ? fmt::format("{} sides", m) : "the true circle", periods,
                 number(energy.front()), number(energy.back()),
-                with_error(number(invariant.back()) - number(invariant.front()), not_known)));
+                with_error(number(invariant.back()) - number(invariant.front()), not_available)));
         }
         outcome.files.push_back(out / "figure_energy.csv");
         table.write(outcome.files.back());
@@ -453,20 +453,20 @@ namespace {
 std::string lowest_of_the_map(const std::vector<std::pair<double, double>>& points,
                               const std::vector<Json>& results) {
     std::size_t lowest = points.size(), counterrotating = 0;
-    RotationPoint least{};
+    RotationPoint minimum{};
     for (std::size_t k = 0; k < points.size(); ++k) {
         const RotationPoint p = rotation_point(0.0, results[k], "by_time");
         if (p.mean < -3.0 * p.error) ++counterrotating;
-        if (!std::isfinite(p.mean) || (lowest < points.size() && p.mean >= least.mean)) continue;
+        if (!std::isfinite(p.mean) || (lowest < points.size() && p.mean >= minimum.mean)) continue;
         lowest = k;
-        least = p;
+        minimum = p;
     }
     if (lowest == points.size()) return "No run came to its end.";
     return fmt::format(
         "48 discs certainly counterrotate at {} of {} pairs of frictions; lowest is ϖ/Ω = {} at "
         "μ_d = {}, μ_w = {}.",
-        counterrotating, points.size(), with_error(least.mean, least.error), points[lowest].first,
-        points[lowest].second);
+        counterrotating, points.size(), with_error(minimum.mean, minimum.error),
+        points[lowest].first, points[lowest].second);
 }
 
 }  // namespace
@@ -474,16 +474,16 @@ std::string lowest_of_the_map(const std::vector<std::pair<double, double>>& poin
 static FigurePlan plan_figure_map(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_map.py";
-    const std::vector<double> frictions =
+    const std::vector<double> friction_coefficients =
         settings.quick ? std::vector<double>{0.0, 0.1, 0.3, 1.0}
                        : std::vector<double>{0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
     std::vector<std::pair<double, double>> points;
-    for (const double mu_disc : frictions)
-        for (const double mu_wall : frictions) {
+    for (const double mu_disc : friction_coefficients)
+        for (const double mu_wall : friction_coefficients) {
             if (mu_disc == 0.0 && mu_wall == 0.0) continue;  // no steady state there
             RunConfig config = paper_config(settings, {"", "", mu_disc, mu_wall}, 48);
-            config.warmup = settings.swirls(settings.quick ? 30 : 100, 2);
-            config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 4);
+            config.warmup = settings.periods(settings.quick ? 30 : 100, 2);
+            config.periods = *config.warmup + settings.periods(settings.quick ? 60 : 200, 4);
             points.emplace_back(mu_disc, mu_wall);
             plan.points.push_back(
                 varied_point(settings,

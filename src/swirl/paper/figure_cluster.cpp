@@ -23,10 +23,10 @@ struct Point {
     std::int64_t discs;
 };
 
-std::vector<Point> points_of(const std::vector<Friction>& frictions,
+std::vector<Point> points_of(const std::vector<Friction>& friction_coefficients,
                              const std::vector<std::int64_t>& numbers) {
     std::vector<Point> points;
-    for (const Friction& friction : frictions)
+    for (const Friction& friction : friction_coefficients)
         for (const std::int64_t n : numbers) points.push_back({friction, n});
     return points;
 }
@@ -36,14 +36,14 @@ using Sentences =
     std::function<std::vector<std::string>(const std::vector<Point>&, const std::vector<Json>&)>;
 
 FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name,
-                          const std::vector<Friction>& frictions,
+                          const std::vector<Friction>& friction_coefficients,
                           const std::vector<std::string>& names, const Sentences& sentences,
                           const std::vector<std::int64_t>& numbers = {},
                           const PointOf& of_point = measured_point) {
     FigurePlan plan;
     plan.script = "figure_" + name + ".py";
-    const std::vector<Point> points =
-        points_of(frictions, numbers.empty() ? numbers_of_the_experiment(settings) : numbers);
+    const std::vector<Point> points = points_of(
+        friction_coefficients, numbers.empty() ? numbers_of_the_experiment(settings) : numbers);
     for (const Point& p : points) plan.points.push_back(of_point(settings, p.friction, p.discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(

@@ -25,9 +25,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr double little_motion = 0.1;       // of ΩR
-constexpr std::int64_t stays_for = 10;      // periods
-constexpr std::int64_t periods_after = 50;  // that are averaged, once it has condensed
+constexpr double little_motion = 0.1;        // of ΩR
+constexpr std::int64_t residences_for = 10;  // periods
+constexpr std::int64_t periods_after = 50;   // that are averaged, once it has condensed
 
 /// Mean speed of the discs in the M-frame, in ΩR.
 double speed_in_the_m_frame(const MFrameView& view) {
@@ -50,21 +50,21 @@ Condensed condensation_of(const RunConfig& config, const RunControl& control) {
     Condensed still;
     std::int64_t events = 0, events_before = 0, periods = 0, quiet = 0;
     double speed = 0.0, samples = 0.0;
-    while (quiet < stays_for && run.next_event()) {
+    while (quiet < residences_for && run.next_event()) {
         while (run.next_sample(times)) {
             speed += speed_in_the_m_frame(run.snapshot());
             samples += 1.0;
         }
         run.pass_event();
         ++events;
-        if (run.snapshot().swirls == run.event().swirls) continue;
+        if (run.snapshot().periods == run.event().periods) continue;
         quiet = speed < little_motion * samples ? quiet + 1 : 0;
         if (quiet == 1) still = {false, periods, events_before};
         events_before = events;
         ++periods;
         speed = samples = 0.0;
     }
-    if (quiet < stays_for) {
+    if (quiet < residences_for) {
         if (!run.complete()) throw Interrupted("Stopped.");
         return {false, periods, events};
     }
@@ -74,7 +74,7 @@ Condensed condensation_of(const RunConfig& config, const RunControl& control) {
 
 /// Averages over a part of the run, {} if it is too short for them.
 Json averages_of(RunConfig config, std::int64_t from, std::int64_t to, const RunControl& control) {
-    if (to - from < least_swirls_of_an_average) return Json::object();
+    if (to - from < min_periods_of_an_average) return Json::object();
     config.warmup = from;
     config.periods = to;
     const MeasuredRun done = measured_run(config, {"temperature", "frustration"}, control);
@@ -86,13 +86,14 @@ Json averages_of(RunConfig config, std::int64_t from, std::int64_t to, const Run
 
 Json condensation(const RunConfig& config, const RunControl& control) {
     const Condensed found = condensation_of(config, control);
-    return {{"condensed", found.found},
-            {"periods", found.period},
-            {"events", found.events},
-            {"before", averages_of(config, 0, found.period, control)},
-            {"after", found.found ? averages_of(config, found.period + stays_for,
-                                                found.period + stays_for + periods_after, control)
-                                  : Json::object()}};
+    return {
+        {"condensed", found.found},
+        {"periods", found.period},
+        {"events", found.events},
+        {"before", averages_of(config, 0, found.period, control)},
+        {"after", found.found ? averages_of(config, found.period + residences_for,
+                                            found.period + residences_for + periods_after, control)
+                              : Json::object()}};
 }
 
 struct Quantity {
@@ -109,7 +110,7 @@ Estimate over_seeds(const std::vector<Json>& runs, const char* phase, const Quan
     std::vector<Estimate> found;
     for (const Json& run : runs)
         found.push_back({.mean = number(at(run, {phase, quantity.group, quantity.name, "mean"}))});
-    return several_runs(found).estimate;
+    return ensemble(found).estimate;
 }
 
 /// The row of one number of discs, and the sentence on it.
@@ -126,12 +127,12 @@ std::vector<Table::Cell> row_of(std::int64_t discs, const std::vector<Json>& run
         waiting.push_back({.mean = static_cast<double>(periods)});
         events += number(run["events"]);
     }
-    const Estimate mean = several_runs(waiting).estimate;
+    const Estimate mean = ensemble(waiting).estimate;
     std::vector<Table::Cell> row{
         discs,      static_cast<std::int64_t>(runs.size()),
         condensed,  mean.mean,
         mean.error, shortest,
-        longest,    condensed > 0 ? events / static_cast<double>(condensed) : not_known};
+        longest,    condensed > 0 ? events / static_cast<double>(condensed) : not_available};
     for (const char* phase : {"before", "after"})
         for (const Quantity& quantity : quantities) {
             const Estimate e = over_seeds(runs, phase, quantity);
@@ -157,7 +158,7 @@ static FigurePlan plan_figure_condensation(const PaperSettings& settings) {
     const std::vector<std::int64_t> numbers =
         settings.quick ? std::vector<std::int64_t>{rotating, counterrotating}
                        : std::vector<std::int64_t>{16, 20, 24, 28, 32, 36, 40, 44, 48};
-    const std::int64_t periods = settings.swirls(settings.quick ? 200 : 400, 20);
+    const std::int64_t periods = settings.periods(settings.quick ? 200 : 400, 20);
     const int seeds = settings.seeds();
     for (const std::int64_t n : numbers)
         for (int s = 0; s < seeds; ++s) {

@@ -44,12 +44,12 @@ FigureOutcome write_both(const std::string& name, std::int64_t discs, const Json
     for (std::size_t r = 0; r < density["x"].size(); ++r)
         table.add({std::string("density"), discs, steadiness(result), number(density["x"][r]),
                    number(density["y"][r]), number(density["by_time"][r]),
-                   number(density["by_time_error"][r]), not_known, not_known, not_known, not_known,
-                   not_known});
+                   number(density["by_time_error"][r]), not_available, not_available, not_available,
+                   not_available, not_available});
     const Json& flow = result["measured"]["flow"];
     for (std::size_t r = 0; r < flow["x"].size(); ++r)
         table.add({std::string("flow"), discs, steadiness(result), number(flow["x"][r]),
-                   number(flow["y"][r]), not_known, not_known, number(flow["u_x"][r]),
+                   number(flow["y"][r]), not_available, not_available, number(flow["u_x"][r]),
                    number(flow["u_x_error"][r]), number(flow["u_y"][r]),
                    number(flow["u_y_error"][r]), number(flow["visits"][r])});
     FigureOutcome outcome;

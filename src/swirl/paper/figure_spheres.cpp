@@ -41,8 +41,8 @@ RunConfig experiment(const PaperSettings& settings, std::int64_t spheres) {
     config.discs = spheres;
     config.seed = settings.seed;
     const bool dense = spheres >= 48;
-    config.warmup = settings.swirls(settings.quick || dense ? 25 : 50, 1);
-    config.periods = *config.warmup + settings.swirls(settings.quick || dense ? 50 : 150, 3);
+    config.warmup = settings.periods(settings.quick || dense ? 25 : 50, 1);
+    config.periods = *config.warmup + settings.periods(settings.quick || dense ? 50 : 150, 3);
     return config;
 }
 
@@ -73,7 +73,7 @@ Variant friction(double mu) {
             [mu](RunConfig& c) { c.mu_disc = c.mu_wall = mu; }};
 }
 
-std::vector<double> frictions_of_spheres(const PaperSettings& settings) {
+std::vector<double> friction_coefficients_of_spheres(const PaperSettings& settings) {
     if (settings.quick) return {0.15, 0.2, 0.5};
     // Close to each other about those at which as many change as in the experiment, 36 and 28.
     return {0.1, 0.15, 0.17, 0.2, 0.23, 0.25, 0.3, 0.5};
@@ -111,7 +111,7 @@ void add_sign_changes(Table& table, const Variant& variant, const Crossing& foun
         while (!undetermined.empty() && undetermined.front() <= up_to) {
             const double n = undetermined.front();
             undetermined.erase(undetermined.begin());
-            table.add({variant.name, variant.mu, not_known, not_known, n, n, n, n,
+            table.add({variant.name, variant.mu, not_available, not_available, n, n, n, n,
                        std::string("undetermined")});
         }
     };
@@ -173,19 +173,20 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
 /// Between which frictions as many spheres as those of the experiment that changed their sense
 /// change theirs: the other way round, as the N of the last change jumps with the friction. The
 /// frictions are too far apart for a straight line to say where. In the order of plan_variants().
-FigureOutcome frictions_of_the_experiment(const PaperSettings& settings,
-                                          const std::vector<Json>& results, const fs::path& file) {
+FigureOutcome friction_coefficients_of_the_experiment(const PaperSettings& settings,
+                                                      const std::vector<Json>& results,
+                                                      const fs::path& file) {
     const std::vector<std::int64_t> numbers = numbers_of_spheres(settings);
-    const std::vector<double> frictions = frictions_of_spheres(settings);
+    const std::vector<double> friction_coefficients = friction_coefficients_of_spheres(settings);
     Table table({"discs", "before", "after", "sense"});
     FigureOutcome outcome{{}, {file}};
     for (const std::int64_t n : {36, 28}) {
         const auto k = static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), n) -
                                                 numbers.begin());
         std::vector<RotationPoint> curve;
-        for (std::size_t v = 0; v < frictions.size(); ++v)
-            curve.push_back(
-                rotation_point(frictions[v], results[v * numbers.size() + k], "by_time"));
+        for (std::size_t v = 0; v < friction_coefficients.size(); ++v)
+            curve.push_back(rotation_point(friction_coefficients[v],
+                                           results[v * numbers.size() + k], "by_time"));
         for (const SignChange& c : find_crossing(curve).changes) {
             const char* const sense = c.to_counterrotation ? "counterrotation" : "rotation";
             table.add({n, c.before, c.after, std::string(sense)});
@@ -244,7 +245,8 @@ std::string at_both_ends(const std::vector<VariantPoint>& points, const std::vec
 
 static FigurePlan plan_figure_spheres(const PaperSettings& settings) {
     std::vector<Variant> variants;
-    for (const double mu : frictions_of_spheres(settings)) variants.push_back(friction(mu));
+    for (const double mu : friction_coefficients_of_spheres(settings))
+        variants.push_back(friction(mu));
     return plan_variants(settings, "spheres", variants, numbers_of_spheres(settings),
                          settings.seeds());
 }
@@ -262,7 +264,7 @@ static FigurePlan plan_figure_spheres_sense(const PaperSettings& settings) {
         if (error)
             throw Failure(
                 fmt::format("'{}' cannot be written: {}.", table.string(), error.message()));
-        FigureOutcome at_numbers = frictions_of_the_experiment(
+        FigureOutcome at_numbers = friction_coefficients_of_the_experiment(
             settings, results, out / "figure_spheres_sense_frictions.csv");
         at_numbers.files.insert(at_numbers.files.begin(), table);
         return at_numbers;
@@ -400,13 +402,13 @@ static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
     constexpr std::int64_t spheres = 36;
     FigurePlan plan;
     plan.script = "figure_spheres_map.py";
-    std::vector<double> frictions{0.1, 0.2, 0.5}, floors{0.03, 0.3, 1.0};
+    std::vector<double> friction_coefficients{0.1, 0.2, 0.5}, floors{0.03, 0.3, 1.0};
     if (!settings.quick) {
-        frictions = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0};
+        friction_coefficients = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0};
         floors = {0.01, 0.03, 0.1, 0.3, 1.0};
     }
     std::vector<RunConfig> points;
-    for (const double mu : frictions)
+    for (const double mu : friction_coefficients)
         for (const double floor_friction : floors) {
             RunConfig config = experiment(settings, spheres);
             config.mu_disc = config.mu_wall = mu;
@@ -453,8 +455,8 @@ static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
         settings.quick ? std::vector<std::int64_t>{3, 5} : std::vector<std::int64_t>{3, 4, 5};
     for (const std::int64_t n : numbers) {
         RunConfig config = experiment(settings, n);
-        config.warmup = settings.swirls(settings.quick ? 50 : 100, 2);
-        config.periods = *config.warmup + settings.swirls(settings.quick ? 25 : 50, 3);
+        config.warmup = settings.periods(settings.quick ? 50 : 100, 2);
+        config.periods = *config.warmup + settings.periods(settings.quick ? 25 : 50, 3);
         plan.points.push_back(
             point_of_spheres(settings, fmt::format("spheres_few_N{}_{}", n, length_of(config)),
                              config, settings.seeds(), {"stays"}));

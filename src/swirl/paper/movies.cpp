@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// One movie.
-struct Video {
+struct PaperMovie {
     std::string system;   // "All friction": a heading of the page
     std::string name;     // of the file, as in the SI, without its ending
     std::string caption;  // on the page, below it
@@ -104,11 +104,11 @@ std::string lower(std::string text) {
     return text;
 }
 
-Video video_of(const System& system, int version, Frame frame,
-               const PaperMoviesSettings& settings) {
+PaperMovie video_of(const System& system, int version, Frame frame,
+                    const PaperMoviesSettings& settings) {
     const bool lab = frame == Frame::lab, model = &system == &minimal_model;
     const std::string place = lab ? "lab-frame" : "m-frame";
-    Video video;
+    PaperMovie video;
     video.system = system.title;
     video.what_to_see = system.lines[version][lab ? 0 : 1];
     MovieConfig& config = video.config;
@@ -146,8 +146,8 @@ Video video_of(const System& system, int version, Frame frame,
 }
 
 /// In the order of the page.
-std::vector<Video> all_videos(const PaperMoviesSettings& settings) {
-    std::vector<Video> videos;
+std::vector<PaperMovie> all_videos(const PaperMoviesSettings& settings) {
+    std::vector<PaperMovie> videos;
     const auto add = [&](const System& system) {
         for (const int version : {0, 1})
             for (const Frame frame : {Frame::lab, Frame::m})
@@ -158,10 +158,10 @@ std::vector<Video> all_videos(const PaperMoviesSettings& settings) {
     return videos;
 }
 
-std::string movie_key(const Video& video) { return "movie-" + video.name; }
+std::string movie_key(const PaperMovie& video) { return "movie-" + video.name; }
 
 /// The rotation that was found in it, if an earlier call has made this very movie.
-std::optional<double> finished_before(const PaperParts& parts, const Video& video) {
+std::optional<double> finished_before(const PaperParts& parts, const PaperMovie& video) {
     const auto part = parts.recall(movie_key(video));
     if (!part) return {};
     const Json& result = (*part)["result"];
@@ -174,14 +174,14 @@ std::optional<double> finished_before(const PaperParts& parts, const Video& vide
 }
 
 /// ϖ/Ω over the swirls shown, by time.
-double rotation_in(const Video& video) {
+double rotation_in(const PaperMovie& video) {
     if (video.model) return video.model->rotation();
     const MovieConfig& movie = video.config;
     const FrameSource& source = movie.sources.front();
-    const double start = movie.start, swirls = movie.frames * movie.pace / movie.frames_per_second;
+    const double start = movie.start, periods = movie.frames * movie.pace / movie.frames_per_second;
     constexpr int samples = 64;  // per swirl
     const Reel reel = source.open();
-    const auto count = static_cast<int>(std::lround(swirls * samples));
+    const auto count = static_cast<int>(std::lround(periods * samples));
     double sum = 0.0;
     for (int k = 0; k < count; ++k)
         sum += cluster_rotation(reel(start + (k + 0.5) / samples)).individual;
@@ -245,7 +245,7 @@ document.querySelectorAll(".row").forEach((row) => seen.observe(row));
 </html>
 )";
 
-std::string figure_of(const Video& video, double rotation) {
+std::string figure_of(const PaperMovie& video, double rotation) {
     const bool lab = video.config.appearance.frames.front() == Frame::lab;
     return fmt::format(
         "<figure><video src=\"{}.mp4\" preload=\"auto\" loop muted playsinline controls></video>\n"
@@ -254,7 +254,7 @@ std::string figure_of(const Video& video, double rotation) {
         video.what_to_see);
 }
 
-std::string page_of(const std::vector<Video>& videos, const std::vector<double>& rotations) {
+std::string page_of(const std::vector<PaperMovie>& videos, const std::vector<double>& rotations) {
     std::string page = page_head, open;
     for (std::size_t k = 0; k < videos.size(); ++k) {
         if (videos[k].system != open) {
@@ -275,11 +275,11 @@ std::string page_of(const std::vector<Video>& videos, const std::vector<double>&
 
 PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
                               const PaperMoviesControl& control) {
-    const std::vector<Video> videos = all_videos(settings);
+    const std::vector<PaperMovie> videos = all_videos(settings);
     const PaperParts parts(settings.out);
     PaperMovies made;
     std::vector<double> rotations;
-    for (const Video& video : videos) {
+    for (const PaperMovie& video : videos) {
         if (const auto known = finished_before(parts, video)) {
             rotations.push_back(*known);
             ++made.remembered;
@@ -310,7 +310,7 @@ PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
         made.files.emplace_back(video.config.out);
     }
     const fs::path page = settings.out / "movies.html";
-    write_whole_file(page, page_of(videos, rotations));
+    write_file_atomically(page, page_of(videos, rotations));
     made.files.push_back(page);
     return made;
 }

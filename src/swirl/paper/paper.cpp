@@ -96,7 +96,7 @@ const PaperFigure& paper_figure(const std::string& name) {
         if (figure.name == name) return figure;
         known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.name);
     }
-    throw WrongCall(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
+    throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
 }
 
 // In the paper's dish 480 at N = 28 and 3400 at N = 48; few when it is thin, by the corners alone.
@@ -120,8 +120,8 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
     const double events =
         config.periods ? expected_events_per_swirl(config) * static_cast<double>(*config.periods)
                        : static_cast<double>(config.events);
-    const double swirls = events / expected_events_per_swirl(config);
-    const double looks = measurements.empty() ? 0.0 : samples_per_period * swirls;
+    const double periods = events / expected_events_per_swirl(config);
+    const double looks = measurements.empty() ? 0.0 : samples_per_period * periods;
     const double cost = events + looks * cost_of_a_look;
     PaperTask task{key, cost, [config, measurements](const RunControl& control) {
                        const MeasuredRun done = measured_run(config, measurements, control);
@@ -134,11 +134,11 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
     return task;
 }
 
-std::int64_t PaperSettings::swirls(std::int64_t by_default, std::int64_t least) const {
+std::int64_t PaperSettings::periods(std::int64_t by_default, std::int64_t minimum) const {
     const double share =
         static_cast<double>(events_of_a_run()) / static_cast<double>(events_by_default());
-    const double swirls = std::round(static_cast<double>(by_default) * share);
-    return std::max(least, static_cast<std::int64_t>(swirls));
+    const double periods = std::round(static_cast<double>(by_default) * share);
+    return std::max(minimum, static_cast<std::int64_t>(periods));
 }
 
 namespace {
@@ -251,7 +251,7 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     if (unaveraged > 0)
         remarks.push_back(fmt::format(
             "{} of them have fewer than {} swirls after their warm-up and are not averaged.",
-            unaveraged, least_swirls_of_an_average));
+            unaveraged, min_periods_of_an_average));
     if (!disagreeing.empty())
         remarks.push_back(fmt::format(
             "At {} of {} points the seeds scatter more than the errors within their runs can "
@@ -268,7 +268,7 @@ MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
     for (const PaperPoint& point : plan.points) {
         std::vector<Json> seeds;
         for (const PaperTask& task : point.runs) seeds.push_back(runs.at(task.key)["result"]);
-        in_order.push_back(several_seeds(seeds));
+        in_order.push_back(replicates(seeds));
         if (!point.name.empty()) in_order.back()["point"] = point.name;
     }
     MadeFigure made{std::string(figure.name), std::string(figure.description), {}};
@@ -304,7 +304,7 @@ void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& 
     StudyProgress progress(control, work.cost());
     std::mutex results_mutex;
     try {
-        on_all_cores(
+        parallel_for(
             work.left.size(),
             [&](std::size_t k) {
                 if (stopped(control)) throw_interrupted(settings);
@@ -337,7 +337,7 @@ bool ask_for_more_seeds(PaperSettings& settings, const std::vector<FigurePlan>& 
     for (const Json& name : found["points_to_decide"]) {
         const auto known = seeds.find(name.get<std::string>());
         if (known == seeds.end()) continue;
-        if (2 * known->second > settings.most_seeds()) {
+        if (2 * known->second > settings.max_seeds()) {
             ++all.undecided_points;
             continue;
         }
@@ -375,7 +375,7 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
         if (!decide || !ask_for_more_seeds(settings, plans, control, all)) break;
     }
     // The drawings are independent too, and take a second each.
-    on_all_cores(
+    parallel_for(
         plans.size(),
         [&](std::size_t f) {
             if (stopped(control)) throw_interrupted(settings);
@@ -409,7 +409,7 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"events_of_a_run", settings.events_of_a_run()},
                      {"defaults", config_json(paper_run(settings))},
                      {"seeds_of_a_point", settings.seeds()},
-                     {"most_seeds_of_a_point", settings.most_seeds()},
+                     {"most_seeds_of_a_point", settings.max_seeds()},
                      {"undecided_points", result.undecided_points},
                      {"runs", result.tasks},
                      {"runs_of_earlier_calls", result.remembered},
@@ -418,7 +418,7 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"seconds_on_one_core", result.task_seconds},
                      {"figures", figures}};
     const fs::path file = settings.out / "paper.json";
-    write_whole_file(file, about.dump(2) + "\n");
+    write_file_atomically(file, about.dump(2) + "\n");
     run_python_script("report.py", {settings.out.string()}, stop);
     return {file, settings.out / "report.md", settings.out / "report.html"};
 }

@@ -29,13 +29,13 @@ struct PaperSettings {
     int seeds() const { return quick ? 3 : 8; }
     int seeds_beyond() const { return quick ? 2 : 3; }
     /// What a point gets at most, for the sake of a claim: the budget.
-    int most_seeds() const { return 4 * seeds(); }
+    int max_seeds() const { return 4 * seeds(); }
 
     /// Of one run of the paper: its 10^6, or fewer.
     std::int64_t events_of_a_run() const { return events.value_or(events_by_default()); }
     std::int64_t events_by_default() const { return quick ? 200'000 : 1'000'000; }
     /// A length in swirls, as many times shorter or longer as --events makes the other runs.
-    std::int64_t swirls(std::int64_t by_default, std::int64_t least) const;
+    std::int64_t periods(std::int64_t by_default, std::int64_t minimum) const;
 };
 
 /// One piece of work. Its result is remembered in OUT/parts/KEY.json, so a study that was

@@ -49,7 +49,7 @@ std::optional<Json> PaperParts::recall(const std::string& key) const {
 Json PaperParts::remember(const std::string& key, const Json& result, double seconds) const {
     Json part{{"key", key}, {"version", version()}, {"seconds", seconds}, {"result", result}};
     part["checksum"] = checksum_of(part);
-    write_whole_file(file(key), part.dump() + "\n");
+    write_file_atomically(file(key), part.dump() + "\n");
     return part;
 }
 

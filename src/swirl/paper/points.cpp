@@ -31,13 +31,13 @@ std::string name_of(const Friction& friction, std::int64_t discs) {
 /// after some swirls: there it goes by swirls, so that there is something to average.
 RunConfig config_of_a_point(const PaperSettings& settings, const Friction& friction,
                             std::int64_t discs) {
-    constexpr std::int64_t warmup = 10, swirls = 25;
+    constexpr std::int64_t warmup = 10, periods = 25;
     RunConfig config = paper_config(settings, friction, discs);
     if (!settings.quick || settings.events || friction.mu_wall > 0.0) return config;
-    if (expected_events_per_swirl(config) * double(swirls) < static_cast<double>(config.events))
+    if (expected_events_per_swirl(config) * double(periods) < static_cast<double>(config.events))
         return config;
     config.warmup = warmup;
-    config.periods = swirls;
+    config.periods = periods;
     return config;
 }
 
@@ -119,8 +119,8 @@ PaperPoint measured_point(const PaperSettings& settings, const Friction& frictio
 PaperPoint dense_point(const PaperSettings& settings, const Friction& friction,
                        std::int64_t discs) {
     RunConfig config = paper_config(settings, friction, discs);
-    config.warmup = settings.swirls(settings.quick ? 20 : 40, 1);
-    config.periods = *config.warmup + settings.swirls(settings.quick ? 60 : 200, 3);
+    config.warmup = settings.periods(settings.quick ? 20 : 40, 1);
+    config.periods = *config.warmup + settings.periods(settings.quick ? 60 : 200, 3);
     return {settings, name_of(friction, discs), settings.seeds(), [&](std::uint64_t seed) {
                 config.seed = seed;
                 return run_task(
@@ -134,11 +134,11 @@ RunConfig settled_config(const PaperSettings& settings, const Friction& friction
                          std::int64_t discs) {
     RunConfig config = paper_config(settings, friction, discs);
     const std::int64_t left_out = friction.mu_disc == 0.0 ? 300 : 100;
-    config.warmup = settings.swirls(settings.quick ? left_out / 2 : left_out, 2);
+    config.warmup = settings.periods(settings.quick ? left_out / 2 : left_out, 2);
     const auto measured =
         static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) / expected_events_per_swirl(config));
-    const std::int64_t least = settings.quick ? 50 : 200;
-    config.periods = *config.warmup + settings.swirls(std::max(least, measured), 3);
+    const std::int64_t minimum = settings.quick ? 50 : 200;
+    config.periods = *config.warmup + settings.periods(std::max(minimum, measured), 3);
     return config;
 }
 
@@ -175,7 +175,7 @@ const Json& at(const Json& result, std::initializer_list<std::string_view> path)
     return *here;
 }
 
-double number(const Json& value) { return value.is_number() ? value.get<double>() : not_known; }
+double number(const Json& value) { return value.is_number() ? value.get<double>() : not_available; }
 
 std::string steadiness(const Json& result) {
     const Json& verdict = at(result, {"steady_state", "verdict"});
@@ -217,7 +217,7 @@ std::vector<std::string> rotation_columns() {
 
 Table::Cell whole(const Json& value) {
     if (value.is_number_integer()) return value.get<std::int64_t>();
-    return not_known;
+    return not_available;
 }
 
 Table::Cell averaged_runs(const Json& r) { return whole(at(r, {"seeds", "averaged"})); }
@@ -347,7 +347,7 @@ void write_crossings(const std::vector<NamedCurve>& curves, const std::filesyste
         const Crossing& c = all[curve.rate];
         const RotationPoint* const known = lowest_of(curve.points());
         const RotationPoint lowest =
-            known ? *known : RotationPoint{not_known, not_known, not_known};
+            known ? *known : RotationPoint{not_available, not_available, not_available};
         std::vector<Table::Cell> row{curve.name,
                                      std::string(rotation_rates[curve.rate].name),
                                      std::string(verdict_word(c.verdict)),

@@ -29,8 +29,8 @@ inline constexpr Friction medium_friction{"medium", "medium friction", 0.5, 0.5}
 inline constexpr Friction low_friction{"low", "low friction", 0.1, 0.1};
 inline constexpr Friction no_wall_friction{"no-wall", "no wall friction", 1.0, 0.0};
 inline constexpr Friction no_disc_friction{"no-disc", "no disc friction", 0.0, 1.0};
-inline constexpr Friction frictions_of_5b[] = {high_friction, medium_friction, low_friction,
-                                               no_wall_friction, no_disc_friction};
+inline constexpr Friction friction_coefficients_of_5b[] = {
+    high_friction, medium_friction, low_friction, no_wall_friction, no_disc_friction};
 
 /// N = 5 … 48; a choice of them when it must be quick.
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings);

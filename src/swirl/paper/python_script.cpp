@@ -96,16 +96,16 @@ Ended run_program(const std::vector<std::string>& words, const std::atomic<bool>
     }
     close(ends[1]);
     pollfd waited{ends[0], POLLIN, 0};
-    int patience = -1;  // none is needed yet
+    int deadline = -1;  // none is needed yet
     for (;;) {
         constexpr int look = 50;  // ms
         const int ready = poll(&waited, 1, look);
         if (ready > 0 && !listen(ends[0], ended.said)) break;
-        if (patience < 0 && stop != nullptr && stop->load()) {
-            patience = grace / look;
+        if (deadline < 0 && stop != nullptr && stop->load()) {
+            deadline = grace / look;
             kill(-child, SIGINT);
         }
-        if (ready == 0 && patience > 0 && --patience == 0) kill(-child, SIGKILL);
+        if (ready == 0 && deadline > 0 && --deadline == 0) kill(-child, SIGKILL);
     }
     close(ends[0]);
     while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {

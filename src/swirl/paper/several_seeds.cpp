@@ -33,9 +33,9 @@ bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 /// average.
 bool too_short_to_average(const Json& run) {
     const Json& asked = at(run, {"config", "warmup"});
-    const Json& swirls = at(run, {"rotation", "by_event", "blocks"});
+    const Json& periods = at(run, {"rotation", "by_event", "blocks"});
     return (number(at(run, {"warmup", "periods"})) == 0.0 && asked != 0) ||
-           number(swirls) < least_swirls_of_an_average;
+           number(periods) < min_periods_of_an_average;
 }
 
 bool is_average(const Json& json) {
@@ -52,15 +52,15 @@ Estimate estimate_in(const Json& json) {
     return e;
 }
 
-SeveralRuns together(const Places& averages, std::span<const double> weights) {
+Ensemble together(const Places& averages, std::span<const double> weights) {
     std::vector<Estimate> estimates;
     for (const Json* average : averages) estimates.push_back(estimate_in(*average));
     return is_direction(*averages.front()) ? several_directions(estimates, weights)
-                                           : several_runs(estimates, weights);
+                                           : ensemble(estimates, weights);
 }
 
 Json average_json(const Places& averages, std::span<const double> weights) {
-    const SeveralRuns all = together(averages, weights);
+    const Ensemble all = together(averages, weights);
     Json json{{"mean", all.estimate.mean},
               {"error", all.estimate.error},
               {"effective_samples", all.estimate.effective_samples},
@@ -80,7 +80,7 @@ Json average_json(const Places& averages, std::span<const double> weights) {
 /// A cell of a column without errors: what all runs have, to the bit, or their mean.
 double mean_cell(std::vector<double> cells) {
     std::erase_if(cells, [](double cell) { return std::isnan(cell); });
-    if (cells.empty()) return not_known;
+    if (cells.empty()) return not_available;
     if (std::equal(cells.begin() + 1, cells.end(), cells.begin())) return cells.front();
     return std::accumulate(cells.begin(), cells.end(), 0.0) / static_cast<double>(cells.size());
 }
@@ -103,7 +103,7 @@ Json table_json(const Places& tables, std::span<const double> weights) {
                 // Angles in tables are known by their names.
                 const Estimate e =
                     (name.starts_with("becoming_") ? several_directions(estimates, weights)
-                                                   : several_runs(estimates, weights))
+                                                   : ensemble(estimates, weights))
                         .estimate;
                 json[name].push_back(e.mean);
                 json[name + "_error"].push_back(e.error);
@@ -183,7 +183,7 @@ std::int64_t whole_mean(const Places& runs, std::initializer_list<std::string_vi
 
 }  // namespace
 
-Json several_seeds(const std::vector<Json>& results) {
+Json replicates(const std::vector<Json>& results) {
     if (results.size() == 1 && !is_run(results.front())) return results.front();
     const Json seeds = counted(results);
     Places runs;
@@ -195,12 +195,12 @@ Json several_seeds(const std::vector<Json>& results) {
         if (why != results.end()) return *why;
         return {{"failed",
                  fmt::format("no run had {} swirls after its warm-up, so nothing is averaged.",
-                             least_swirls_of_an_average)},
+                             min_periods_of_an_average)},
                 {"seeds", seeds}};
     }
-    std::vector<double> swirls;
+    std::vector<double> periods;
     for (const Json* run : runs)
-        swirls.push_back(number(at(*run, {"periods"})) - number(at(*run, {"warmup", "periods"})));
+        periods.push_back(number(at(*run, {"periods"})) - number(at(*run, {"warmup", "periods"})));
 
     Json all = {{"config", runs.front()->at("config")},
                 {"events", {{"total", whole_mean(runs, {"events", "total"})}}},
@@ -210,10 +210,10 @@ Json several_seeds(const std::vector<Json>& results) {
         const bool by_event = std::string_view(which).ends_with("by_event");
         all["rotation"][which] =
             average_json(inside(inside(runs, "rotation"), which),
-                         by_event ? std::span<const double>() : std::span<const double>(swirls));
+                         by_event ? std::span<const double>() : std::span<const double>(periods));
     }
     if (at(*runs.front(), {"measured"}).is_object())
-        all["measured"] = measured_together(inside(runs, "measured"), swirls);
+        all["measured"] = measured_together(inside(runs, "measured"), periods);
     all["seeds"] = seeds;
     all["seeds"]["scatter"] = all["rotation"]["by_event"]["scatter"];
     all["seeds"]["disagree"] = all["rotation"]["by_event"]["disagree"];

@@ -22,9 +22,9 @@
 
 namespace swirl {
 
-inline constexpr int least_swirls_of_an_average = 5;
+inline constexpr int min_periods_of_an_average = 5;
 
 /// Of one result that is no run, that result.
-nlohmann::ordered_json several_seeds(const std::vector<nlohmann::ordered_json>& results);
+nlohmann::ordered_json replicates(const std::vector<nlohmann::ordered_json>& results);
 
 }  // namespace swirl

@@ -299,8 +299,8 @@ SWIRL_INLINE Surface at_contact_on_floor(Surface surface, double since_last, con
     if (!(since_last < surface.contact_duration)) return surface;
     const double approach =
         -dot(separation, relative_velocity) / square_root(dot(separation, separation));
-    const double least = 0.5 * floor.deceleration * surface.contact_duration;
-    surface.restitution = approach > 0.0 ? larger(1.0, smaller(least / approach, 1e100)) : 1.0;
+    const double minimum = 0.5 * floor.deceleration * surface.contact_duration;
+    surface.restitution = approach > 0.0 ? larger(1.0, smaller(minimum / approach, 1e100)) : 1.0;
     return surface;
 }
 

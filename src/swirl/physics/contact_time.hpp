@@ -314,26 +314,27 @@ SWIRL_INLINE double quick_turning_wall_contact(const TurningWall& wall,
 /// At the wall and approaching means now. Otherwise a disc counts as 2⁻⁵² clearance² inside
 /// (time_to_leave).
 [[maybe_unused, gnu::noinline]] static WallContact turning_wall_contact(
-    const Flight<double>& disc, const Flight<double>& centre, const Leg& leg, double clearance,
-    double latest) {
+    const Flight<double>& disc, const Flight<double>& centre, const Segment& segment,
+    double clearance, double latest) {
     const double now = centre.time;
-    const TurningWall wall(disc, centre, leg.turning, clearance);
+    const TurningWall wall(disc, centre, segment.turning, clearance);
     const TurningWall::Near start = wall.first();
     if (start.b > 0.0 && start.c >= 0.0) return {now, false};
     const double wait = quick_turning_wall_contact(wall, start), t = now + wait;
     if (wait == never) [[unlikely]]
-        return slow_turning_wall_contact(wall, now, (0.25 * pi) / magnitude(leg.turning), leg.end,
-                                         latest);
-    if (t >= leg.end) return {never, false};
+        return slow_turning_wall_contact(wall, now, (0.25 * pi) / magnitude(segment.turning),
+                                         segment.end, latest);
+    if (t >= segment.end) return {never, false};
     return {t, false};
 }
 /// From when on the disc is on this leg.
-SWIRL_INLINE double beginning_on(const Leg& leg, const Flight<double>& disc) {
-    return larger(disc.time, leg.begin);
+SWIRL_INLINE double beginning_on(const Segment& segment, const Flight<double>& disc) {
+    return larger(disc.time, segment.begin);
 }
-SWIRL_INLINE double time_of_turning_wall_contact(const Flight<double>& disc, const Leg& leg,
+SWIRL_INLINE double time_of_turning_wall_contact(const Flight<double>& disc, const Segment& segment,
                                                  double clearance) {
-    return turning_wall_contact(disc, leg.flight_at(beginning_on(leg, disc)), leg, clearance, never)
+    return turning_wall_contact(disc, segment.flight_at(beginning_on(segment, disc)), segment,
+                                clearance, never)
         .time;
 }
 
@@ -413,12 +414,12 @@ SWIRL_INLINE double time_of_contact(const Encounter<double>& e) {
 
 /// Sphere and wall, on a straight leg. The room is clearance² − |s|².
 SWIRL_INLINE double time_of_wall_contact(const Parabola<double>& sphere, double begins_to_roll,
-                                         const Leg& leg, double clearance) {
-    const Flight<double> container{leg.start, leg.velocity, leg.begin};
+                                         const Segment& segment, double clearance) {
+    const Flight<double> container{segment.start, segment.velocity, segment.begin};
     if (sphere.acceleration.x == 0.0 && sphere.acceleration.y == 0.0)
         return time_of_wall_contact(Flight<double>{sphere.position, sphere.velocity, sphere.time},
                                     container, clearance);
-    const double now = larger(sphere.time, leg.begin);
+    const double now = larger(sphere.time, segment.begin);
     const Vec2 s = sphere.position_at(now) - container.position_at(now);
     const Vec2 v = sphere.velocity_at(now) - container.velocity;
     const Room<double> f(s, v, 0.5 * sphere.acceleration, clearance);
@@ -431,15 +432,16 @@ inline double time_of_contact(const Disc& i, const Disc& j) {
 }
 
 /// On a straight leg the answer may lie beyond the end of the leg; the leg's end comes first.
-SWIRL_INLINE double time_of_wall_contact(const Flight<double>& disc, const Leg& leg,
+SWIRL_INLINE double time_of_wall_contact(const Flight<double>& disc, const Segment& segment,
                                          double clearance) {
-    if (leg.turning != 0.0) [[unlikely]]
-        return time_of_turning_wall_contact(disc, leg, clearance);
-    return time_of_wall_contact(disc, Flight<double>{leg.start, leg.velocity, leg.begin},
-                                clearance);
+    if (segment.turning != 0.0) [[unlikely]]
+        return time_of_turning_wall_contact(disc, segment, clearance);
+    return time_of_wall_contact(
+        disc, Flight<double>{segment.start, segment.velocity, segment.begin}, clearance);
 }
-inline double time_of_wall_contact(const Disc& disc, const Leg& leg, double container_radius) {
-    return time_of_wall_contact(disc.flight(), leg, container_radius - disc.radius);
+inline double time_of_wall_contact(const Disc& disc, const Segment& segment,
+                                   double container_radius) {
+    return time_of_wall_contact(disc.flight(), segment, container_radius - disc.radius);
 }
 
 }  // namespace swirl

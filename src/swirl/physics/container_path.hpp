@@ -16,7 +16,7 @@
 namespace swirl {
 
 /// One stretch of the path. Times are counted from the start of the swirl.
-struct Leg {
+struct Segment {
     double begin, end;
     Vec2 start, velocity;  // at `begin`
     double turning;        // rad per unit time; 0 for a straight leg
@@ -43,13 +43,13 @@ struct Leg {
 
 struct ContainerPath {
     double period;  // T; the swirl's angular velocity is Ω = 2π/T
-    std::vector<Leg> legs;
+    std::vector<Segment> segments;
 
     double omega() const { return 2.0 * pi / period; }
-    const Leg& leg_at(double t) const {
-        for (const Leg& leg : legs)
-            if (t < leg.end) return leg;
-        return legs.back();
+    const Segment& segment_at(double t) const {
+        for (const Segment& segment : segments)
+            if (t < segment.end) return segment;
+        return segments.back();
     }
 };
 
@@ -74,7 +74,7 @@ inline ContainerPath polygon_path(double amplitude, double period, int sides) {
         const double begin = period * k / sides, end = period * (k + 1) / sides;
         const Vec2 from = amplitude * unit_circle(double(k) / sides);
         const Vec2 to = amplitude * unit_circle(double(k + 1) / sides);
-        path.legs.push_back({begin, end, from, (sides / period) * (to - from), 0.0});
+        path.segments.push_back({begin, end, from, (sides / period) * (to - from), 0.0});
     }
     return path;
 }

@@ -14,8 +14,8 @@ namespace swirl {
 enum class EventKind : std::uint8_t { disc_disc, disc_wall, path_vertex, begins_to_roll };
 
 struct Event {
-    std::int64_t swirls;  // whole periods before it
-    double clock;         // time since the start of the current swirl
+    std::int64_t periods;  // whole periods before it
+    double clock;          // time since the start of the current swirl
     EventKind kind;
     std::uint32_t i, j;  // the discs, i < j; j = i for wall and floor; both 0 at a path vertex
     Vec2 normal;         // unit vector from i to j, or from i to the wall

@@ -7,7 +7,7 @@ namespace swirl {
 // Beyond these the arithmetic is still right but a result means nothing any more; most often a
 // number outside is a slip of the keyboard.
 inline constexpr double smallest_value = 1e-6, largest_value = 1e6;
-inline constexpr double most_discs = 1e7, most_events = 1e15, most_periods = 1e12, most_sides = 1e6;
+inline constexpr double max_discs = 1e7, max_events = 1e15, max_periods = 1e12, max_sides = 1e6;
 
 /// Moments of inertia: in a mixture they follow from the mass and the square of the radius.
 inline constexpr double smallest_inertia = 1e-48, largest_inertia = 1e48;

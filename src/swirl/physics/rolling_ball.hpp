@@ -46,8 +46,8 @@ inline Snapshot snapshot_at(const RollingBall& ball, double amplitude, double pe
     const double turns = t / period;
     const double omega = 2.0 * pi / period;
     Snapshot s;
-    s.swirls = static_cast<std::int64_t>(turns);
-    const double phase = turns - static_cast<double>(s.swirls);
+    s.periods = static_cast<std::int64_t>(turns);
+    const double phase = turns - static_cast<double>(s.periods);
     s.clock = phase * period;
     s.period = period;
     s.container_radius = ball.container_radius;

@@ -21,9 +21,9 @@
 namespace swirl {
 
 struct Snapshot {
-    std::int64_t swirls = 0;  // whole periods since the beginning
-    double clock = 0.0;       // time since the start of the current swirl
-    double period = 0.0;      // T; Ω = 2π/T
+    std::int64_t periods = 0;  // whole periods since the beginning
+    double clock = 0.0;        // time since the start of the current swirl
+    double period = 0.0;       // T; Ω = 2π/T
     Vec2 container_centre{0.0, 0.0}, container_velocity{0.0, 0.0};
     double container_radius = 0.0;
 
@@ -42,7 +42,7 @@ struct Snapshot {
     bool are_spheres() const { return !ax.empty(); }
     bool are_balls() const { return are_spheres() && !lie_flat; }
     std::size_t size() const { return x.size(); }
-    double time() const { return static_cast<double>(swirls) * period + clock; }
+    double time() const { return static_cast<double>(periods) * period + clock; }
 
     Vec2 position(std::size_t i) const {
         const double elapsed = clock - held_at[i];

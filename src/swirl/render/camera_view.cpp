@@ -332,10 +332,10 @@ const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
         }
     }
     blur(exposed_);
-    const double lamp = 1.0 + settings_.flicker * nearly_normal(random_);
+    const double illumination = 1.0 + settings_.flicker * nearly_normal(random_);
     for (std::size_t k = 0; k < exposed_.size(); ++k) {
-        const double level =
-            lamp * static_cast<double>(exposed_[k]) + settings_.noise * nearly_normal(random_);
+        const double level = illumination * static_cast<double>(exposed_[k]) +
+                             settings_.noise * nearly_normal(random_);
         picture_[k] = static_cast<std::uint8_t>(std::clamp(level + 0.5, 0.0, 255.0));
     }
     return picture_;

@@ -23,10 +23,10 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
                const std::string& output) {
     // A socket and not a pipe: writing to a dead reader then gives an error instead of a signal.
     std::array<int, 2> ends{};
-    complaints_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
-    if (complaints_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    problems_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
+    if (problems_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         const std::string reason = std::strerror(errno);
-        if (complaints_ >= 0) ::close(complaints_);
+        if (problems_ >= 0) ::close(problems_);
         throw DrawFailure("ffmpeg could not be started: " + reason + ".");
     }
     socket_ = ends[0];
@@ -45,7 +45,7 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
         nothing(STDIN_FILENO, O_RDONLY);
         posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
     }
-    posix_spawn_file_actions_adddup2(&files, complaints_, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&files, problems_, STDERR_FILENO);
     if (!output.empty())
         posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,
                                          0);
@@ -70,7 +70,7 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
     ::close(ends[1]);
     if (error == 0) return;
     ::close(socket_);
-    ::close(complaints_);
+    ::close(problems_);
     if (error == ENOENT) throw DrawFailure(missing);
     throw DrawFailure(std::string("ffmpeg could not be started: ") + std::strerror(error) + ".");
 }
@@ -80,7 +80,7 @@ Ffmpeg::~Ffmpeg() {
         ::kill(process_, SIGKILL);
         end();
     }
-    ::close(complaints_);
+    ::close(problems_);
 }
 
 int Ffmpeg::end() {
@@ -95,11 +95,11 @@ int Ffmpeg::end() {
 
 std::string Ffmpeg::said() const {
     std::array<char, 4096> text{};
-    const ssize_t count = ::pread(complaints_, text.data(), text.size(), 0);
+    const ssize_t count = ::pread(problems_, text.data(), text.size(), 0);
     return std::string(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
 }
 
-std::string Ffmpeg::complaint() const {
+std::string Ffmpeg::problem() const {
     std::string line = said();
     line.resize(std::min(line.find_first_of("\r\n"), line.size()));
     // "[libx264 @ 0x5581…] " tells nobody anything.
@@ -113,7 +113,7 @@ std::string Ffmpeg::how_it_ended(int status) const {
     const std::string how = WIFSIGNALED(status)
                                 ? "was killed by signal " + std::to_string(WTERMSIG(status))
                                 : "ended with code " + std::to_string(WEXITSTATUS(status));
-    const std::string words = complaint();
+    const std::string words = problem();
     return words.empty() ? how + "." : how + " and said: " + words;
 }
 

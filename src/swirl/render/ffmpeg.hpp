@@ -32,14 +32,14 @@ class Ffmpeg {
     /// What it said, from the beginning.
     std::string said() const;
     /// The first line of that: the cause; consequences follow.
-    std::string complaint() const;
+    std::string problem() const;
     /// "ended with code 1 and said: …", to complete a sentence.
     std::string how_it_ended(int status) const;
 
   private:
     static constexpr int output_number = 3;
     int socket_ = -1;
-    int complaints_ = -1;  // an unnamed file that takes its standard error
+    int problems_ = -1;  // an unnamed file that takes its standard error
     int process_ = -1;
 };
 

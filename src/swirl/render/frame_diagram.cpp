@@ -98,7 +98,7 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     for (int k = 0; k < 120; ++k)
         path.push_back({amplitude * std::cos(once_round * k / 120),
                         amplitude * std::sin(once_round * k / 120)});
-    draw_dish(canvas, views[0], style, empty);
+    draw_container(canvas, views[0], style, empty);
     draw_points(canvas, views[0], style, {.now = empty, .path = path});
     cairo_new_sub_path(cairo);
     cairo_arc(cairo, views[0].centre.x, views[0].centre.y,
@@ -117,13 +117,13 @@ void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot
     draw_bent_arrow(canvas, views[0], amplitude, std::atan2(centre.y, centre.x) + once_round / 8.0,
                     once_round / 4.0, 2.0 * line, theme.ink);
 
-    draw_dish(canvas, views[1], style, empty);
+    draw_container(canvas, views[1], style, empty);
     draw_points(canvas, views[1], style, {.now = empty});
     for (int k = 0; k < 3; ++k)
         draw_bent_arrow(canvas, views[1], 0.9 * radius, once_round * (k / 3.0 + 1.0 / 12.0),
                         -once_round / 6.5, 2.4 * line, theme.ink);
 
-    draw_dish(canvas, views[2], style, empty);
+    draw_container(canvas, views[2], style, empty);
     if (disc < now.size() && now.period > 0.0) {
         const FrameAt at(now, Frame::m);
         const Vec2 p = at.position(now.position(disc));

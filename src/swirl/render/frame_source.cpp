@@ -38,10 +38,11 @@ double rounded(double value) {
 /// Points along the path of C; the circle gets enough of them to look round.
 std::vector<Vec2> outline(const ContainerPath& path) {
     std::vector<Vec2> points;
-    for (const Leg& leg : path.legs) {
-        const int parts = leg.turning == 0.0 ? 1 : 180;
+    for (const Segment& segment : path.segments) {
+        const int parts = segment.turning == 0.0 ? 1 : 180;
         for (int k = 0; k < parts; ++k)
-            points.push_back(leg.position_at(leg.begin + (leg.end - leg.begin) * k / parts));
+            points.push_back(
+                segment.position_at(segment.begin + (segment.end - segment.begin) * k / parts));
     }
     return points;
 }
@@ -62,7 +63,7 @@ std::string caption_of(const RunConfig& config) {
 std::optional<RunConfig> config_in(const std::string& parameters) try {
     if (parameters.empty()) return std::nullopt;
     return resolve(parameters_in(parameters));
-} catch (const WrongCall&) {
+} catch (const UsageError&) {
     return std::nullopt;
 }
 
@@ -78,11 +79,11 @@ class FollowedSpheres {
         if (!stopped()) next_ = simulation_.step();
     }
 
-    Snapshot at(double swirls) {
-        const double whole = std::floor(swirls);
+    Snapshot at(double periods) {
+        const double whole = std::floor(periods);
         const auto period = static_cast<std::int64_t>(whole);
-        const double clock = (swirls - whole) * path_.period;
-        for (int k = 0; next_.swirls < period || (next_.swirls == period && next_.clock <= clock);
+        const double clock = (periods - whole) * path_.period;
+        for (int k = 0; next_.periods < period || (next_.periods == period && next_.clock <= clock);
              ++k) {
             if (k % 4096 == 0 && stopped())
                 throw Interrupted("Stopped before the moment that was to be shown.");
@@ -91,9 +92,9 @@ class FollowedSpheres {
         }
         Snapshot then = seen_;
         then.clock = clock;
-        const Leg& leg = path_.leg_at(clock);
-        then.container_centre = leg.position_at(clock);
-        then.container_velocity = leg.velocity_at(clock);
+        const Segment& segment = path_.segment_at(clock);
+        then.container_centre = segment.position_at(clock);
+        then.container_velocity = segment.velocity_at(clock);
         return then.up_to_date();
     }
 
@@ -136,30 +137,30 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     FrameSource source;
     const ContainerPath path = make_path(config);
     source.open = [config, stop]() -> Reel {
-        const auto refuse_stopped = [stop] {
+        const auto reject_stopped = [stop] {
             if (stop && stop->load(std::memory_order_relaxed))
                 throw Interrupted("Stopped before the moment that was to be shown.");
         };
         if (config.shape() != Shape::disc) {
             const auto spheres = std::make_shared<FollowedSpheres>(config, stop);
-            refuse_stopped();
-            return [spheres](double swirls) { return spheres->at(swirls); };
+            reject_stopped();
+            return [spheres](double periods) { return spheres->at(periods); };
         }
         auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
                                                        asked_tuning(stop));
-        refuse_stopped();
+        reject_stopped();
         // A few hundred thousand events at once.
         const double step = 3000.0 / static_cast<double>(config.discs);
-        return [=, period = config.period](double swirls) {
+        return [=, period = config.period](double periods) {
             const auto advance_to = [&](double moment) {
                 const double whole = std::floor(moment);
                 simulation->advance_to(static_cast<std::int64_t>(whole), (moment - whole) * period);
-                refuse_stopped();
+                reject_stopped();
             };
             const double now =
-                static_cast<double>(simulation->swirls()) + simulation->clock() / period;
-            for (double k = 1.0; now + k * step < swirls; ++k) advance_to(now + k * step);
-            advance_to(swirls);
+                static_cast<double>(simulation->periods()) + simulation->clock() / period;
+            for (double k = 1.0; now + k * step < periods; ++k) advance_to(now + k * step);
+            advance_to(periods);
             return simulation->snapshot();
         };
     };
@@ -176,7 +177,8 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
 FrameSource rolling(const RollingBall& ball, double amplitude, double period) {
     FrameSource source;
     source.open = [=]() -> Reel {
-        return [=](double swirls) { return snapshot_at(ball, amplitude, period, swirls * period); };
+        return
+            [=](double periods) { return snapshot_at(ball, amplitude, period, periods * period); };
     };
     source.path = outline(circular_path(amplitude, period));
     source.container_radius = ball.container_radius;
@@ -193,8 +195,8 @@ FrameSource rolling(const RollingBall& ball, double amplitude, double period) {
 
 namespace {
 
-double swirls_of(const Snapshot& s) {
-    return static_cast<double>(s.swirls) + (s.period > 0.0 ? s.clock / s.period : 0.0);
+double periods_of(const Snapshot& s) {
+    return static_cast<double>(s.periods) + (s.period > 0.0 ? s.clock / s.period : 0.0);
 }
 
 /// A share u of the way on the shorter arc from p to q, as good as evenly where it is short.
@@ -205,11 +207,11 @@ Quaternion between(const Quaternion& p, const Quaternion& q, double u) {
 }
 
 /// Between `a` and `b`, a share u of the way: straight lines.
-Snapshot between(const Snapshot& a, const Snapshot& b, double u, double swirls) {
+Snapshot between(const Snapshot& a, const Snapshot& b, double u, double periods) {
     Snapshot s = a;
-    const double whole = std::floor(swirls);
-    s.swirls = static_cast<std::int64_t>(whole);
-    s.clock = (swirls - whole) * s.period;
+    const double whole = std::floor(periods);
+    s.periods = static_cast<std::int64_t>(whole);
+    s.clock = (periods - whole) * s.period;
     s.container_centre = a.container_centre + u * (b.container_centre - a.container_centre);
     const bool same = a.size() == b.size();
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -232,17 +234,17 @@ class Projector {
         right_ = series_.frames > 1 ? series_.frame(1) : left_;
     }
 
-    Snapshot at(double swirls) {
-        while (swirls_of(right_) < swirls && next_ + 1 < series_.frames) {
+    Snapshot at(double periods) {
+        while (periods_of(right_) < periods && next_ + 1 < series_.frames) {
             left_ = std::move(right_);
             right_ = series_.frame(++next_);
         }
-        const double from = swirls_of(left_), step = swirls_of(right_) - from;
-        const double share = step > 0.0 ? (swirls - from) / step : 0.0;
+        const double from = periods_of(left_), step = periods_of(right_) - from;
+        const double share = step > 0.0 ? (periods - from) / step : 0.0;
         // On a frame, to the last bits: exactly that frame.
         if (share < 1e-9) return left_;
         if (share > 1.0 - 1e-9) return right_;
-        return between(left_, right_, share, swirls);
+        return between(left_, right_, share, periods);
     }
 
   private:
@@ -259,7 +261,7 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
     const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
     source.open = [series]() -> Reel {
         auto projector = std::make_shared<Projector>(series);
-        return [projector](double swirls) { return projector->at(swirls); };
+        return [projector](double periods) { return projector->at(periods); };
     };
     source.container_radius = first.container_radius;
     source.amplitude = std::max(series.reach - first.container_radius, 0.0);
@@ -270,8 +272,8 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
                          "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
                          "$A$ = " + plain(rounded(source.amplitude)) + " $r$",
                          fmt::format("{} recorded frames", series.frames)};
-    source.from = swirls_of(first);
-    source.to = swirls_of(last);
+    source.from = periods_of(first);
+    source.to = periods_of(last);
     const auto known = [](const std::vector<double>& values) {
         return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
     };
@@ -298,12 +300,12 @@ class FrameTable {
         }
     }
 
-    std::size_t nearest(double swirls) const {
-        const auto after = std::lower_bound(times_.begin(), times_.end(), swirls);
+    std::size_t nearest(double periods) const {
+        const auto after = std::lower_bound(times_.begin(), times_.end(), periods);
         if (after == times_.begin()) return 0;
         const auto k = static_cast<std::size_t>(after - times_.begin());
         if (after == times_.end()) return k - 1;
-        return swirls - times_[k - 1] < times_[k] - swirls ? k - 1 : k;
+        return periods - times_[k - 1] < times_[k] - periods ? k - 1 : k;
     }
 
     std::vector<std::int64_t> numbers;
@@ -336,23 +338,24 @@ FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& c
     if (series.same_discs()) source.open_between = source.open;
     if (!series.same_discs() || !pictures.empty())
         source.open = [series, table]() -> Reel {
-            return [series, table](double swirls) { return series.frame(table->nearest(swirls)); };
+            return
+                [series, table](double periods) { return series.frame(table->nearest(periods)); };
         };
     if (!series.same_discs())
-        source.ids = [table](double swirls) { return table->ids[table->nearest(swirls)]; };
+        source.ids = [table](double periods) { return table->ids[table->nearest(periods)]; };
     if (pictures.empty()) return source;
 
-    const Film film(pictures);
+    const NumberedFrames video(pictures);
     for (const std::int64_t number : {table->numbers.front(), table->numbers.back()})
-        if (!film.may_have(number + first_picture))
+        if (!video.may_have(number + first_picture))
             throw Failure(fmt::format(
                 "There is no picture '{}', which frame {} of the tracks would be drawn over.",
-                film.name(number + first_picture), number));
+                video.name(number + first_picture), number));
     source.open_backdrop = [=]() -> BackdropReel {
-        const auto reel = std::make_shared<Film>(pictures);
-        return [=](double swirls) {
+        const auto reel = std::make_shared<NumberedFrames>(pictures);
+        return [=](double periods) {
             Backdrop backdrop = place;
-            const std::int64_t number = table->numbers[table->nearest(swirls)];
+            const std::int64_t number = table->numbers[table->nearest(periods)];
             backdrop.image = reel->picture(number + first_picture);
             return backdrop;
         };

@@ -20,9 +20,9 @@
 namespace swirl {
 
 /// One pass over it. A second pass is a second call of open().
-using Reel = std::function<Snapshot(double swirls)>;
+using Reel = std::function<Snapshot(double periods)>;
 /// One pass over what a camera saw.
-using BackdropReel = std::function<Backdrop(double swirls)>;
+using BackdropReel = std::function<Backdrop(double periods)>;
 
 struct FrameSource {
     /// Starts a pass; the times asked of one reel must not decrease.
@@ -38,7 +38,7 @@ struct FrameSource {
     bool knows_slip = false;  // spheres on a floor
     /// Where discs come and go: their names at that moment, ascending. Empty: they are the same
     /// all the time.
-    std::function<std::vector<std::int64_t>(double swirls)> ids = {};
+    std::function<std::vector<std::int64_t>(double periods)> ids = {};
     /// Where open() shows nothing but recorded frames, though the discs between them are known: a
     /// pass that has those too. Empty: open() does.
     std::function<Reel()> open_between = {};

@@ -67,12 +67,12 @@ struct Survey {
         const double begin = std::max(source.from.value_or(0.0), start - 1.0);
         double sum = 0.0;
         for (int k = 0;; ++k) {
-            const double swirls = begin + static_cast<double>(k) / plot_samples;
-            if (swirls > end + 1e-9) break;
-            const Snapshot s = reel(std::min(swirls, end));
+            const double periods = begin + static_cast<double>(k) / plot_samples;
+            if (periods > end + 1e-9) break;
+            const Snapshot s = reel(std::min(periods, end));
             single_disc = single_disc && s.size() == 1;
             const double rotation = rotation_of(s) / omega;
-            curve.time.push_back(swirls);
+            curve.time.push_back(periods);
             curve.raw.push_back(rotation);
             sum += rotation;
             const auto size = curve.raw.size();
@@ -106,11 +106,11 @@ class Camera {
         if (source.open_backdrop) backdrops_ = source.open_backdrop();
     }
 
-    void advance_to(double swirls) {
-        if (length_ > 0.0) remember_until(swirls);
-        now_ = moment(swirls);
-        if (watch_) pinned_ = watch_->at(swirls);
-        if (backdrops_) backdrop_ = backdrops_(swirls);
+    void advance_to(double periods) {
+        if (length_ > 0.0) remember_until(periods);
+        now_ = moment(periods);
+        if (watch_) pinned_ = watch_->at(periods);
+        if (backdrops_) backdrop_ = backdrops_(periods);
     }
     const std::optional<Backdrop>& backdrop() const { return backdrop_; }
     const std::vector<std::uint8_t>& pinned() const { return pinned_; }
@@ -118,13 +118,13 @@ class Camera {
     std::vector<Moment> past() const { return {past_.begin(), past_.end()}; }
 
   private:
-    Moment moment(double swirls) const {
+    Moment moment(double periods) const {
         return std::make_shared<const MomentState>(
-            MomentState{reel_(swirls), ids_ ? ids_(swirls) : std::vector<std::int64_t>()});
+            MomentState{reel_(periods), ids_ ? ids_(periods) : std::vector<std::int64_t>()});
     }
-    void remember_until(double swirls) {
-        const auto last = static_cast<std::int64_t>(std::ceil(swirls * trail_samples)) - 1;
-        const double first = std::max(from_, swirls - length_) * trail_samples;
+    void remember_until(double periods) {
+        const auto last = static_cast<std::int64_t>(std::ceil(periods * trail_samples)) - 1;
+        const double first = std::max(from_, periods - length_) * trail_samples;
         next_ = std::max(next_, static_cast<std::int64_t>(std::ceil(first)));
         for (; next_ <= last; ++next_)
             past_.push_back(moment(static_cast<double>(next_) / trail_samples));
@@ -146,7 +146,7 @@ class Camera {
 
 /// What one frame needs; shared with the painters, which only read it.
 struct Instant {
-    double swirls = 0.0;
+    double periods = 0.0;
     std::vector<Moment> now;                // per source
     std::vector<std::vector<Moment>> past;  // per source
     std::vector<std::vector<std::uint8_t>> pinned;
@@ -186,10 +186,10 @@ class Easel {
                      .ids = instant.now[k]->ids,
                      .past_ids = past_ids[k]});
                 if (config.appearance.turned)
-                    contents.back().turned = turns_until(curves[k], config.start, instant.swirls);
+                    contents.back().turned = turns_until(curves[k], config.start, instant.periods);
             }
         }
-        sheet.draw_moving(canvas_, contents, curves, instant.swirls);
+        sheet.draw_moving(canvas_, contents, curves, instant.periods);
         return canvas_;
     }
 
@@ -224,26 +224,26 @@ PinnedWatch::PinnedWatch(const FrameSource& source, double first)
 
 std::optional<std::string> problem(const std::vector<FrameSource>& sources,
                                    const Appearance& appearance) {
-    for (const FrameSource& dish : sources) {
-        if (appearance.coloring == Coloring::spin && !dish.knows_spin)
+    for (const FrameSource& container : sources) {
+        if (appearance.coloring == Coloring::spin && !container.knows_spin)
             return fmt::format("{} tells no spins, so nothing can be coloured by them.",
-                               dish.caption);
-        if (appearance.coloring == Coloring::slip && !dish.knows_slip)
+                               container.caption);
+        if (appearance.coloring == Coloring::slip && !container.knows_slip)
             return fmt::format(
                 "There are no spheres on a floor in '{}', so nothing can be coloured by the slip "
                 "on it; another --color would be right.",
-                dish.caption);
-        if (appearance.coloring == Coloring::pinned && dish.ids)
+                container.caption);
+        if (appearance.coloring == Coloring::pinned && container.ids)
             return fmt::format(
                 "The discs of {} are not the same in every frame, so which of them are pinned "
                 "cannot be told; another --color would be right.",
-                dish.caption);
+                container.caption);
     }
     return std::nullopt;
 }
 
-const std::vector<std::uint8_t>& PinnedWatch::at(double swirls) {
-    const auto wanted = static_cast<std::int64_t>(std::floor(swirls * frames_per_swirl + 1e-9)) +
+const std::vector<std::uint8_t>& PinnedWatch::at(double periods) {
+    const auto wanted = static_cast<std::int64_t>(std::floor(periods * frames_per_swirl + 1e-9)) +
                         PinnedLoose::half_width;
     for (; next_ <= wanted; ++next_) {
         const double moment = static_cast<double>(next_) / frames_per_swirl;
@@ -323,14 +323,14 @@ Sheet make_sheet(const std::vector<FrameSource>& sources, const Appearance& appe
         if (spec.title.empty() && sources.size() == 1) spec.title = sources[0].caption;
         if (sources.size() == 1) spec.parameters = sources[0].parameters;
     }
-    for (const FrameSource& dish : sources) {
+    for (const FrameSource& container : sources) {
         for (Frame frame : appearance.frames) {
             const std::string name = frame == Frame::lab ? "lab frame" : "M-frame";
-            Panel panel{frame, "", dish.container_radius, dish.amplitude,
+            Panel panel{frame, "", container.container_radius, container.amplitude,
                         appearance.turned && frame == Frame::lab};
             if (appearance.texts && sources.size() > 1)
-                panel.caption =
-                    appearance.frames.size() > 1 ? dish.caption + ", " + name : dish.caption;
+                panel.caption = appearance.frames.size() > 1 ? container.caption + ", " + name
+                                                             : container.caption;
             else if (appearance.texts)
                 panel.caption = name;
             spec.panels.push_back(panel);
@@ -417,9 +417,9 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
         int frame = 0;
         for (; frame < config.frames && !stopped(); ++frame) {
             auto instant = std::make_shared<Instant>();
-            instant->swirls = time_of_frame(config, frame);
+            instant->periods = time_of_frame(config, frame);
             try {
-                for (Camera& camera : cameras) camera.advance_to(instant->swirls);
+                for (Camera& camera : cameras) camera.advance_to(instant->periods);
             } catch (const Interrupted&) {
                 break;
             }
@@ -435,7 +435,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
                 Canvas& canvas = easel->paint(sheet, config, curves, *instant);
                 if (!config.frames_folder.empty()) {
                     // A disk that is waited for at each would take most of the time.
-                    WholeFile picture(frame_name(config.frames_folder, frame + 1));
+                    AtomicFile picture(frame_name(config.frames_folder, frame + 1));
                     picture.append(canvas.png());
                     picture.empty_buffer();
                     picture.give_name();

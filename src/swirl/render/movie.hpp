@@ -78,7 +78,7 @@ class PinnedWatch {
     /// `first`: the first moment that will be asked for.
     PinnedWatch(const FrameSource& source, double first);
     /// At moments that do not decrease.
-    const std::vector<std::uint8_t>& at(double swirls);
+    const std::vector<std::uint8_t>& at(double periods);
 
   private:
     static constexpr int frames_per_swirl = 511;  // the paper's camera

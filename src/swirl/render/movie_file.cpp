@@ -19,7 +19,7 @@ namespace swirl {
 namespace {
 
 /// Why a movie lacks its end, in the words of the system.
-constexpr const char* trouble_with_disks[] = {"No space left", "Disk quota exceeded",
+constexpr const char* problem_with_disks[] = {"No space left", "Disk quota exceeded",
                                               "File too large", "Input/output error"};
 
 bool ends_with(const std::string& text, const char* ending) {
@@ -185,8 +185,8 @@ void MovieWriter::finish() {
     // ffmpeg has been seen to end with code 0 after it could not write everything.
     const std::string said = ffmpeg_->said();
     const bool complained =
-        std::any_of(std::begin(trouble_with_disks), std::end(trouble_with_disks),
-                    [&](const char* trouble) { return said.find(trouble) != std::string::npos; });
+        std::any_of(std::begin(problem_with_disks), std::end(problem_with_disks),
+                    [&](const char* problem) { return said.find(problem) != std::string::npos; });
     struct stat about {};
     const bool empty = ::fstat(lock_, &about) != 0 || about.st_size == 0;
     if (!well || complained || empty) fail(status);

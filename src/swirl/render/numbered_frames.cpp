@@ -32,7 +32,7 @@ bool is_png(const std::string& name) { return name.ends_with(".png") || name.end
 
 }  // namespace
 
-std::optional<std::string> film_problem(const std::string& pattern) {
+std::optional<std::string> video_problem(const std::string& pattern) {
     const auto place = number_place(pattern);
     const bool wrong = place ? pattern.find('%', place->end) != pattern.npos || place->digits > 20
                              : pattern.find('%') != pattern.npos;
@@ -46,7 +46,7 @@ std::optional<std::string> film_problem(const std::string& pattern) {
     return std::nullopt;
 }
 
-bool is_of_film(const std::string& pattern, const std::string& name) {
+bool is_of_video(const std::string& pattern, const std::string& name) {
     const auto place = number_place(pattern);
     if (!place) return name == pattern;
     const std::string before = pattern.substr(0, place->begin), after = pattern.substr(place->end);
@@ -59,9 +59,9 @@ bool is_of_film(const std::string& pattern, const std::string& name) {
            number.size() >= static_cast<std::size_t>(place->digits);
 }
 
-Film::Film(std::string pattern) : pattern_(std::move(pattern)) {}
+NumberedFrames::NumberedFrames(std::string pattern) : pattern_(std::move(pattern)) {}
 
-std::string Film::name(std::int64_t number) const {
+std::string NumberedFrames::name(std::int64_t number) const {
     const auto place = number_place(pattern_);
     if (!place) return pattern_;
     std::string digits = std::to_string(number);
@@ -70,18 +70,18 @@ std::string Film::name(std::int64_t number) const {
     return pattern_.substr(0, place->begin) + digits + pattern_.substr(place->end);
 }
 
-bool Film::may_have(std::int64_t number) const {
+bool NumberedFrames::may_have(std::int64_t number) const {
     return number >= 0 && ::access(name(number).c_str(), R_OK) == 0;
 }
 
-std::shared_ptr<const Image> Film::picture(std::int64_t number) {
+std::shared_ptr<const Image> NumberedFrames::picture(std::int64_t number) {
     if (shown_ && number == shown_number_) return shown_;
     shown_ = is_png(pattern_) ? Image::from_png(name(number)) : decode(number);
     shown_number_ = number;
     return shown_;
 }
 
-std::shared_ptr<const Image> Film::decode(std::int64_t number) {
+std::shared_ptr<const Image> NumberedFrames::decode(std::int64_t number) {
     if (!ffmpeg_) {
         std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
         const auto add = [&](std::initializer_list<std::string> more) {
@@ -101,7 +101,7 @@ std::shared_ptr<const Image> Film::decode(std::int64_t number) {
     }
     while (next_ <= number) {
         if (!read_picture()) {
-            const std::string words = ffmpeg_->complaint();
+            const std::string words = ffmpeg_->problem();
             throw DrawFailure("The camera's picture " + std::to_string(next_) + " in " + pattern_ +
                               " cannot be read: " + (words.empty() ? "there are no more." : words));
         }
@@ -110,7 +110,7 @@ std::shared_ptr<const Image> Film::decode(std::int64_t number) {
     return shown_;
 }
 
-std::size_t Film::read(std::uint8_t* into, std::size_t count) {
+std::size_t NumberedFrames::read(std::uint8_t* into, std::size_t count) {
     std::size_t got = 0;
     while (got < count) {
         const ssize_t more = ::recv(ffmpeg_->socket(), into + got, count - got, 0);
@@ -122,7 +122,7 @@ std::size_t Film::read(std::uint8_t* into, std::size_t count) {
 }
 
 /// A PPM picture: "P6\nWIDTH HEIGHT\n255\n" and three bytes a pixel.
-bool Film::read_picture() {
+bool NumberedFrames::read_picture() {
     std::string head;
     for (int lines = 0; lines < 3;) {
         std::uint8_t c = 0;

@@ -18,14 +18,14 @@
 namespace swirl {
 
 /// Why `pattern` names no pictures, as a full sentence; nothing if it may.
-std::optional<std::string> film_problem(const std::string& pattern);
+std::optional<std::string> video_problem(const std::string& pattern);
 
 /// Whether `name` is that of one of the pictures, both written in the same way.
-bool is_of_film(const std::string& pattern, const std::string& name);
+bool is_of_video(const std::string& pattern, const std::string& name);
 
-class Film {
+class NumberedFrames {
   public:
-    explicit Film(std::string pattern);
+    explicit NumberedFrames(std::string pattern);
 
     /// Numbers must not decrease. Throws DrawFailure if there is no such picture.
     std::shared_ptr<const Image> picture(std::int64_t number);

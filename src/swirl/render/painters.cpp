@@ -6,7 +6,7 @@
 namespace swirl {
 
 Painters::Painters(unsigned count, std::function<void(const Bytes&)> deliver)
-    : deliver_(std::move(deliver)), most_under_way_(2 * count + 2) {
+    : deliver_(std::move(deliver)), max_under_way_(2 * count + 2) {
     try {
         for (unsigned k = 0; k < count; ++k) threads_.emplace_back([this, k] { work(k); });
         threads_.emplace_back([this] { write(); });
@@ -32,7 +32,7 @@ void Painters::end() {
 
 void Painters::submit(Paint paint) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return error_ || submitted_ - delivered_ < most_under_way_; });
+    changed_.wait(lock, [&] { return error_ || submitted_ - delivered_ < max_under_way_; });
     if (error_) std::rethrow_exception(error_);
     waiting_.push_back({submitted_++, std::move(paint)});
     changed_.notify_all();

@@ -48,7 +48,7 @@ class Painters {
     void fail(std::exception_ptr error);
 
     std::function<void(const Bytes&)> deliver_;
-    const std::size_t most_under_way_;
+    const std::size_t max_under_way_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Task> waiting_;

@@ -60,18 +60,18 @@ struct Tag {
     Align align;
 };
 
-void keep_apart(std::vector<Tag>& tags, double top, double bottom, double least) {
+void keep_apart(std::vector<Tag>& tags, double top, double bottom, double minimum) {
     std::stable_sort(tags.begin(), tags.end(),
                      [](const Tag& a, const Tag& b) { return a.place.y < b.place.y; });
     double lowest = top;
     for (Tag& tag : tags) {
         tag.place.y = std::max(tag.place.y, lowest);
-        lowest = tag.place.y + least;
+        lowest = tag.place.y + minimum;
     }
     double highest = bottom;
     for (auto tag = tags.rbegin(); tag != tags.rend(); ++tag) {
         tag->place.y = std::min(tag->place.y, highest);
-        highest = tag->place.y - least;
+        highest = tag->place.y - minimum;
     }
 }
 
@@ -95,10 +95,10 @@ void polyline(cairo_t* cairo, const Rectangle& inner, const PlotStyle& style, co
 }  // namespace
 
 double round_step(double span, int count) {
-    const double least = span / count;
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    const double minimum = span / count;
+    const double power = std::pow(10.0, std::floor(std::log10(minimum)));
     for (double factor : {1.0, 2.0, 5.0})
-        if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
+        if (factor * power >= minimum * (1.0 - 1e-9)) return factor * power;
     return 10.0 * power;
 }
 

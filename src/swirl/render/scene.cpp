@@ -113,7 +113,7 @@ void outline_disc(const Canvas& canvas, const Vec2& centre, double radius, const
 }
 
 /// The wall over a picture: a thin line.
-void outline_dish(const Canvas& canvas, const View& view, const Snapshot& now) {
+void outline_container(const Canvas& canvas, const View& view, const Snapshot& now) {
     cairo_t* cairo = canvas.cairo();
     const Vec2 c = view.on_page(FrameAt(now, view.frame).position(now.container_centre));
     const double radius = view.pixels_per_unit * now.container_radius;
@@ -194,8 +194,8 @@ void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& c
     cairo_restore(cairo);
 }
 
-void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
-               const Snapshot& now) {
+void draw_container(const Canvas& canvas, const View& view, const SceneStyle& style,
+                    const Snapshot& now) {
     cairo_t* cairo = canvas.cairo();
     const FrameAt at(now, view.frame);
     const Vec2 c = view.on_page(at.position(now.container_centre));
@@ -532,9 +532,9 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
     cairo_set_line_join(canvas.cairo(), CAIRO_LINE_JOIN_ROUND);
     if (content.backdrop) {
         draw_backdrop(canvas, view, content);
-        outline_dish(canvas, view, content.now);
+        outline_container(canvas, view, content.now);
     } else {
-        draw_dish(canvas, view, style, content.now);
+        draw_container(canvas, view, style, content.now);
     }
     draw_slice(canvas, view, style, content.now);
     draw_ghosts(canvas, view, style, content);

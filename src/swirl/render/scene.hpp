@@ -75,8 +75,8 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
 
 /// The parts of it, for pictures that are composed otherwise.
 void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& content);
-void draw_dish(const Canvas& canvas, const View& view, const SceneStyle& style,
-               const Snapshot& now);
+void draw_container(const Canvas& canvas, const View& view, const SceneStyle& style,
+                    const Snapshot& now);
 void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const SceneContent& content);
 void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style,

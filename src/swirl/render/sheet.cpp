@@ -336,14 +336,14 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
 }
 
 void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
-                        std::span<const Curve> curves, double swirls) const {
+                        std::span<const Curve> curves, double periods) const {
     const StyleScope scope(canvas);
     for (std::size_t k = 0; k < contents.size() && k < views_.size(); ++k)
         draw_panel(canvas, k, contents[k]);
     if (plot_area_)
-        draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, swirls);
+        draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, periods);
     if (clock_place_)
-        draw_label(canvas, "swirl " + fixed(swirls, spec_.clock_decimals), *clock_place_,
+        draw_label(canvas, "swirl " + fixed(periods, spec_.clock_decimals), *clock_place_,
                    {.size = type_,
                     .color = spec_.style.theme.faint_ink,
                     .align = clock_align_,

@@ -48,7 +48,7 @@ class Sheet {
     /// What changes: `contents` has one entry per panel; `curves` belong to the plot; `swirls` is
     /// the time shown.
     void draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
-                     std::span<const Curve> curves, double swirls) const;
+                     std::span<const Curve> curves, double periods) const;
 
   private:
     struct Text {

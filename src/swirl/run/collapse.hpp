@@ -37,7 +37,7 @@ class CollapseWatch {
             if (const auto found = collapse_since(mark_, now)) return found;
             mark_ = now;
         }
-        if (now.events - lately_[1].events >= least_window) lately_ = {lately_[1], now};
+        if (now.events - lately_[1].events >= min_window) lately_ = {lately_[1], now};
         return {};
     }
 
@@ -45,20 +45,20 @@ class CollapseWatch {
     /// before may have been as it should.
     std::optional<Collapse> look_at_the_end(const RunMark& now) const {
         for (const RunMark& mark : {lately_[1], lately_[0]})
-            if (now.events - mark.events >= least_window) return collapse_since(mark, now);
+            if (now.events - mark.events >= min_window) return collapse_since(mark, now);
         return {};
     }
 
   private:
     static constexpr double too_fast = 1e8;  // events per disc and swirl
-    static constexpr std::uint64_t least_window = 500;
+    static constexpr std::uint64_t min_window = 500;
 
     /// Some two hundred events for each disc: the two that collapse may be among thousands.
     std::uint64_t window() const { return std::max<std::uint64_t>(20'000, 200 * discs_); }
     std::optional<Collapse> collapse_since(const RunMark& mark, const RunMark& now) const {
         const Collapse found{now.events - mark.events, now.periods - mark.periods};
-        const double most = too_fast * static_cast<double>(discs_) * found.periods;
-        if (static_cast<double>(found.events) <= most) return {};
+        const double maximum = too_fast * static_cast<double>(discs_) * found.periods;
+        if (static_cast<double>(found.events) <= maximum) return {};
         return found;
     }
 

@@ -64,7 +64,7 @@ std::optional<std::string> does_not_cover(const RunConfig& c) {
 
 /// In radii of the smallest disc. The centres of Verlet skins are held in single precision, and the
 /// narrowest skin, 0.005 radii, must be wider than their rounding, 6·10⁻⁸ of the distance.
-constexpr double widest_dish = 5e4;
+constexpr double widest_container = 5e4;
 
 std::optional<std::string> does_not_fit(const RunConfig& c) {
     const double R = c.container_radius;
@@ -75,19 +75,19 @@ std::optional<std::string> does_not_fit(const RunConfig& c) {
             "must be larger than --radius.",
             body_word(c), big, R);
     const double small = c.mixture ? std::fmin(c.radius, c.mixture->radius) : c.radius;
-    if (R > widest_dish * small)
+    if (R > widest_container * small)
         return fmt::format(
             "A container of radius {} is more than {} times as large as a {} of radius {}, and "
             "the search for neighbours is not as fine as that; a smaller --container-radius would "
             "be right.",
-            R, widest_dish, body_word(c), small);
+            R, widest_container, body_word(c), small);
     if (c.mixture) return does_not_cover(c);
-    const double most = most_discs_in_dish(c.radius, R);
-    if (static_cast<double>(c.discs) <= most) return {};
+    const double maximum = max_discs_in_container(c.radius, R);
+    if (static_cast<double>(c.discs) <= maximum) return {};
     return fmt::format(
         "{} {}s do not fit into a container of radius {}, where no arrangement holds more than "
         "{:.0f}; {}",
-        c.discs, body_word(c), R, most, advice_on_room(c));
+        c.discs, body_word(c), R, maximum, advice_on_room(c));
 }
 
 /// What only a floor does.
@@ -166,12 +166,12 @@ std::optional<std::string> warmup_too_long(const RunConfig& c) {
             *c.warmup, *c.periods);
     }
     // Every swirl has at least the events at the ends of its legs.
-    const std::int64_t legs = c.path == PathShape::circle || c.amplitude == 0.0 ? 1 : c.sides;
-    if (*c.warmup < c.events / legs + 1) return {};
+    const std::int64_t segments = c.path == PathShape::circle || c.amplitude == 0.0 ? 1 : c.sides;
+    if (*c.warmup < c.events / segments + 1) return {};
     return fmt::format(
         "--warmup is {} periods, but a run of --events {} cannot be longer than {} periods: the "
         "warm-up must be shorter than the run.",
-        *c.warmup, c.events, c.events / legs);
+        *c.warmup, c.events, c.events / segments);
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
             c.mixture ? ""
                       : fmt::format("no arrangement holds more than {:.0f}, and close to that none "
                                     "may be found; ",
-                                    most_discs_in_dish(c.radius, c.container_radius)),
+                                    max_discs_in_container(c.radius, c.container_radius)),
             advice_on_room(c)));
 
     InitialState scene = without_discs(c, make_path(c));
@@ -246,7 +246,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     // the container stands still.
     const double small_speed = 0.02 * c.container_radius * c.omega();
     const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
-    const Leg& leg = scene.path.legs.front();
+    const Segment& segment = scene.path.segments.front();
     // A stream of its own: the velocities must not repeat the numbers that placed the discs.
     Random random(Random(c.seed ^ 0x76656c6f63697479u).bits());
     scene.discs.reserve(n);
@@ -255,9 +255,9 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
         const double mass = i < n - second ? c.mass : c.mixture->mass;
         const double inertia =
             i < n - second ? c.inertia : inertia_factor * mass * radii[i] * radii[i];
-        scene.discs.push_back({leg.start + (*centres)[i],
-                               leg.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0, radii[i],
-                               mass, inertia});
+        scene.discs.push_back({segment.start + (*centres)[i],
+                               segment.velocity + random.in_disc(small_speed), 0.0, 0.0, 0.0,
+                               radii[i], mass, inertia});
     }
     return scene;
 }

@@ -35,7 +35,7 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
       watch_(simulation_.size(), mark()),
       in_warmup_(tuning.width),
       after_warmup_(tuning.width),
-      next_question_(least_blocks_of_a_steady_state),
+      next_question_(min_blocks_of_a_steady_state),
       warm_(config.warmup == 0),
       events_per_sample_(events_per_rotation_sample(simulation_.size())),
       events_to_sample_(events_per_sample_ - simulation_.events().total() % events_per_sample_) {
@@ -46,12 +46,12 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
 }
 
 bool BareRun::complete() const {
-    if (config_.periods) return simulation_.swirls() >= *config_.periods;
+    if (config_.periods) return simulation_.periods() >= *config_.periods;
     return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
 }
 
 double BareRun::periods() const {
-    return static_cast<double>(simulation_.swirls()) + simulation_.clock() / config_.period;
+    return static_cast<double>(simulation_.periods()) + simulation_.clock() / config_.period;
 }
 double BareRun::fraction() const {
     if (config_.periods) return periods() / static_cast<double>(*config_.periods);
@@ -80,7 +80,7 @@ void BareRun::pass_event() {
     }
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes()) observation_->sample(event_, snapshot());
-    if (event_.kind == EventKind::path_vertex && simulation_.swirls() > event_.swirls)
+    if (event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods)
         begin_period();
 }
 
@@ -93,19 +93,19 @@ int BareRun::events_until_look() const {
     return static_cast<int>(std::clamp<std::int64_t>(left, 0, at_most));
 }
 
-std::optional<std::string> BareRun::trouble() {
-    if (auto sentence = overlap_trouble()) return sentence;
+std::optional<std::string> BareRun::problem() {
+    if (auto sentence = overlap_problem()) return sentence;
     if (const auto found = watch_.look(mark())) return collapse_sentence(*found);
     return {};
 }
-std::optional<std::string> BareRun::trouble_at_the_end() const {
-    if (auto sentence = overlap_trouble()) return sentence;
+std::optional<std::string> BareRun::problem_at_the_end() const {
+    if (auto sentence = overlap_problem()) return sentence;
     if (const auto found = watch_.look_at_the_end(mark())) return collapse_sentence(*found);
     return {};
 }
 
 /// Rounding errors of places (docs/physics.md) must stay what they are called.
-std::optional<std::string> BareRun::overlap_trouble() const {
+std::optional<std::string> BareRun::overlap_problem() const {
     constexpr double still_rounding = 1e-6;
     const double smallest =
         config_.mixture ? std::min(config_.radius, config_.mixture->radius) : config_.radius;
@@ -154,7 +154,7 @@ void BareRun::begin_period() {
     if (observes()) observation_->close_block();
     if (!warm_ && warm_now()) {
         warm_ = true;
-        result_.warmup = simulation_.swirls();
+        result_.warmup = simulation_.periods();
         result_.warmup_events = simulation_.events();
     }
     if (complete()) events_to_look_ = 0;
@@ -163,13 +163,13 @@ void BareRun::begin_period() {
 /// At the end of a swirl: is the warm-up over?
 bool BareRun::warm_now() {
     if (config_.warmup_found) return found_warm() || fraction() >= 0.5;
-    if (config_.warmup) return simulation_.swirls() >= *config_.warmup;
-    return simulation_.swirls() >= default_warmup || fraction() >= 0.2;
+    if (config_.warmup) return simulation_.periods() >= *config_.warmup;
+    return simulation_.periods() >= default_warmup || fraction() >= 0.2;
 }
 
 /// Asked ever more seldom: the answer takes time that grows with the number of swirls.
 bool BareRun::found_warm() {
-    if (simulation_.swirls() < next_question_) return false;
+    if (simulation_.periods() < next_question_) return false;
     next_question_ += std::max<std::int64_t>(10, next_question_ / 10);
     return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
            beginning_is_forgotten(spin_in_warmup_.series().block_means());

@@ -84,9 +84,9 @@ class BareRun {
     }
     /// Why it cannot go on, as a full sentence: rounding errors have grown too large, or time all
     /// but stands still.
-    std::optional<std::string> trouble();
+    std::optional<std::string> problem();
     /// The same, of the last events alone.
-    std::optional<std::string> trouble_at_the_end() const;
+    std::optional<std::string> problem_at_the_end() const;
 
     /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
     const ClusterRotation& rotation_in_warmup() {
@@ -117,7 +117,7 @@ class BareRun {
     bool observes() const { return warm_ && observation_; }
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
     int events_until_look() const;
-    std::optional<std::string> overlap_trouble() const;
+    std::optional<std::string> overlap_problem() const;
     std::string collapse_sentence(const Collapse& collapse) const;
     std::string reason_for_collapse() const;
     void sample_by_event();

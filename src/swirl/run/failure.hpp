@@ -8,7 +8,7 @@
 namespace swirl {
 
 /// The call itself was wrong: exit code 2.
-class WrongCall : public std::runtime_error {
+class UsageError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };

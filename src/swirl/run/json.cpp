@@ -55,7 +55,7 @@ std::string config_text(const RunConfig& config) { return config_json(config).du
 
 ParameterTexts parameters_in(const std::string& config) {
     const Json json = Json::parse(config, nullptr, false);
-    if (!json.is_object()) throw WrongCall("It does not say which run it is of.");
+    if (!json.is_object()) throw UsageError("It does not say which run it is of.");
     return parameters_in(json);
 }
 

@@ -36,7 +36,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     Observation observation(first.container_radius, first.period, names, holds_tracks(series));
     ClusterRotation rotation(asked_width());
     MeasuredSeries measured;
-    std::int64_t swirl = first.swirls;
+    std::int64_t swirl = first.periods;
     auto next_break = series.breaks.begin();
     for (std::uint64_t k = 0; k < series.frames; ++k) {
         if (control.stop && control.stop->load())
@@ -45,12 +45,12 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         const bool others = next_break != series.breaks.end() && *next_break == k;
         if (others) ++next_break;
         if (s.time() < skip * s.period) continue;
-        if (measured.frames > 0 && s.swirls != swirl) {
+        if (measured.frames > 0 && s.periods != swirl) {
             rotation.close_block();
             observation.close_block();
         }
         if (others) observation.begin_tracks();
-        swirl = s.swirls;
+        swirl = s.periods;
         measured.discs = std::max(measured.discs, s.size());
         rotation.sample_by_time(s);
         observation.sample(s);
@@ -64,7 +64,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     observation.add_energy(series.missing_energy);
     measured.rotation = rotation.estimates();
     measured.reports = observation.report();
-    measured.swirls = series.frame(series.frames - 1).time() / first.period - skip;
+    measured.periods = series.frame(series.frames - 1).time() / first.period - skip;
     return measured;
 }
 

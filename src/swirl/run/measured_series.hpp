@@ -19,9 +19,9 @@ struct MeasuredSeries {
     MeasurementReports reports;
     std::uint64_t frames = 0;  // that count
     std::size_t discs = 0;     // at most
-    double swirls = 0.0;
+    double periods = 0.0;
 
-    double frames_per_swirl() const { return swirls > 0.0 ? double(frames) / swirls : 0.0; }
+    double frames_per_swirl() const { return periods > 0.0 ? double(frames) / periods : 0.0; }
 };
 
 struct MeasuringControl {

@@ -20,7 +20,7 @@ const MeasurementKind& kind_called(std::string_view name) {
     std::string known;
     for (const MeasurementKind& kind : measurement_kinds())
         known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
-    throw WrongCall(
+    throw UsageError(
         fmt::format("--measure has '{}' in its list, but each must be one of: {}; or "
                     "the list is 'all'.",
                     name, known));
@@ -64,7 +64,7 @@ Json table_json(const ReportTable& table) {
 }
 
 /// NaN, which JSON cannot hold, was written as null.
-double number(const Json& json) { return json.is_number() ? json.get<double>() : not_known; }
+double number(const Json& json) { return json.is_number() ? json.get<double>() : not_available; }
 
 bool is_table(const Json& json) {
     return json.is_object() && !json.empty() && json.begin()->is_array();

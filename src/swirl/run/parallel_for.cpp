@@ -20,7 +20,7 @@ unsigned available_cores() {
     return std::max(1u, std::thread::hardware_concurrency());
 }
 
-void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work,
                   unsigned threads) {
     std::atomic<std::size_t> next = 0;
     std::exception_ptr failure;

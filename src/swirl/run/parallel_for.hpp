@@ -13,7 +13,7 @@ unsigned available_cores();
 /// Calls work(0) … work(count − 1), in this order of beginning, from `threads` threads at once
 /// (0: one for each core). If one throws, no further piece is begun, and when those under way have
 /// ended its exception is thrown here.
-void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work,
                   unsigned threads = 0);
 
 }  // namespace swirl

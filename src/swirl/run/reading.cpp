@@ -70,11 +70,11 @@ std::string option_name(std::string_view name) {
 std::optional<std::string> nearest_name(std::string_view wrong,
                                         const std::vector<std::string>& names) {
     std::optional<std::string> best;
-    std::size_t least = std::max<std::size_t>(2, wrong.size() / 3) + 1;
+    std::size_t minimum = std::max<std::size_t>(2, wrong.size() / 3) + 1;
     for (const std::string& name : names) {
         const std::size_t distance = edit_distance(wrong, name);
-        if (distance >= least) continue;
-        least = distance;
+        if (distance >= minimum) continue;
+        minimum = distance;
         best = name;
     }
     return best;

@@ -146,11 +146,11 @@ class Recorder {
         control.orientations = !files_.trajectory.empty() && config_.shape() != Shape::disc;
         Run run(config_, std::move(control));
         if (shorter_)
-            if (const auto trouble = run.trouble_with_length(*shorter_))
-                throw WrongCall(
+            if (const auto problem = run.problem_with_length(*shorter_))
+                throw UsageError(
                     fmt::format("The run of the checkpoint '{}' cannot be continued to another "
                                 "length: {}.",
-                                files_.checkpoint.string(), *trouble));
+                                files_.checkpoint.string(), *problem));
         while (run.next_event()) {
             record(run);
             if (is_due() && !run.complete()) keep(run);
@@ -173,7 +173,7 @@ class Recorder {
         provenance.emplace_back(run_entry, run_name_);
         provenance.emplace_back("frames", frames_entry(files_));
         for (const auto& file : {files_.trajectory, files_.event_log})
-            if (!file.empty() && !files_.overwrite) refuse_foreign_recording(file, run_name_);
+            if (!file.empty() && !files_.overwrite) reject_foreign_recording(file, run_name_);
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
         const InitialState scene = make_initial_state(config_, stop);
         const Snapshot first = Simulation(scene, {}, asked_tuning(stop)).snapshot();
@@ -181,7 +181,7 @@ class Recorder {
         if (!files_.trajectory.empty())
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
         if (!files_.event_log.empty())
-            event_log_.emplace(files_.event_log, first, scene.path.legs.back().end, provenance,
+            event_log_.emplace(files_.event_log, first, scene.path.segments.back().end, provenance,
                                files_.compression, moving_floor(scene.floor, scene.path));
     }
 
@@ -192,14 +192,14 @@ class Recorder {
         require_own_law(files_.checkpoint, about);
         if (is_of_another_length(about.at("identity"), here)) {
             if (!files_.trajectory.empty() || !files_.event_log.empty())
-                throw WrongCall(fmt::format(
+                throw UsageError(fmt::format(
                     "The checkpoint '{}' is of a run of another length, and a recording knows how "
                     "long its run is; begin anew with --overwrite, or give the whole call again "
                     "without --trajectory and --log-events.",
                     files_.checkpoint.string()));
             shorter_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
         } else if (about.at("identity") != here)
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
                 "or choose another checkpoint with --checkpoint.",
                 files_.checkpoint.string(), difference(about.at("identity"), here)));

@@ -82,7 +82,7 @@ std::string no_swirl_sentence(const RunResult& r) {
 std::string too_short_sentence(const RunResult& r) {
     return fmt::format(
         "Too short to tell whether it is steady: {} periods after the warm-up, and it takes {}.",
-        r.rotation.by_event.blocks, least_blocks_of_a_steady_state);
+        r.rotation.by_event.blocks, min_blocks_of_a_steady_state);
 }
 
 /// More than roundings of a place make: some 10⁻¹⁴ in the experiment's dish, 10⁻¹² at most.
@@ -112,7 +112,7 @@ std::string steady_text(const RunResult& r) {
     return fmt::format(
         "{}; largest change {:.1f} standard errors (limit {:.1f}), of the spins {:.1f} (limit "
         "{:.1f}); {:.2g} % of steady runs pass a limit",
-        found, std::fabs(rotation.size), rotation.most_size, std::fabs(spin.size), spin.most_size,
+        found, std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
 

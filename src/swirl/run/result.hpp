@@ -60,7 +60,7 @@ struct RunResult {
         number("steady_state", "change", "1",
                "most likely change of the rotation, in standard errors", steady.change.size);
         number("steady_state", "change_limit", "1", "size that may be chance",
-               steady.change.most_size);
+               steady.change.max_size);
         number("steady_state", "change_period", "1", "period at which the rotation changes",
                steady.period);
         number("steady_state", "change_before", "Ω", "rotation before the change",
@@ -76,7 +76,7 @@ struct RunResult {
         number("steady_state", "change_of_the_spin", "1",
                "most likely change of the mean spin, in standard errors", steady_spin.change.size);
         number("steady_state", "change_limit_of_the_spin", "1", "size that may be chance",
-               steady_spin.change.most_size);
+               steady_spin.change.max_size);
         number("", "max_overlap", "r", "the largest overlap met at a contact: a rounding error",
                max_overlap);
         number("", "energy", "m v²", "kinetic energy in the lab frame at the end, spins included",

@@ -31,7 +31,7 @@ struct Moment {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(progress.swirls, progress.clock, progress.leg, progress.events);
+        visit(progress.periods, progress.clock, progress.segment, progress.events);
         visit(discs);
     }
 };
@@ -64,8 +64,8 @@ BareRun begin(const RunConfig& config, const RunControl& control) {
     return run;
 }
 
-void refuse(const std::optional<std::string>& trouble) {
-    if (trouble) throw Failure(*trouble);
+void reject(const std::optional<std::string>& problem) {
+    if (problem) throw Failure(*problem);
 }
 
 }  // namespace
@@ -103,10 +103,10 @@ std::string Run::state() {
     return std::move(state).bytes();
 }
 
-std::optional<std::string> Run::trouble_with_length(const RunConfig& shorter) const {
+std::optional<std::string> Run::problem_with_length(const RunConfig& shorter) const {
     const Simulation& simulation = run_.simulation();
     const std::uint64_t events = simulation.events().total();
-    const bool is_past = config_.periods ? simulation.swirls() > *config_.periods
+    const bool is_past = config_.periods ? simulation.periods() > *config_.periods
                                          : events > static_cast<std::uint64_t>(config_.events);
     if (is_past)
         return fmt::format(
@@ -138,10 +138,10 @@ bool Run::next_event() {
 bool Run::look_up() {
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
     if (complete() || stopped) {
-        refuse(run_.trouble_at_the_end());
+        reject(run_.problem_at_the_end());
         return false;
     }
-    refuse(run_.trouble());
+    reject(run_.problem());
     const auto time = Clock::now();
     if (!control_.progress || time - last_report_ < progress_interval) return true;
     last_report_ = time;

@@ -87,7 +87,7 @@ class Run {
     bool is_warm() const { return run_.is_warm(); }
     /// A run that goes on from the state of a shorter one has the bits of a run that was as long
     /// from the beginning, but not always its averages: says what they would lack.
-    std::optional<std::string> trouble_with_length(const RunConfig& shorter) const;
+    std::optional<std::string> problem_with_length(const RunConfig& shorter) const;
     /// Of the run as far as it has come.
     RunResult result();
 

@@ -23,11 +23,11 @@ Width asked_width() {
     for (const auto& [name, width] : named_widths) {
         if (std::string_view(given) != name) continue;
         if (has_width(width)) return width;
-        throw WrongCall(fmt::format("SWIRL_SIMD cannot be '{}': this processor has {} only.", given,
-                                    names_of_widths_here()));
+        throw UsageError(fmt::format("SWIRL_SIMD cannot be '{}': this processor has {} only.",
+                                     given, names_of_widths_here()));
     }
-    throw WrongCall(fmt::format("SWIRL_SIMD cannot be '{}'; it must be auto, {}, avx2 or avx512.",
-                                given, baseline_name));
+    throw UsageError(fmt::format("SWIRL_SIMD cannot be '{}'; it must be auto, {}, avx2 or avx512.",
+                                 given, baseline_name));
 }
 
 Tuning asked_tuning(const std::atomic<bool>* stop) {

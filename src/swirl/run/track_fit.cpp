@@ -15,7 +15,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::uint64_t most_frames = 400, most_positions = 40000;
+constexpr std::uint64_t max_frames = 400, max_positions = 40000;
 // A tracker's places are good to a few hundredths of a radius.
 constexpr double sticks_out = 0.2, lie_in_each_other = 0.85;
 // Swirled discs are flung against the wall and each other all the time.
@@ -46,8 +46,8 @@ double degrees_in_picture(double phase, bool clockwise) {
 }
 
 /// What was mended, a line each.
-std::string mended_text(const Tracks& tracks) {
-    const auto& [filled, renamed, dropped] = tracks.mended;
+std::string repaired_text(const Tracks& tracks) {
+    const auto& [filled, renamed, dropped] = tracks.repaired;
     std::string text;
     if (filled > 0)
         text += fmt::format("{} positions missing for up to five frames were put back.\n", filled);
@@ -115,7 +115,7 @@ std::string scale_advice(const TrackFit& fit, const TrackScale& scale) {
 }
 
 /// Throws Failure where more than this share of the frames contradicts what was said.
-void refuse_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
+void reject_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
     const auto frames = [](double part) { return fmt::format("{:.0f} %", 100.0 * part); };
     const std::string advice = scale_advice(fit, scale);
     if (fit.overlapping > share)
@@ -157,8 +157,8 @@ TrackFit fit_of(const SnapshotSeries& series, const TrackScale& scale, bool y_do
     double last = 0.0;
     Vec2 middle{0.0, 0.0};
     const std::uint64_t per_frame = std::max<std::uint64_t>(series.frame(0).size(), 1);
-    const std::uint64_t count = std::clamp<std::uint64_t>(most_positions / per_frame, 1,
-                                                          std::min(most_frames, series.frames));
+    const std::uint64_t count = std::clamp<std::uint64_t>(max_positions / per_frame, 1,
+                                                          std::min(max_frames, series.frames));
     for (std::uint64_t k = 0; k < count; ++k) {
         const Snapshot s = series.frame(k * series.frames / count);
         if (s.size() == 0) continue;
@@ -231,9 +231,10 @@ SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoo
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit) {
     FittedSeries fitted;
     fitted.fit = fit_of(series_of(tracks, scale), scale, tracks.y_down);
-    refuse_misfit(fitted.fit, scale, misfit);
+    reject_misfit(fitted.fit, scale, misfit);
     fitted.series = smoothed_series(tracks, scale, fitted.smoothing);
-    fitted.remarks = mended_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);
+    fitted.remarks =
+        repaired_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);
     if (!fitted.series.same_discs())
         fitted.remarks += fmt::format(
             "Discs come or go at {} of {} frames; who is pinned is followed anew from there.\n",

@@ -29,12 +29,12 @@
 
 namespace swirl {
 
-inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double not_available = std::numeric_limits<double>::quiet_NaN();
 
 /// A mean, its standard error, and what they rest on.
 struct Estimate {
-    double mean = not_known;
-    double error = not_known;
+    double mean = not_available;
+    double error = not_available;
     double effective_samples = 0.0;
     std::size_t blocks = 0;
 };
@@ -47,7 +47,7 @@ struct Block {
 /// The blocks of one run, or of several runs one after the other.
 class BlockSeries {
   public:
-    static constexpr std::size_t most_blocks_per_run = 2048;
+    static constexpr std::size_t max_blocks_per_run = 2048;
 
     /// Closes a block of one period. A block without weight is kept: it happened, and held nothing.
     void add(double sum, double weight) {
@@ -76,14 +76,14 @@ class BlockSeries {
 
     double mean() const {
         const Block total = sum_of_blocks();
-        return total.weight != 0.0 ? total.sum / total.weight : not_known;
+        return total.weight != 0.0 ? total.sum / total.weight : not_available;
     }
 
     Estimate estimate() const {
         const Block total = sum_of_blocks();
         Estimate e;
         e.blocks = size();
-        e.mean = total.weight != 0.0 ? total.sum / total.weight : not_known;
+        e.mean = total.weight != 0.0 ? total.sum / total.weight : not_available;
         if (e.blocks == 0 || std::isnan(e.mean)) return e;
         const double n = static_cast<double>(e.blocks);
         e.effective_samples = n;
@@ -144,7 +144,7 @@ class BlockSeries {
             blocks.push_back(filling);
             filling = {};
             filled = 0;
-            if (blocks.size() < most_blocks_per_run) return;
+            if (blocks.size() < max_blocks_per_run) return;
             for (std::size_t b = 0; b < blocks.size() / 2; ++b)
                 blocks[b] = {blocks[2 * b].sum + blocks[2 * b + 1].sum,
                              blocks[2 * b].weight + blocks[2 * b + 1].weight};
@@ -159,7 +159,7 @@ class BlockSeries {
             visit(filled);
         }
         bool is_consistent() const {
-            return blocks.size() < most_blocks_per_run && std::has_single_bit(periods_per_block) &&
+            return blocks.size() < max_blocks_per_run && std::has_single_bit(periods_per_block) &&
                    filled < periods_per_block;
         }
     };

@@ -59,7 +59,7 @@ class CircularMean {
     }
     /// R̄.
     double concentration() const {
-        return N_ > 0.0 ? square_root(C_ * C_ + S_ * S_) / N_ : not_known;
+        return N_ > 0.0 ? square_root(C_ * C_ + S_ * S_) / N_ : not_available;
     }
     double count() const { return N_; }
 

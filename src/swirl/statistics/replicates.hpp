@@ -49,12 +49,12 @@
 namespace swirl {
 
 /// Mean and error over several runs, and how the seeds compare with the blocks.
-struct SeveralRuns {
+struct Ensemble {
     Estimate estimate;
-    std::size_t runs = 0;                            // whose mean is known
-    double within = not_known, between = not_known;  // √V_w, √V_b
+    std::size_t runs = 0;                                    // whose mean is known
+    double within = not_available, between = not_available;  // √V_w, √V_b
     /// By how many of their own errors the runs scatter, √(Q/(n − 1)): 1 is what chance makes.
-    double scatter = not_known;
+    double scatter = not_available;
     bool disagree = false;  // the seeds scatter more than their blocks can explain
 };
 
@@ -104,9 +104,8 @@ inline Between between_seeds(std::span<const Estimate> runs, std::span<const dou
 }
 
 /// `weights` as many as runs, or none: then all count the same.
-inline SeveralRuns several_runs(std::span<const Estimate> given,
-                                std::span<const double> weights = {}) {
-    SeveralRuns all;
+inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double> weights = {}) {
+    Ensemble all;
     std::vector<Estimate> runs;
     std::vector<double> w;
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -159,14 +158,14 @@ inline SeveralRuns several_runs(std::span<const Estimate> given,
 }
 
 /// The same of angles in degrees, of which 350° and 10° make 0°; the mean is in 0° … 360°.
-inline SeveralRuns several_directions(std::span<const Estimate> given,
-                                      std::span<const double> weights = {}) {
+inline Ensemble several_directions(std::span<const Estimate> given,
+                                   std::span<const double> weights = {}) {
     std::vector<Estimate> unwrapped(given.begin(), given.end());
     const auto known = std::find_if(given.begin(), given.end(),
                                     [](const Estimate& e) { return !std::isnan(e.mean); });
-    if (known == given.end()) return several_runs(given, weights);
+    if (known == given.end()) return ensemble(given, weights);
     for (Estimate& e : unwrapped) e.mean -= 360.0 * std::round((e.mean - known->mean) / 360.0);
-    SeveralRuns all = several_runs(unwrapped, weights);
+    Ensemble all = ensemble(unwrapped, weights);
     all.estimate.mean -= 360.0 * std::floor(all.estimate.mean / 360.0);
     return all;
 }

@@ -53,25 +53,25 @@
 namespace swirl {
 
 /// Blocks that the tests need.
-inline constexpr std::size_t least_blocks_of_a_steady_state = 50;
+inline constexpr std::size_t min_blocks_of_a_steady_state = 50;
 /// Limit of the change test, as a normal deviate.
-inline constexpr double most_change = 4.5;
+inline constexpr double max_change = 4.5;
 
 /// A change of the mean.
 struct MeanChange {
     std::size_t at = 0;  // the first block after it
-    double before = not_known, after = not_known;
-    double size = not_known;         // in standard errors
-    double most_size = not_known;    // that may be chance
-    bool is_jump = false;            // and no drift
-    double effective_samples = 0.0;  // of the blocks, without the change
+    double before = not_available, after = not_available;
+    double size = not_available;      // in standard errors
+    double max_size = not_available;  // that may be chance
+    bool is_jump = false;             // and no drift
+    double effective_samples = 0.0;   // of the blocks, without the change
 
-    bool found() const { return std::abs(size) > most_size; }
+    bool found() const { return std::abs(size) > max_size; }
 };
 
 /// Two levels between which a series switches.
 struct TwoStates {
-    double low = not_known, high = not_known;
+    double low = not_available, high = not_available;
     double separation = 0.0;    // share of the variance between the two
     std::size_t changes = 0;    // from one to the other
     double shortest_visit = 0;  // windows: to the state with the shorter visits, on average
@@ -91,7 +91,7 @@ struct SteadyState {
     Verdict verdict = Verdict::too_short;
     MeanChange change;
     TwoStates states;
-    double period = not_known;  // of the change, from the beginning of the run
+    double period = not_available;  // of the change, from the beginning of the run
 };
 
 /// What is left of a series when its straight line is taken away.
@@ -127,15 +127,15 @@ struct Division {
     std::size_t at = 0;
     double reduction = 0.0;
 };
-inline Division best_division(std::span<const double> values, std::size_t least) {
+inline Division best_division(std::span<const double> values, std::size_t minimum) {
     Division best;
     const double n = static_cast<double>(values.size()), mean = mean_of(values);
     double sum = 0.0;
-    for (std::size_t k = 1; k + least <= values.size(); ++k) {
+    for (std::size_t k = 1; k + minimum <= values.size(); ++k) {
         sum += values[k - 1] - mean;
         const double share = static_cast<double>(k) / n;
         const double reduction = sum * sum / (n * share * (1.0 - share));
-        if (k >= least && (best.at == 0 || reduction > best.reduction)) best = {k, reduction};
+        if (k >= minimum && (best.at == 0 || reduction > best.reduction)) best = {k, reduction};
     }
     return best;
 }
@@ -164,7 +164,7 @@ inline void judge(MeanChange& change, const DifferenceError& error) {
     const double difference = change.after - change.before;
     change.size = difference == 0.0 ? 0.0 : difference / std::sqrt(error.variance);
     const double freedom = error.freedom / 3.0;
-    change.most_size = student_quantile(most_change, freedom >= 1.0 ? freedom : 1.0);
+    change.max_size = student_quantile(max_change, freedom >= 1.0 ? freedom : 1.0);
     change.effective_samples = error.effective_samples;
 }
 
@@ -237,9 +237,9 @@ inline TwoStates two_classes(std::span<const double> values) {
 }
 
 inline TwoStates find_two_states(std::span<const double> blocks) {
-    constexpr std::size_t least_windows = 40;
+    constexpr std::size_t min_windows = 40;
     TwoStates best;
-    for (std::size_t window = 1; blocks.size() / window >= least_windows; window *= 2) {
+    for (std::size_t window = 1; blocks.size() / window >= min_windows; window *= 2) {
         std::vector<double> means;
         for (std::size_t b = 0; b + window <= blocks.size(); b += window)
             means.push_back(mean_of(blocks.subspan(b, window)));
@@ -253,7 +253,7 @@ inline TwoStates find_two_states(std::span<const double> blocks) {
 inline SteadyState find_steady_state(std::span<const double> blocks) {
     using Verdict = SteadyState::Verdict;
     SteadyState state;
-    if (blocks.size() < least_blocks_of_a_steady_state) return state;
+    if (blocks.size() < min_blocks_of_a_steady_state) return state;
     for (const double block : blocks)
         if (std::isnan(block)) return state;
     state.states = find_two_states(blocks);
@@ -275,7 +275,7 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
         for (std::size_t k = 0; k < 5; ++k) batch[i] += blocks[5 * i + k] / 5.0;
     // From the back, with Welford's update, so that nothing cancels.
     std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity(), mean = 0.0, squares = 0.0;
+    double minimum = std::numeric_limits<double>::infinity(), mean = 0.0, squares = 0.0;
     for (std::size_t d = n; d-- > 0;) {
         const double left = static_cast<double>(n - d);
         const double step = batch[d] - mean;
@@ -283,8 +283,8 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
         squares += step * (batch[d] - mean);
         if (d > n / 2 || n - d < 2) continue;
         const double score = squares / (left * left);
-        if (score <= least) {
-            least = score;
+        if (score <= minimum) {
+            minimum = score;
             best = d;
         }
     }
@@ -293,8 +293,8 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
 
 /// While a run continues: are these, all blocks so far, warm-up enough?
 inline bool beginning_is_forgotten(std::span<const double> blocks) {
-    constexpr double most_drift = 4.0, most_trend = 2.0;
-    if (blocks.size() < least_blocks_of_a_steady_state) return false;
+    constexpr double max_drift = 4.0, max_trend = 2.0;
+    if (blocks.size() < min_blocks_of_a_steady_state) return false;
     for (const double block : blocks)
         if (std::isnan(block)) return false;
     const std::size_t warm_up = mser5_truncation(blocks);
@@ -307,12 +307,12 @@ inline bool beginning_is_forgotten(std::span<const double> blocks) {
     const double freedom =
         (c + d) * (c + d) /
         (c * c / (first.effective_samples - 1.0) + d * d / (last.effective_samples - 1.0));
-    if (change > 0.0 && !(change <= student_quantile(most_drift, freedom >= 1.0 ? freedom : 1.0) *
-                                        std::sqrt(c + d)))
+    if (change > 0.0 &&
+        !(change <= student_quantile(max_drift, freedom >= 1.0 ? freedom : 1.0) * std::sqrt(c + d)))
         return false;
     const double a = estimate_of(without_trend(early)).error,
                  b = estimate_of(without_trend(late)).error;
-    return change <= most_trend * std::sqrt(a * a + b * b);
+    return change <= max_trend * std::sqrt(a * a + b * b);
 }
 
 }  // namespace swirl

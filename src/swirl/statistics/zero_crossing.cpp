@@ -73,7 +73,7 @@ SignChange sign_change(std::span<const RotationPoint> points) {
     change.upper = change.after;
     for (const RotationPoint& p : points.subspan(1, points.size() - 2))
         change.between.push_back(p.discs);
-    double lower = not_known, upper = not_known;
+    double lower = not_available, upper = not_available;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const double from = points[k].discs, width = points[k + 1].discs - from;
         if (width > 1.0) return change;

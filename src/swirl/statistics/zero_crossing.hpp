@@ -51,9 +51,9 @@ inline constexpr double certain_sign = 3.0;
 struct SignChange {
     double before, after;     // the bracket
     bool to_counterrotation;  // else back to rotation
-    double discs = not_known, error = not_known;
-    double lower = not_known, upper = not_known;  // 95 %, or the bracket of a coarse table
-    std::vector<double> between = {};             // undetermined points in the bracket
+    double discs = not_available, error = not_available;
+    double lower = not_available, upper = not_available;  // 95 %, or the bracket of a coarse table
+    std::vector<double> between = {};                     // undetermined points in the bracket
 
     /// Whether every N of the bracket has a point, so that N_c is known.
     bool resolved() const { return discs == discs; }
@@ -69,8 +69,8 @@ struct Crossing {
     Verdict verdict = Verdict::undecided;
     std::size_t points = 0;  // with a mean and an error
     /// Of the last change to counterrotation. N_c is not known if that is a bracket of a table.
-    double discs = not_known, error = not_known;
-    double lower = not_known, upper = not_known;
+    double discs = not_available, error = not_available;
+    double lower = not_available, upper = not_available;
     std::vector<SignChange> changes = {};   // all that are certain, in the order of N
     std::vector<double> undetermined = {};  // N whose sign is not certain, in order
 

@@ -73,7 +73,7 @@ class Engine : public Contender {
   public:
     Engine(const BenchScene& scene, const InitialState& settled, const Tuning& tuning)
         : collisions_only_(scene.kind == Kind::gas),
-          swirls_(scene.replayed_swirls),
+          periods_(scene.replayed_periods),
           settled_(settled),
           tuning_(tuning),
           simulation_(settled_, {}, tuning_) {}
@@ -86,19 +86,19 @@ class Engine : public Contender {
         return static_cast<double>(collisions_only_ ? e.disc_disc + e.disc_wall : e.total());
     }
     void begin_again() override {
-        if (swirls_ > 0) simulation_ = Simulation(settled_, {}, tuning_);
+        if (periods_ > 0) simulation_ = Simulation(settled_, {}, tuning_);
     }
     double run() override {
         const double before = counted();
-        if (swirls_ > 0)
-            simulation_.advance_to(swirls_, 0.0);
+        if (periods_ > 0)
+            simulation_.advance_to(periods_, 0.0);
         else
             simulation_.run(2000);
         return counted() - before;
     }
 
     bool collisions_only_;
-    std::int64_t swirls_;
+    std::int64_t periods_;
     InitialState settled_;
     Tuning tuning_;
     Simulation simulation_;
@@ -112,7 +112,7 @@ class Swirling : public Contender {
 
   private:
     double run() override {
-        simulation_.advance_to(simulation_.swirls() + at_once_, 0.0);
+        simulation_.advance_to(simulation_.periods() + at_once_, 0.0);
         return static_cast<double>(at_once_);
     }
 
@@ -133,14 +133,14 @@ class RivalLoop : public Rival {
     RivalLoop(std::string name, const BenchScene& scene, std::function<Loop()> make)
         : Rival(std::move(name)),
           collisions_only_(scene.kind == Kind::gas),
-          swirls_(scene.replayed_swirls),
+          periods_(scene.replayed_periods),
           batch_(scene.kind == Kind::spheres && scene.discs > 100 ? 1 : 500),
           make_(std::move(make)),
           loop_(std::make_unique<Loop>(make_())) {}
 
   private:
     void begin_again() override {
-        if (swirls_ > 0) loop_ = std::make_unique<Loop>(make_());
+        if (periods_ > 0) loop_ = std::make_unique<Loop>(make_());
     }
     double run() override {
         double counted = 0.0;
@@ -150,8 +150,8 @@ class RivalLoop : public Rival {
             counted += vertex && collisions_only_ ? 0.0 : 1.0;
             return vertex;
         };
-        if (swirls_ > 0)
-            for (std::size_t left = static_cast<std::size_t>(swirls_) * paper_sides; left > 0;)
+        if (periods_ > 0)
+            for (std::size_t left = static_cast<std::size_t>(periods_) * paper_sides; left > 0;)
                 left -= step() ? 1 : 0;
         else
             for (int k = 0; k < batch_; ++k) step();
@@ -159,7 +159,7 @@ class RivalLoop : public Rival {
     }
 
     bool collisions_only_;
-    std::int64_t swirls_;
+    std::int64_t periods_;
     int batch_;  // events between two looks at the clock
     std::function<Loop()> make_;
     std::unique_ptr<Loop> loop_;
@@ -168,7 +168,7 @@ class RivalLoop : public Rival {
 /// Of the rival's lists: so that a list has eight discs, which fill one vector. Swirled discs
 /// gather.
 double best_skin(const BenchScene& scene, const InitialState& settled) {
-    if (scene.kind == Kind::dish) return 0.75;
+    if (scene.kind == Kind::container) return 0.75;
     double radii = 0.0;
     for (const Disc& disc : settled.discs) radii += disc.radius;
     const auto discs = static_cast<double>(settled.discs.size());
@@ -212,8 +212,8 @@ InitialState settled_state(const BenchScene& scene, const BenchSettings& setting
     InitialState state = state_of(scene, settings.stop);
     Simulation engine(state, {}, stopped_by(settings.stop));
     constexpr std::uint64_t at_once = 100'000;
-    if (scene.kind == Kind::dish) {
-        while (!engine.advance_to(scene.swirls, 0.0, at_once)) check(settings.stop);
+    if (scene.kind == Kind::container) {
+        while (!engine.advance_to(scene.periods, 0.0, at_once)) check(settings.stop);
     } else {
         const std::uint64_t events = settling(scene);
         for (std::uint64_t done = 0; done < events; done += at_once) {
@@ -221,7 +221,7 @@ InitialState settled_state(const BenchScene& scene, const BenchSettings& setting
             engine.run(std::min(at_once, events - done));
         }
         Event last = engine.step();
-        while (last.kind != EventKind::path_vertex || engine.progress().leg != 0)
+        while (last.kind != EventKind::path_vertex || engine.progress().segment != 0)
             last = engine.step();
     }
     for (std::size_t i = 0; i < state.discs.size(); ++i) state.discs[i] = engine.disc(i);
@@ -234,10 +234,10 @@ InitialState settled_state(const BenchScene& scene, const BenchSettings& setting
 double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSettings& settings) {
     double at_vertices = 0.0;
     const double begin = now();
-    for (std::size_t vertex = 0; vertex < path.legs.size(); ++vertex) {
+    for (std::size_t vertex = 0; vertex < path.segments.size(); ++vertex) {
         check(settings.stop);
-        const double end = path.leg_at(engine.clock()).end;
-        engine.advance_to(engine.swirls(), std::nextafter(end, 0.0));
+        const double end = path.segment_at(engine.clock()).end;
+        engine.advance_to(engine.periods(), std::nextafter(end, 0.0));
         const double start = now();
         engine.step();
         at_vertices += now() - start;
@@ -267,7 +267,7 @@ struct Comparison {
 Comparison comparison(const BenchScene& scene, const InitialState& settled,
                       const BenchSettings& settings, const Tuning& tuning) {
     BenchScene other = bench_scenes().front();
-    if (scene.compared_with == ComparedWith::paper_dish)
+    if (scene.compared_with == ComparedWith::paper_container)
         return {std::make_unique<Engine>(other, settled_state(other, settings), tuning), nullptr,
                 "rate over that at N = 48", BenchTarget::Sense::at_least};
     if (scene.compared_with == ComparedWith::polygon) {
@@ -312,7 +312,7 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
     const std::unique_ptr<Rival> rival = best_rival(scene, settled, settings.seconds);
 
     engine.rate_over(0.0);  // warms up, and a replay begins to count
-    const bool goes_on = scene.replayed_swirls == 0;
+    const bool goes_on = scene.replayed_periods == 0;
     const Counted before = goes_on ? Counted::by(engine.simulation()) : Counted{};
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
@@ -334,7 +334,7 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
     }
     row.comparison = compared.found(engine.rates(), scene.comparison_target);
     count(row, engine.simulation(), before);
-    if (scene.kind == Kind::dish && scene.discs == 100000)
+    if (scene.kind == Kind::container && scene.discs == 100000)
         row.vertex_share = vertex_share(engine.simulation(), settled.path, settings);
     return row;
 }

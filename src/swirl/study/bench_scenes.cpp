@@ -19,17 +19,17 @@ constexpr double spheres_packing =
 // than 1.3 times the polygon's time per swirl.
 constexpr double twice = 2.0, third = 1.0 / 3.0, settled = 0.8, circle = 1.3;
 
-BenchScene dish_of(std::int64_t discs) {
+BenchScene container_of(std::int64_t discs) {
     return {.name = "dish, mu = 1",
-            .kind = BenchScene::Kind::dish,
+            .kind = BenchScene::Kind::container,
             .discs = discs,
-            .swirls = 30,
+            .periods = 30,
             .ratio_target = twice};
 }
 BenchScene variant(const char* name) {
-    BenchScene scene = dish_of(48);
+    BenchScene scene = container_of(48);
     scene.name = name;
-    scene.compared_with = ComparedWith::paper_dish;
+    scene.compared_with = ComparedWith::paper_container;
     scene.comparison_target = third;
     return scene;
 }
@@ -49,7 +49,7 @@ BenchScene smooth() {
     return scene;
 }
 BenchScene on_circle(std::int64_t discs) {
-    BenchScene scene = dish_of(discs);
+    BenchScene scene = container_of(discs);
     scene.name = "dish, exact circle";
     if (discs > 48) scene.packing = paper_packing;
     scene.sides = 0;
@@ -57,23 +57,23 @@ BenchScene on_circle(std::int64_t discs) {
     scene.comparison_target = circle;
     return scene;
 }
-BenchScene large(std::int64_t discs, std::int64_t swirls, std::optional<double> target) {
-    BenchScene scene = dish_of(discs);
-    scene.name = "large dish, swirl " + std::to_string(swirls) + " on";
+BenchScene large(std::int64_t discs, std::int64_t periods, std::optional<double> target) {
+    BenchScene scene = container_of(discs);
+    scene.name = "large dish, swirl " + std::to_string(periods) + " on";
     scene.packing = paper_packing;
-    scene.swirls = swirls;
-    scene.compared_with = ComparedWith::paper_dish;
+    scene.periods = periods;
+    scene.compared_with = ComparedWith::paper_container;
     scene.comparison_target = target;
     scene.only_full = discs > 2000;
     return scene;
 }
 /// From the third swirl on: later all discs have gathered somewhere.
-BenchScene thin(const char* name, double packing, std::int64_t replayed_swirls) {
+BenchScene thin(const char* name, double packing, std::int64_t replayed_periods) {
     BenchScene scene = variant(name);
     scene.discs = 2000;
     scene.packing = packing;
-    scene.swirls = 2;
-    scene.replayed_swirls = replayed_swirls;
+    scene.periods = 2;
+    scene.replayed_periods = replayed_periods;
     return scene;
 }
 BenchScene elastic(const char* name, double packing, std::int64_t discs, bool only_full = false) {
@@ -104,9 +104,9 @@ BenchScene of_spheres(std::int64_t discs) {
 
 const std::vector<BenchScene>& bench_scenes() {
     static const std::vector<BenchScene> all = {
-        dish_of(48),
-        dish_of(28),
-        dish_of(5),
+        container_of(48),
+        container_of(28),
+        container_of(5),
         with_sides("dish, 300 sides", 300),
         with_sides("dish, 3000 sides", 3000),
         mixture(),
@@ -172,13 +172,13 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
     if (!centres) throw Failure("The discs of a benchmark did not fit into their dish.");
     Random random(2);
-    const Leg& leg = initial.path.legs.front();
+    const Segment& segment = initial.path.segments.front();
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double r = radii[i], mass = r * r;
         // A gas begins with the same energy for all, on average.
         const Vec2 velocity = random.in_disc(still ? 1.0 / r : 0.1);
         initial.discs.push_back(
-            {leg.start + (*centres)[i], leg.velocity + velocity, 0.0, 0.0, 0.0, r, mass,
+            {segment.start + (*centres)[i], segment.velocity + velocity, 0.0, 0.0, 0.0, r, mass,
              rolls ? solid_sphere_inertia(mass, r) : paper_inertia * mass * r * r});
     }
     return initial;

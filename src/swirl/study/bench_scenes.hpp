@@ -13,10 +13,10 @@
 namespace swirl {
 
 /// With what else of the engine a scene is compared.
-enum class ComparedWith { nothing, paper_dish, polygon };
+enum class ComparedWith { nothing, paper_container, polygon };
 
 struct BenchScene {
-    enum class Kind { dish, gas, spheres };
+    enum class Kind { container, gas, spheres };
     std::string name;
     Kind kind;
     std::int64_t discs;
@@ -24,10 +24,10 @@ struct BenchScene {
     int sides = paper_sides;  // of the path; 0 is the exact circle
     double mu_disc = 1.0;
     double second_radius = 1.0;  // of every second disc
-    std::int64_t swirls = 0;     // done before it is measured; a gas does ten collisions a disc
+    std::int64_t periods = 0;    // done before it is measured; a gas does ten collisions a disc
     /// Begun again and again from there and left after so many swirls, as it would not stay what it
     /// is; 0: it goes on.
-    std::int64_t replayed_swirls = 0;
+    std::int64_t replayed_periods = 0;
     std::optional<double> ratio_target = {};
     ComparedWith compared_with = ComparedWith::nothing;
     std::optional<double> comparison_target = {};

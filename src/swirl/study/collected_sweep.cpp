@@ -37,7 +37,7 @@ struct PointResult {
             return quantities[place].estimate;
         for (const MeasuredNumber& other : quantities)
             if (other.name == name) return other.estimate;
-        return {.mean = not_known, .error = not_known};
+        return {.mean = not_available, .error = not_available};
     }
 };
 
@@ -53,7 +53,7 @@ bool needed(int depth, Json::parse_event_t event, Json& parsed) {
 }
 
 /// A result that was copied to another point, or into another sweep, would be believed otherwise.
-void refuse_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
+void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
                                     std::size_t point) {
     const bool ours = json.at("point") == point && json.at("replica") == plan.replica(point) &&
                       json.at("config").at("seed") == plan.config(point).seed;
@@ -74,7 +74,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
     result.there = true;
     result.quantities.reserve(rotation_rates.size());
     const auto number = [](const Json& value) {
-        return value.is_null() ? not_known : value.get<double>();  // throws for a text
+        return value.is_null() ? not_available : value.get<double>();  // throws for a text
     };
     try {
         if (json.value("format", 0) != result_format)
@@ -83,7 +83,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
                 "call `swirl sweep` again, or collect with the program that wrote it.",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
                 result_format));
-        refuse_result_of_another_point(file, json, plan, point);
+        reject_result_of_another_point(file, json, plan, point);
         for (const auto& [name, words] : rotation_rates) {
             const Json& found = json.at("rotation").at(name);
             result.quantities.push_back(
@@ -153,7 +153,7 @@ std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& p
         numbered_files(part_of_sweep(folder, "results", plan), ".json", plan.points());
     std::vector<PointResult> results(plan.points());
     constexpr std::size_t batch = 256;
-    on_all_cores((results.size() + batch - 1) / batch, [&](std::size_t b) {
+    parallel_for((results.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
             if (done[p]) results[plan.place(p)] = read_result(folder, plan, p);
     });
@@ -225,13 +225,13 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
     row.emplace_back(energy);
     row.emplace_back(steadiness);
     const std::size_t place_of_scatter = row.size();
-    row.emplace_back(not_known);
+    row.emplace_back(not_available);
     collected.rows.push_back({texts});
     for (std::size_t k = 0; k < quantities.size(); ++k) {
         const auto& [name, is_direction] = quantities[k];
         std::vector<Estimate> found;
         for (const PointResult* r : replicas) found.push_back(r->quantity(k, name));
-        const SeveralRuns together = is_direction ? several_directions(found) : several_runs(found);
+        const Ensemble together = is_direction ? several_directions(found) : ensemble(found);
         row.emplace_back(together.estimate.mean);
         row.emplace_back(together.estimate.error);
         if (k < rotation_rates.size()) collected.rows.back().rotation[k] = together.estimate;
@@ -273,7 +273,7 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     for (const SweepAxis& axis : plan.axes)
         if (axis.name != "discs") others.push_back(axis.name);
     if (others.size() == plan.axes.size())
-        throw WrongCall(
+        throw UsageError(
             "The rotation is to change its sign with the number of discs, but --discs is no "
             "parameter of this sweep.");
     std::vector<ParameterTexts> groups;  // in the order of the rows
@@ -283,7 +283,7 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
         group.erase("discs");
         RotationCurves& all = curves[group];
         if (all.front().empty()) groups.push_back(group);
-        const double discs = read_number(row.parameters.at("discs")).value_or(not_known);
+        const double discs = read_number(row.parameters.at("discs")).value_or(not_available);
         for (std::size_t r = 0; r < all.size(); ++r)
             all[r].push_back({discs, row.rotation[r].mean, row.rotation[r].error});
     }

@@ -140,7 +140,7 @@ std::size_t rate_named(const std::string& name) {
                                                              : " or ",
                              rotation_rates[r].name);
     }
-    throw WrongCall(fmt::format("--rate is '{}', but it must be {}.", name, names));
+    throw UsageError(fmt::format("--rate is '{}', but it must be {}.", name, names));
 }
 
 const char* verdict_word(Crossing::Verdict verdict) {

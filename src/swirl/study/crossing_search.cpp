@@ -54,7 +54,7 @@ class Search {
     /// What is kept of a run.
     struct Made {
         std::array<Estimate, rotation_rates.size()> rotation;
-        double swirls;  // after the warm-up
+        double periods;  // after the warm-up
         SteadyState::Verdict verdict;
     };
     struct Runs {
@@ -90,14 +90,14 @@ class Search {
         return all;
     }
 
-    static SeveralRuns together(const std::vector<Made>& runs, std::size_t rate) {
+    static Ensemble together(const std::vector<Made>& runs, std::size_t rate) {
         std::vector<Estimate> estimates;
-        std::vector<double> swirls;
+        std::vector<double> periods;
         for (const Made& run : runs) {
             estimates.push_back(run.rotation[rate]);
-            swirls.push_back(run.swirls);
+            periods.push_back(run.periods);
         }
-        return several_runs(estimates, swirls);
+        return ensemble(estimates, periods);
     }
 
     void count(std::int64_t n, CrossingSearch& search) const {
@@ -151,8 +151,8 @@ class Search {
     /// chance takes it away from zero, and the interval of N_c would be too narrow.
     std::set<std::int64_t> worth_more() const {
         const Crossing crossing = find_crossing(curves()[settings_.rate]);
-        const auto under = [&](std::int64_t n, int most) {
-            return runs_at_.at(n).rounds < std::min(most, settings_.rounds);
+        const auto under = [&](std::int64_t n, int maximum) {
+            return runs_at_.at(n).rounds < std::min(maximum, settings_.rounds);
         };
         std::set<std::int64_t> numbers;
         for (const double discs : crossing.undetermined) {
@@ -191,16 +191,16 @@ class Search {
                      runs_at_[*n].rounds});
         std::vector<RunResult> results(places.size());
         std::vector<std::string> failures(places.size());
-        on_all_cores(
+        parallel_for(
             places.size(),
             [&](std::size_t k) {
                 RunConfig config = settings_.config;
                 config.discs = places[k].discs;
                 config.events = settings_.config.events << places[k].rounds;
                 config.seed = places[k].seed;
-                const std::int64_t swirls = settings_.least_swirls << places[k].rounds;
+                const std::int64_t periods = settings_.min_periods << places[k].rounds;
                 try {
-                    results[k] = long_enough(config, swirls, stage);
+                    results[k] = long_enough(config, periods, stage);
                 } catch (const Failure& failure) {
                     failures[k] = failure.what();
                 }
@@ -221,10 +221,10 @@ class Search {
     }
 
     /// A run of so many events, and as many swirls as it takes at least.
-    RunResult long_enough(RunConfig config, std::int64_t swirls, const char* stage) {
+    RunResult long_enough(RunConfig config, std::int64_t periods, const char* stage) {
         RunControl inner;
         inner.stop = control_.stop;
-        config.periods = config.warmup.value_or(default_warmup) + swirls;
+        config.periods = config.warmup.value_or(default_warmup) + periods;
         RunResult result = control_.make_run(config, inner);
         const bool short_of_events =
             result.events.total() < static_cast<std::uint64_t>(config.events);
@@ -259,29 +259,29 @@ class Search {
 
 void check_range(const CrossingSettings& settings) {
     if (!(settings.from >= 2 && settings.to > settings.from))
-        throw WrongCall(fmt::format(
+        throw UsageError(fmt::format(
             "The search goes from --from {} to --to {}, but it must begin at 2 or more and "
             "end above its beginning.",
             settings.from, settings.to));
-    if (static_cast<double>(settings.to) > most_discs)
-        throw WrongCall(
-            fmt::format("--to is {}, but it must be at most {:.0f}.", settings.to, most_discs));
+    if (static_cast<double>(settings.to) > max_discs)
+        throw UsageError(
+            fmt::format("--to is {}, but it must be at most {:.0f}.", settings.to, max_discs));
 }
 
 void check(const CrossingSettings& settings) {
     check_range(settings);
     if (!(settings.rate < rotation_rates.size()))
-        throw WrongCall(
+        throw UsageError(
             "The rotation rate of a search must be one of the four that a run reports.");
     if (settings.step < 0)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--step is {}, but it must be 1 or more, or 0 for about eight numbers.",
                         settings.step));
     RunConfig largest = settings.config;
     largest.discs = settings.to;
-    if (const auto wrong = problem(largest)) throw WrongCall(*wrong);
+    if (const auto wrong = problem(largest)) throw UsageError(*wrong);
     if (!(settings.tolerance > 0.0))
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--tolerance is {}, but it must be above 0: the standard error "
                         "of N_c that is wanted.",
                         settings.tolerance));

@@ -52,7 +52,7 @@ struct CrossingSettings {
     std::size_t rate = default_rate;  // of rotation_rates: what drives steps 3 and 4
     int rounds = 8;                   // of step 4 at one number of discs, at most
     int seeds = 3;                    // runs of one step at one number of discs
-    std::int64_t least_swirls = 100;  // after the warm-up, of the first runs
+    std::int64_t min_periods = 100;   // after the warm-up, of the first runs
     std::int64_t step = 0;  // between the numbers of the coarse look; 0: about eight numbers
 };
 

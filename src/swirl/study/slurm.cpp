@@ -44,13 +44,13 @@ Answer ask(const std::string& command) {
 }
 
 /// A line of a job script ends where a text has a line end, and what follows would be a command.
-void refuse_unfit(const char* option, const std::string& text, const char* allowed,
+void reject_unfit(const char* option, const std::string& text, const char* allowed,
                   const char* right) {
     const auto fits = [allowed](unsigned char c) {
         return std::isalnum(c) || std::strchr(allowed, c) != nullptr;
     };
     if (std::all_of(text.begin(), text.end(), fits)) return;
-    throw WrongCall(fmt::format("{} is '{}', but it must be {}.", option, printable(text), right));
+    throw UsageError(fmt::format("{} is '{}', but it must be {}.", option, printable(text), right));
 }
 
 /// A path in a line #SBATCH: in quotation marks, and each % doubled, which alone would begin one of
@@ -59,7 +59,7 @@ std::string sbatch_path(const fs::path& path) {
     const std::string text = path.string();
     for (const unsigned char c : text)
         if (c < 0x20 || c == 0x7f || c == '"' || c == '\\')
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "--out is '{}', but for Slurm it must have no quotation mark, no backslash and no "
                 "line end in it.",
                 printable(text)));
@@ -77,8 +77,8 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
     const fs::path home = home_of(folder);
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    refuse_unfit("--time", job.time, ":-", "as sbatch takes it, for example 2:00:00 or 1-12");
-    refuse_unfit("--partition", job.partition, "_-.,", "the name of a partition");
+    reject_unfit("--time", job.time, ":-", "as sbatch takes it, for example 2:00:00 or 1-12");
+    reject_unfit("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";
     text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n", job.nodes);
     text += job.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", job.cpus)
@@ -100,7 +100,7 @@ std::string submit(const std::string& script, const fs::path& folder) {
     const fs::path home = home_of(folder);
     std::error_code ignored;
     fs::create_directories(home / "log", ignored);
-    write_whole_file(home / "job.sh", script);
+    write_file_atomically(home / "job.sh", script);
     const Answer answer = ask("sbatch --parsable " + shell_word((home / "job.sh").string()));
     if (answer.code == 127)
         throw Failure(fmt::format(
@@ -111,7 +111,7 @@ std::string submit(const std::string& script, const fs::path& folder) {
         throw Failure(fmt::format("sbatch refused '{}': {}.", (home / "job.sh").string(),
                                   printable(answer.text)));
     const std::string number = answer.text.substr(0, answer.text.find(';'));
-    write_whole_file(home / "slurm_job", number + "\n");
+    write_file_atomically(home / "slurm_job", number + "\n");
     return number;
 }
 

@@ -44,7 +44,7 @@ class SweepWork {
           plan_(plan),
           share_(share),
           control_(control),
-          claims_(std::make_shared<SweepClaims>(folder)),
+          claims_(std::make_shared<SweepLocks>(folder)),
           writer_(part_of_sweep(folder, "results", plan)) {}
 
     SweepOutcome operator()() {
@@ -64,13 +64,13 @@ class SweepWork {
 
   private:
     void work_on(const std::vector<std::size_t>& points) {
-        on_all_cores(
+        parallel_for(
             points.size(), [&](std::size_t k) { try_point(points[k]); }, share_.threads);
     }
 
     void try_point(std::size_t point) {
         if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
-        const std::shared_ptr<SweepClaim> claim = SweepClaim::on(claims_, point);
+        const std::shared_ptr<SweepLock> claim = SweepLock::on(claims_, point);
         if (!claim) {
             const std::lock_guard lock(mutex_);
             ++outcome_.elsewhere;
@@ -93,14 +93,14 @@ class SweepWork {
             if (failed_before_[point]) ::unlink(note.c_str());
             return;
         }
-        write_whole_file(note, failure + "\n");
+        write_file_atomically(note, failure + "\n");
         const std::lock_guard lock(mutex_);
         if (outcome_.failed++ == 0)
             outcome_.first_failure = fmt::format("point {}: {}", point, failure);
     }
 
     /// False if it was stopped before its end.
-    bool do_point(std::size_t point, const std::shared_ptr<SweepClaim>& claim) {
+    bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& claim) {
         const RunConfig config = plan_.config(point);
         RunFiles files;
         files.checkpoint =
@@ -152,7 +152,7 @@ class SweepWork {
     const std::string plan_text_ = plan_.text();
     const SweepShare share_;
     const SweepControl& control_;
-    const std::shared_ptr<SweepClaims> claims_;
+    const std::shared_ptr<SweepLocks> claims_;
     const std::vector<bool> failed_before_ =
         numbered_files(folder_ / "failures", ".txt", plan_.points());
     ResultWriter writer_;
@@ -170,7 +170,7 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<bool> done =
         numbered_files(part_of_sweep(folder, "results", plan), ".json", status.points);
     const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", status.points);
-    const std::vector<bool> claimed = SweepClaims::taken(folder, status.points);
+    const std::vector<bool> claimed = SweepLocks::taken(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
         if (done[point])
             ++status.done;

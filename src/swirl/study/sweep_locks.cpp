@@ -26,26 +26,26 @@ struct flock bytes(std::size_t point, std::size_t count, int type) {
 
 }  // namespace
 
-SweepClaims::SweepClaims(const fs::path& folder)
+SweepLocks::SweepLocks(const fs::path& folder)
     : handle_(::open((folder / "claims").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (handle_ < 0)
         throw FileError(fmt::format("'{}' could not be written: {}.", (folder / "claims").string(),
                                     system_reason()));
 }
 
-SweepClaims::~SweepClaims() { ::close(handle_); }
+SweepLocks::~SweepLocks() { ::close(handle_); }
 
-bool SweepClaims::take(std::size_t point) {
+bool SweepLocks::take(std::size_t point) {
     struct flock lock = bytes(point, 1, F_WRLCK);
     return ::fcntl(handle_, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
-void SweepClaims::give_back(std::size_t point) {
+void SweepLocks::give_back(std::size_t point) {
     struct flock lock = bytes(point, 1, F_UNLCK);
     ::fcntl(handle_, F_OFD_SETLK, &lock);
 }
 
-std::vector<bool> SweepClaims::taken(const fs::path& folder, std::size_t points) {
+std::vector<bool> SweepLocks::taken(const fs::path& folder, std::size_t points) {
     std::vector<bool> taken(points, false);
     const int handle = ::open((folder / "claims").c_str(), O_RDWR | O_CLOEXEC);
     for (std::size_t from = 0; handle >= 0 && from < points;) {
@@ -63,10 +63,10 @@ std::vector<bool> SweepClaims::taken(const fs::path& folder, std::size_t points)
     return taken;
 }
 
-std::shared_ptr<SweepClaim> SweepClaim::on(const std::shared_ptr<SweepClaims>& claims,
-                                           std::size_t point) {
+std::shared_ptr<SweepLock> SweepLock::on(const std::shared_ptr<SweepLocks>& claims,
+                                         std::size_t point) {
     if (!claims->take(point)) return nullptr;
-    return std::make_shared<SweepClaim>(claims, point);
+    return std::make_shared<SweepLock>(claims, point);
 }
 
 }  // namespace swirl

@@ -9,13 +9,13 @@
 
 namespace swirl {
 
-class SweepClaims {
+class SweepLocks {
   public:
     /// Throws FileError if the folder cannot be written to.
-    explicit SweepClaims(const std::filesystem::path& folder);
-    ~SweepClaims();
-    SweepClaims(const SweepClaims&) = delete;
-    SweepClaims& operator=(const SweepClaims&) = delete;
+    explicit SweepLocks(const std::filesystem::path& folder);
+    ~SweepLocks();
+    SweepLocks(const SweepLocks&) = delete;
+    SweepLocks& operator=(const SweepLocks&) = delete;
 
     /// False if another process works on the point.
     bool take(std::size_t point);
@@ -29,19 +29,19 @@ class SweepClaims {
 };
 
 /// One point's claim, given back in the end.
-class SweepClaim {
+class SweepLock {
   public:
     /// Null if another process works on the point.
-    static std::shared_ptr<SweepClaim> on(const std::shared_ptr<SweepClaims>& claims,
-                                          std::size_t point);
-    SweepClaim(std::shared_ptr<SweepClaims> claims, std::size_t point)
+    static std::shared_ptr<SweepLock> on(const std::shared_ptr<SweepLocks>& claims,
+                                         std::size_t point);
+    SweepLock(std::shared_ptr<SweepLocks> claims, std::size_t point)
         : claims_(std::move(claims)), point_(point) {}
-    ~SweepClaim() { claims_->give_back(point_); }
-    SweepClaim(const SweepClaim&) = delete;
-    SweepClaim& operator=(const SweepClaim&) = delete;
+    ~SweepLock() { claims_->give_back(point_); }
+    SweepLock(const SweepLock&) = delete;
+    SweepLock& operator=(const SweepLock&) = delete;
 
   private:
-    std::shared_ptr<SweepClaims> claims_;
+    std::shared_ptr<SweepLocks> claims_;
     std::size_t point_;
 };
 

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 10'000'000;
+constexpr std::size_t max_points = 10'000'000;
 
 /// Calls visit(place) for the places in the whole plan of those points that a stage adds to the one
 /// before it, in order.
@@ -73,8 +73,8 @@ std::vector<std::size_t> places_in(const SweepPlan& plan) {
 std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
 
 std::vector<std::string> range(std::string_view name, std::string_view text) {
-    const auto refuse = [&](const char* why) {
-        throw WrongCall(fmt::format(
+    const auto reject = [&](const char* why) {
+        throw UsageError(fmt::format(
             "{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
             "0:0.25:1.",
             option_name(name), text, why));
@@ -83,16 +83,16 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(':', begin), text.size());
         const auto part = read_number(text.substr(begin, end - begin));
-        if (!part) refuse("a part of it is not a number");
+        if (!part) reject("a part of it is not a number");
         parts.push_back(*part);
         begin = end + 1;
     }
-    if (parts.size() > 3) refuse("it has more than three parts");
+    if (parts.size() > 3) reject("it has more than three parts");
     const double from = parts.front(), to = parts.back();
     const double step = parts.size() == 3 ? parts[1] : 1.0;
-    if (!(step > 0.0) || to < from) refuse("it does not lead upwards");
+    if (!(step > 0.0) || to < from) reject("it does not lead upwards");
     const double count = std::floor((to - from) / step + 1e-9) + 1.0;
-    if (count > 1e6) refuse("it has more than a million values");
+    if (count > 1e6) reject("it has more than a million values");
     std::vector<std::string> values;
     for (double k = 0.0; k < count; k += 1.0) values.push_back(with_digits(from + k * step));
     return values;
@@ -126,7 +126,7 @@ bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::s
             b[axis.name] = two;
             try {
                 if (run_of(a) != run_of(b)) return true;
-            } catch (const WrongCall&) {  // shows when its turn comes
+            } catch (const UsageError&) {  // shows when its turn comes
             }
         }
     }
@@ -134,14 +134,14 @@ bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::s
 }
 
 /// Every value of an axis must make another run; a run that is wanted again is a replica.
-void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
+void reject_useless(const SweepPlan& plan, const SweepAxis& axis) {
     ParameterTexts texts = plan.parameters(0);
     std::map<std::uint64_t, std::string> seen;
     for (const std::string& value : axis.values) {
         texts[axis.name] = value;
         const auto [before, is_new] = seen.emplace(run_of(texts), value);
         if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
-            throw WrongCall(fmt::format(
+            throw UsageError(fmt::format(
                 "{0} {1} and {0} {2} are the same run here; leave one of them away, or the "
                 "parameter that takes its place (for several runs of each there is --seeds).",
                 option_name(axis.name), before->second, value));
@@ -149,15 +149,15 @@ void refuse_useless(const SweepPlan& plan, const SweepAxis& axis) {
 }
 
 /// A mistake in one value shows before anything is run; combinations show when their turn comes.
-void refuse_useless(const SweepPlan& plan) {
-    if (const double count = product(plan); count > double(most_points))
-        throw WrongCall(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
-                                    count, most_points));
-    for (const SweepAxis& axis : plan.axes) refuse_useless(plan, axis);
+void reject_useless(const SweepPlan& plan) {
+    if (const double count = product(plan); count > double(max_points))
+        throw UsageError(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
+                                     count, max_points));
+    for (const SweepAxis& axis : plan.axes) reject_useless(plan, axis);
 }
 
 /// What a stage counts must be there in the next.
-void refuse_shrinking(const fs::path& file, const SweepPlan& plan) {
+void reject_shrinking(const fs::path& file, const SweepPlan& plan) {
     std::vector<SweepStage> stages = plan.before;
     stages.push_back(size_of(plan));
     for (std::size_t k = 0; k + 1 < stages.size(); ++k) {
@@ -223,8 +223,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string_view part = text.substr(begin, end - begin);
         if (part.empty())
-            throw WrongCall(fmt::format("{} is '{}', but a value in the list is empty.",
-                                        option_name(name), text));
+            throw UsageError(fmt::format("{} is '{}', but a value in the list is empty.",
+                                         option_name(name), text));
         if (part.find(':') != part.npos && name != "mixture") {
             const auto more = range(name, part);
             values.insert(values.end(), more.begin(), more.end());
@@ -247,7 +247,7 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
             texts.erase(found);
         }
     if (!texts.empty()) resolve(texts);  // says which is not known
-    refuse_useless(plan);
+    reject_useless(plan);
     return plan;
 }
 
@@ -260,7 +260,7 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
                                        [&](const SweepAxis& a) { return a.name == name; });
         if (axis == larger.axes.end()) {
             resolve({{name, list_of_values(name, text).front()}});  // if it is none at all
-            throw WrongCall(
+            throw UsageError(
                 fmt::format("{} is no parameter of this sweep, whose points have its default; "
                             "another folder is "
                             "right for a sweep over it.",
@@ -271,7 +271,7 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
                 axis->values.push_back(value);
     }
     if (replicas > 0 && replicas < plan.replicas)
-        throw WrongCall(
+        throw UsageError(
             fmt::format("--seeds is {}, but the sweep has {} already; it can only grow.", replicas,
                         plan.replicas));
     larger.replicas = std::max(replicas, plan.replicas);
@@ -279,7 +279,7 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
         if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
             larger.measure.push_back(name);
     if (larger.measure != plan.measure) ++larger.generation;
-    refuse_useless(larger);
+    reject_useless(larger);
     if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
     larger.places = places_in(larger);
     return larger;
@@ -313,12 +313,12 @@ SweepPlan read_plan(const fs::path& folder) {
         if (axis.values.empty())
             throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
                                         file.string(), axis.name));
-    if (const double count = product(plan); !(count >= 1.0 && count <= double(most_points)))
+    if (const double count = product(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
             fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
                         "each point, but from 1 to {} runs are possible.",
-                        file.string(), count, plan.replicas, most_points));
-    refuse_shrinking(file, plan);
+                        file.string(), count, plan.replicas, max_points));
+    reject_shrinking(file, plan);
     plan.places = places_in(plan);
     return plan;
 }
@@ -355,7 +355,7 @@ void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan
                         "more adds to "
                         "what it is now.",
                         folder.string()));
-    write_whole_file(folder / "plan.json", plan_file_text(plan));
+    write_file_atomically(folder / "plan.json", plan_file_text(plan));
 }
 
 }  // namespace

@@ -87,30 +87,31 @@ bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>
 }
 
 /// Those beads at other places.
-std::vector<Bead> at_places(std::vector<Bead> beads, const std::vector<Vec2>& places) {
-    for (std::size_t i = 0; i < beads.size(); ++i) beads[i].centre = places[i];
-    return beads;
+std::vector<Particle> at_places(std::vector<Particle> particles, const std::vector<Vec2>& places) {
+    for (std::size_t i = 0; i < particles.size(); ++i) particles[i].centre = places[i];
+    return particles;
 }
 
 /// Mean square by which hard discs lie in each other, of those that are near.
-double overlap(const std::vector<MeanBall::Example>& examples,
+double overlap(const std::vector<AppearanceTemplate::Example>& examples,
                const std::vector<std::vector<Vec2>>& edges,
-               const std::vector<std::vector<Vec2>>& ball, double counts, const BeadLook& look) {
+               const std::vector<std::vector<Vec2>>& ball, double counts,
+               const ParticleLook& look) {
     double square = 0.0;
     std::size_t pairs = 0;
     for (std::size_t k = 0; k < examples.size(); ++k) {
-        const std::vector<Bead>& beads = examples[k].beads;
+        const std::vector<Particle>& particles = examples[k].particles;
         std::vector<Vec2> places;
-        for (std::size_t i = 0; i < beads.size(); ++i)
+        for (std::size_t i = 0; i < particles.size(); ++i)
             places.push_back(look.lens
                                  .ideal({(1.0 - counts) * edges[k][i] + counts * ball[k][i],
-                                         look.kinds[beads[i].kind].radius})
+                                         look.kinds[particles[i].kind].radius})
                                  .centre);
-        for (std::size_t a = 0; a < beads.size(); ++a)
-            for (std::size_t b = a + 1; b < beads.size(); ++b) {
-                if (!beads[a].sure || !beads[b].sure) continue;
+        for (std::size_t a = 0; a < particles.size(); ++a)
+            for (std::size_t b = a + 1; b < particles.size(); ++b) {
+                if (!particles[a].sure || !particles[b].sure) continue;
                 const double sum =
-                    look.kinds[beads[a].kind].radius + look.kinds[beads[b].kind].radius;
+                    look.kinds[particles[a].kind].radius + look.kinds[particles[b].kind].radius;
                 const double gap = length(places[a] - places[b]) - sum;
                 if (std::abs(gap) > 0.125 * sum) continue;
                 ++pairs;
@@ -122,12 +123,12 @@ double overlap(const std::vector<MeanBall::Example>& examples,
 
 }  // namespace
 
-std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
-                                    const BeadLook& look) {
+std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
+                                    const ParticleLook& look) {
     constexpr double looked_at = 7.0;  // pixels beyond both
     std::vector<NearCircle> others;
     const double own = look.lens.seen_radius(self.centre, look.kinds[self.kind].radius);
-    for (const Bead& b : all) {
+    for (const Particle& b : all) {
         if (&b == &self || !b.sure) continue;
         const double radius = look.lens.seen_radius(b.centre, look.kinds[b.kind].radius);
         if (length(b.centre - self.centre) < own + radius + looked_at)
@@ -137,22 +138,22 @@ std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& se
 }
 
 /// 255 where the floor can be seen.
-cv::Mat MeanBall::free_floor(const cv::Size& size, const CircleFit& rim,
-                             const std::vector<Bead>& beads) const {
+cv::Mat AppearanceTemplate::free_floor(const cv::Size& size, const CircleFit& rim,
+                                       const std::vector<Particle>& particles) const {
     cv::Mat mask = cv::Mat::zeros(size, CV_8U);
     const auto fill = [&](const Vec2& centre, double radius, int level) {
         cv::circle(mask, {cvRound(centre.x), cvRound(centre.y)}, static_cast<int>(radius), level,
                    cv::FILLED);
     };
     fill(rim.centre, reach_ - 3.0, 255);
-    for (const Bead& b : beads) fill(b.centre, look_.kinds[b.kind].radius + 4.0, 0);
+    for (const Particle& b : particles) fill(b.centre, look_.kinds[b.kind].radius + 4.0, 0);
     return mask;
 }
 
-double MeanBall::lamp(const cv::Mat& sharp, const CircleFit& rim,
-                      const std::vector<Bead>& beads) const {
+double AppearanceTemplate::illumination(const cv::Mat& sharp, const CircleFit& rim,
+                                        const std::vector<Particle>& particles) const {
     if (floor_.empty()) return 1.0;
-    const cv::Mat open = free_floor(sharp.size(), rim, beads);
+    const cv::Mat open = free_floor(sharp.size(), rim, particles);
     std::vector<double> ratios;
     constexpr int stride = 3;
     for (int row = 0; row < sharp.rows; row += stride) {
@@ -165,16 +166,16 @@ double MeanBall::lamp(const cv::Mat& sharp, const CircleFit& rim,
     return ratios.size() < 30 ? 1.0 : median(ratios);
 }
 
-void MeanBall::learn_floor(const std::vector<Example>& examples, unsigned threads) {
+void AppearanceTemplate::learn_floor(const std::vector<Example>& examples, unsigned threads) {
     const cv::Size size = examples.front().sharp.size();
     // Twice: the lamp of a picture is known after its floor.
     for (int round = 0; round < 2; ++round) {
         std::vector<float> of_lamps;
         for (const Example& e : examples)
-            of_lamps.push_back(static_cast<float>(1.0 / lamp(e.sharp, e.rim, e.beads)));
+            of_lamps.push_back(static_cast<float>(1.0 / illumination(e.sharp, e.rim, e.particles)));
         cv::Mat sum = cv::Mat::zeros(size, CV_32F), known = cv::Mat::zeros(size, CV_32F);
         std::vector<cv::Mat> taken;
-        for (const Example& e : examples) taken.push_back(free_floor(size, e.rim, e.beads));
+        for (const Example& e : examples) taken.push_back(free_floor(size, e.rim, e.particles));
         constexpr int rows_at_once = 16;
         const auto median_of_rows = [&](std::size_t part) {
             std::vector<float> levels;
@@ -194,7 +195,7 @@ void MeanBall::learn_floor(const std::vector<Example>& examples, unsigned thread
                     known.at<float>(row, column) = 1.0f;
                 }
         };
-        on_all_cores(static_cast<std::size_t>((size.height + rows_at_once - 1) / rows_at_once),
+        parallel_for(static_cast<std::size_t>((size.height + rows_at_once - 1) / rows_at_once),
                      median_of_rows, threads);
         // Where nobody ever made room it is as nearby.
         cv::Mat narrow_sum, narrow, wide_sum, wide;
@@ -215,12 +216,12 @@ void MeanBall::learn_floor(const std::vector<Example>& examples, unsigned thread
     }
 }
 
-MeanBall::Excess MeanBall::excess(const cv::Mat& sharp, const CircleFit& rim,
-                                  const std::vector<Bead>& beads) const {
+AppearanceTemplate::Excess AppearanceTemplate::excess(
+    const cv::Mat& sharp, const CircleFit& rim, const std::vector<Particle>& particles) const {
     Excess made;
-    made.dish = rim.centre;
+    made.container = rim.centre;
     made.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
-    const auto of_lamp = static_cast<float>(1.0 / lamp(sharp, rim, beads));
+    const auto of_illumination = static_cast<float>(1.0 / illumination(sharp, rim, particles));
     const auto soft = static_cast<float>(soft_);
     const auto steep = static_cast<float>(look_.polarity / soft_);
     const double reach = reach_ - 0.5;
@@ -234,7 +235,8 @@ MeanBall::Excess MeanBall::excess(const cv::Mat& sharp, const CircleFit& rim,
         const float* floor = floor_.ptr<float>(row);
         float* out = made.level.ptr<float>(row);
         for (int column = from; column <= to; ++column) {
-            const float level = soft * bounded(steep * (in[column] * of_lamp - floor[column]));
+            const float level =
+                soft * bounded(steep * (in[column] * of_illumination - floor[column]));
             out[column] = floor[column] > 0.0f ? level : nowhere;
         }
     }
@@ -242,8 +244,9 @@ MeanBall::Excess MeanBall::excess(const cv::Mat& sharp, const CircleFit& rim,
 }
 
 template <typename Use>
-void MeanBall::each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
-                        const std::vector<NearCircle>& others, int stride, Use&& use) const {
+void AppearanceTemplate::each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
+                                  const std::vector<NearCircle>& others, int stride,
+                                  Use&& use) const {
     const double radius = balls_[kind].radius;
     const double scale = look_.lens.seen_radius(centre, radius) / radius;
     const double reach = scale * radius + beyond;
@@ -275,8 +278,9 @@ void MeanBall::each_row(const Excess& excess, const Vec2& centre, std::size_t ki
 }
 
 template <typename Use>
-void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
-                          const std::vector<NearCircle>& others, int stride, Use&& use) const {
+void AppearanceTemplate::each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
+                                    const std::vector<NearCircle>& others, int stride,
+                                    Use&& use) const {
     each_row(excess, centre, kind, others, stride, [&](const Row& r) {
         for (int column = r.from; column <= r.to; column += stride)
             if (!r.hidden[column - r.from])
@@ -284,8 +288,8 @@ void MeanBall::each_pixel(const Excess& excess, const Vec2& centre, std::size_t 
     });
 }
 
-double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kind,
-                       const std::vector<NearCircle>& others, int stride) const {
+double AppearanceTemplate::score(const Excess& excess, const Vec2& centre, std::size_t kind,
+                                 const std::vector<NearCircle>& others, int stride) const {
     // What is hidden says nothing, for it or against it.
     double rest = 0.0, all = 0.0, scaled = 1.0;
     each_row(excess, centre, kind, others, stride, [&](const Row& r) {
@@ -307,13 +311,13 @@ double MeanBall::score(const Excess& excess, const Vec2& centre, std::size_t kin
     return (all - rest) * stride * stride / (balls_[kind].squares * scaled * scaled);
 }
 
-bool MeanBall::inside(const Excess& excess, const Vec2& centre, std::size_t kind) const {
+bool AppearanceTemplate::inside(const Excess& excess, const Vec2& centre, std::size_t kind) const {
     constexpr double loose = 0.2;  // radii
     const double radius = balls_[kind].radius;
-    return length(centre - excess.dish) + (1.0 - loose) * radius < reach_;
+    return length(centre - excess.container) + (1.0 - loose) * radius < reach_;
 }
 
-double MeanBall::excess_at(const Excess& excess, const Vec2& place) const {
+double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& place) const {
     const int column = cvRound(place.x), row = cvRound(place.y);
     if (column < 0 || row < 0 || column >= excess.level.cols || row >= excess.level.rows)
         return double(nowhere);
@@ -348,7 +352,7 @@ struct RowSums {
 
 /// A and b of A x = b for the changes of what is fitted: the gain and the modes, of which `made` is
 /// there, and the place.
-struct MeanBall::Normal {
+struct AppearanceTemplate::Normal {
     static constexpr std::size_t n = 1 + modes + 2;
     std::array<std::array<double, n>, n> a{};
     std::array<double, n> b{};
@@ -391,9 +395,10 @@ struct MeanBall::Normal {
     }
 };
 
-MeanBall::Normal MeanBall::normal(const Excess& excess, const Vec2& centre, std::size_t kind,
-                                  const std::vector<NearCircle>& others, int stride,
-                                  double gain) const {
+AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, const Vec2& centre,
+                                                      std::size_t kind,
+                                                      const std::vector<NearCircle>& others,
+                                                      int stride, double gain) const {
     const Look& ball = balls_[kind];
     Normal sum;
     each_row(excess, centre, kind, others, stride, [&](const Row& r) {
@@ -413,8 +418,10 @@ MeanBall::Normal MeanBall::normal(const Excess& excess, const Vec2& centre, std:
     return sum;
 }
 
-MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_t kind,
-                            const std::vector<NearCircle>& others, int stride) const {
+AppearanceTemplate::Fit AppearanceTemplate::fit(const Excess& excess, const Vec2& centre,
+                                                std::size_t kind,
+                                                const std::vector<NearCircle>& others,
+                                                int stride) const {
     constexpr int rounds = 4;
     constexpr double small_move = 0.1;  // pixels; what is left then is less than a tenth of it
     const Look& ball = balls_[kind];
@@ -435,9 +442,9 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
         }
         if (!solve_system(system.a, system.b)) return fit;
         for (std::size_t k = 0; k <= modes; ++k) made[k] += system.b[k];
-        const double most = 0.1 * ball.radius;
-        const Vec2 move{std::clamp(system.b[modes + 1], -most, most),
-                        std::clamp(system.b[modes + 2], -most, most)};
+        const double maximum = 0.1 * ball.radius;
+        const Vec2 move{std::clamp(system.b[modes + 1], -maximum, maximum),
+                        std::clamp(system.b[modes + 2], -maximum, maximum)};
         fit.centre = fit.centre + move;
         if (length(move) < small_move) break;
     }
@@ -445,9 +452,10 @@ MeanBall::Fit MeanBall::fit(const Excess& excess, const Vec2& centre, std::size_
     return fit;
 }
 
-void MeanBall::learn_ball(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
-                          const std::vector<std::vector<Vec2>>& places, std::size_t kind,
-                          unsigned threads) {
+void AppearanceTemplate::learn_ball(const std::vector<Example>& examples,
+                                    const std::vector<Excess>& excesses,
+                                    const std::vector<std::vector<Vec2>>& places, std::size_t kind,
+                                    unsigned threads) {
     Look& ball = balls_[kind];
     const int half = half_of(ball.radius), side = 2 * half + 1;
     struct Sums {
@@ -456,11 +464,11 @@ void MeanBall::learn_ball(const std::vector<Example>& examples, const std::vecto
     std::vector<Sums> sums(examples.size());  // added up in their order
     const auto add_example = [&](std::size_t k) {
         sums[k] = {cv::Mat::zeros(side, side, CV_32F), cv::Mat::zeros(side, side, CV_32F)};
-        const std::vector<Bead> moved = at_places(examples[k].beads, places[k]);
-        for (const Bead& bead : moved) {
-            if (bead.kind != kind || !bead.sure) continue;
-            const Vec2 centre = bead.centre;
-            each_pixel(excesses[k], centre, kind, sure_others(moved, bead, look_), 1,
+        const std::vector<Particle> moved = at_places(examples[k].particles, places[k]);
+        for (const Particle& particle : moved) {
+            if (particle.kind != kind || !particle.sure) continue;
+            const Vec2 centre = particle.centre;
+            each_pixel(excesses[k], centre, kind, sure_others(moved, particle, look_), 1,
                        [&](const Vec2& x, float level, double scale) {
                            const double u = (x.x - centre.x) / (scale * step) + half,
                                         v = (x.y - centre.y) / (scale * step) + half;
@@ -478,7 +486,7 @@ void MeanBall::learn_ball(const std::vector<Example>& examples, const std::vecto
                        });
         }
     };
-    on_all_cores(examples.size(), add_example, threads);
+    parallel_for(examples.size(), add_example, threads);
     cv::Mat sum = cv::Mat::zeros(side, side, CV_32F), weight = cv::Mat::zeros(side, side, CV_32F);
     for (const Sums& s : sums) sum += s.level, weight += s.weight;
     cv::GaussianBlur(sum, sum, {}, 0.7);
@@ -497,24 +505,24 @@ void MeanBall::learn_ball(const std::vector<Example>& examples, const std::vecto
 }
 
 /// One round of an example: who went where by the ball as it is known.
-MeanBall::Moved MeanBall::moved(const Example& example, const Excess& seen,
-                                const std::vector<Vec2>& edges,
-                                const std::vector<Vec2>& places) const {
+AppearanceTemplate::Moved AppearanceTemplate::moved(const Example& example, const Excess& seen,
+                                                    const std::vector<Vec2>& edges,
+                                                    const std::vector<Vec2>& places) const {
     Moved made{places, {}, {}};
-    const std::vector<Bead> beads = at_places(example.beads, places);
-    for (std::size_t i = 0; i < beads.size(); ++i) {
-        if (!beads[i].sure) continue;
-        const auto others = sure_others(beads, beads[i], look_);
-        const Fit fitted = fit(seen, places[i], beads[i].kind, others);
+    const std::vector<Particle> particles = at_places(example.particles, places);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (!particles[i].sure) continue;
+        const auto others = sure_others(particles, particles[i], look_);
+        const Fit fitted = fit(seen, places[i], particles[i].kind, others);
         if (!fitted.good || length(fitted.centre - edges[i]) > 0.3 * look_.radius()) continue;
         made.places[i] = fitted.centre;
         made.from_edges.push_back(fitted.centre - edges[i]);
         double square = 0.0;
         std::size_t pixels = 0;
-        each_pixel(seen, fitted.centre, beads[i].kind, others, 2,
+        each_pixel(seen, fitted.centre, particles[i].kind, others, 2,
                    [&](const Vec2& x, float level, double scale) {
                        const Vec2 d = (1.0 / scale) * (x - fitted.centre);
-                       const GridRow grid(balls_[beads[i].kind].grid, d.y);
+                       const GridRow grid(balls_[particles[i].kind].grid, d.y);
                        const auto rest = double(level - grid.at(static_cast<float>(d.x))[0]);
                        square += rest * rest;
                        ++pixels;
@@ -524,18 +532,19 @@ MeanBall::Moved MeanBall::moved(const Example& example, const Excess& seen,
     return made;
 }
 
-std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
-                                          const BeadLook& look, unsigned threads) {
+std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<Example>& examples,
+                                                              const ParticleLook& look,
+                                                              unsigned threads) {
     constexpr int rounds = 4;
-    constexpr double good_places = 0.05;  // pixels: edges that need no help
-    constexpr std::size_t fewest = 150;   // balls, of each kind
-    MeanBall mean;
+    constexpr double good_places = 0.05;        // pixels: edges that need no help
+    constexpr std::size_t min_particles = 150;  // of each size
+    AppearanceTemplate mean;
     mean.look_ = look;
     std::vector<double> reaches;
     std::vector<std::size_t> number(look.kinds.size(), 0);
     for (const Example& e : examples) {
         double reach = 0.0;
-        for (const Bead& b : e.beads)
+        for (const Particle& b : e.particles)
             if (b.sure) {
                 ++number[b.kind];
                 reach =
@@ -543,11 +552,11 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
             }
         if (reach > 0.0) reaches.push_back(reach);
     }
-    if (*std::min_element(number.begin(), number.end()) < fewest) return std::nullopt;
+    if (*std::min_element(number.begin(), number.end()) < min_particles) return std::nullopt;
     std::vector<std::vector<Vec2>> edges;
     for (const Example& e : examples) {
         edges.emplace_back();
-        for (const Bead& b : e.beads) edges.back().push_back(b.centre);
+        for (const Particle& b : e.particles) edges.back().push_back(b.centre);
     }
     const double alone = overlap(examples, edges, edges, 0.0, look);
     if (alone < good_places * good_places) return std::nullopt;
@@ -556,8 +565,8 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     mean.learn_floor(examples, threads);
     std::vector<double> contrasts;
     for (const Example& e : examples) {
-        const double of_lamp = 1.0 / mean.lamp(e.sharp, e.rim, e.beads);
-        for (const Bead& b : e.beads) {
+        const double of_illumination = 1.0 / mean.illumination(e.sharp, e.rim, e.particles);
+        for (const Particle& b : e.particles) {
             if (!b.sure) continue;
             const int column = cvRound(b.centre.x), row = cvRound(b.centre.y);
             const int near = static_cast<int>(0.5 * look.kinds[b.kind].radius);
@@ -566,9 +575,10 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
                     if (column + x < 0 || row + y < 0 || column + x >= e.sharp.cols ||
                         row + y >= e.sharp.rows)
                         continue;
-                    contrasts.push_back(look.polarity *
-                                        (of_lamp * double(e.sharp.at<float>(row + y, column + x)) -
-                                         double(mean.floor_.at<float>(row + y, column + x))));
+                    contrasts.push_back(
+                        look.polarity *
+                        (of_illumination * double(e.sharp.at<float>(row + y, column + x)) -
+                         double(mean.floor_.at<float>(row + y, column + x))));
                 }
         }
     }
@@ -576,13 +586,13 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     const double contrast = median(contrasts);
     if (!(contrast > 3.0)) return std::nullopt;
     mean.soft_ = 0.38 * contrast;
-    for (const BeadKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
+    for (const ParticleKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
 
     std::vector<Excess> excesses(examples.size());
-    on_all_cores(
+    parallel_for(
         examples.size(),
         [&](std::size_t k) {
-            excesses[k] = mean.excess(examples[k].sharp, examples[k].rim, examples[k].beads);
+            excesses[k] = mean.excess(examples[k].sharp, examples[k].rim, examples[k].particles);
         },
         threads);
     std::vector<std::vector<Vec2>> places = edges;
@@ -591,7 +601,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
         for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
             mean.learn_ball(examples, excesses, places, kind, threads);
         std::vector<Moved> moved(examples.size());
-        on_all_cores(
+        parallel_for(
             examples.size(),
             [&](std::size_t k) {
                 moved[k] = mean.moved(examples[k], excesses[k], edges[k], places[k]);
@@ -602,7 +612,7 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
             for (const Vec2& d : m.from_edges) xs.push_back(d.x), ys.push_back(d.y);
             rests.insert(rests.end(), m.rests.begin(), m.rests.end());
         }
-        if (xs.size() < fewest) return std::nullopt;
+        if (xs.size() < min_particles) return std::nullopt;
         const Vec2 drift{median(xs), median(ys)};
         for (std::size_t k = 0; k < places.size(); ++k) {
             places[k] = std::move(moved[k].places);
@@ -612,16 +622,16 @@ std::optional<MeanBall> MeanBall::learned(const std::vector<Example>& examples,
     }
     for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
         mean.learn_ball(examples, excesses, places, kind, threads);
-    double least = alone;
+    double best = alone;
     for (double counts = 0.1; counts < 1.05; counts += 0.1) {
         const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);
-        if (square < least) least = square, mean.counts_ = std::min(counts, 1.0);
+        if (square < best) best = square, mean.counts_ = std::min(counts, 1.0);
     }
     // Who gains little is left with the edges, which are quicker.
-    if (least > 0.7 * alone) return std::nullopt;
+    if (best > 0.7 * alone) return std::nullopt;
     // Half of the pairs seem too near, so a distance errs by √2 of that, and a place by 1/√2 of
     // this.
-    mean.error_ = std::sqrt(least);
+    mean.error_ = std::sqrt(best);
     return mean;
 }
 

@@ -27,20 +27,20 @@
 namespace swirl {
 
 /// The sure ones that hide some of what is looked at of another, but for itself.
-std::vector<NearCircle> sure_others(const std::vector<Bead>& all, const Bead& self,
-                                    const BeadLook& look);
+std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
+                                    const ParticleLook& look);
 
-class MeanBall {
+class AppearanceTemplate {
   public:
     /// A picture of the survey and what was found in it by the edges.
     struct Example {
         cv::Mat sharp;
         CircleFit rim;
-        std::vector<Bead> beads;
+        std::vector<Particle> particles;
     };
     /// Nothing where the examples are too few, or the edges do as well alone.
-    static std::optional<MeanBall> learned(const std::vector<Example>& examples,
-                                           const BeadLook& look, unsigned threads);
+    static std::optional<AppearanceTemplate> learned(const std::vector<Example>& examples,
+                                                     const ParticleLook& look, unsigned threads);
 
     double counts() const { return counts_; }  // against the edges, 0 … 1
     double error() const { return error_; }    // of a coordinate, from overlaps that cannot be
@@ -48,9 +48,10 @@ class MeanBall {
     /// A picture as excess, of which there is none outside of the dish.
     struct Excess {
         cv::Mat level;  // floats; `nowhere` outside
-        Vec2 dish;
+        Vec2 container;
     };
-    Excess excess(const cv::Mat& sharp, const CircleFit& rim, const std::vector<Bead>& beads) const;
+    Excess excess(const cv::Mat& sharp, const CircleFit& rim,
+                  const std::vector<Particle>& particles) const;
 
     struct Fit {
         Vec2 centre;
@@ -68,7 +69,7 @@ class MeanBall {
     double excess_at(const Excess& excess, const Vec2& place) const;
 
   private:
-    MeanBall() = default;
+    AppearanceTemplate() = default;
     void learn_floor(const std::vector<Example>& examples, unsigned threads);
     void learn_ball(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
                     const std::vector<std::vector<Vec2>>& places, std::size_t kind,
@@ -79,9 +80,10 @@ class MeanBall {
     };
     Moved moved(const Example& example, const Excess& seen, const std::vector<Vec2>& edges,
                 const std::vector<Vec2>& places) const;
-    double lamp(const cv::Mat& sharp, const CircleFit& rim, const std::vector<Bead>& beads) const;
+    double illumination(const cv::Mat& sharp, const CircleFit& rim,
+                        const std::vector<Particle>& particles) const;
     cv::Mat free_floor(const cv::Size& size, const CircleFit& rim,
-                       const std::vector<Bead>& beads) const;
+                       const std::vector<Particle>& particles) const;
 
     /// A row of the pixels that a ball covers, from column `from` to `to`: `hidden` counts from
     /// `from`, `level` from the picture's edge.
@@ -105,7 +107,7 @@ class MeanBall {
         double radius = 0.0, squares = 1.0;
         cv::Mat grid;  // T, its slopes, and nothing, floats
     };
-    BeadLook look_;
+    ParticleLook look_;
     cv::Mat floor_;
     std::vector<Look> balls_;
     double reach_ = 0.0, soft_ = 0.0, variance_ = 0.0, counts_ = 0.0, error_ = 0.0;

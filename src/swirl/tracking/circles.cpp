@@ -27,15 +27,15 @@ const std::vector<Vec2>& directions(int rays) {
 /// of them needs no memory and is done for several places at once.
 void sample_ray(const cv::Mat& picture, const Vec2& first, const Vec2& step, int samples,
                 float* into) {
-    constexpr int most = 32;
-    std::array<int, most> at;
-    std::array<float, most> u, v;
+    constexpr int maximum = 32;
+    std::array<int, maximum> at;
+    std::array<float, maximum> u, v;
     const auto stride = static_cast<int>(picture.step1());
     const float* const pixels = picture.ptr<float>();
     const auto x0 = static_cast<float>(first.x), y0 = static_cast<float>(first.y),
                dx = static_cast<float>(step.x), dy = static_cast<float>(step.y);
-    for (int done = 0; done < samples; done += most) {
-        const int now = std::min(most, samples - done);
+    for (int done = 0; done < samples; done += maximum) {
+        const int now = std::min(maximum, samples - done);
         for (int j = 0; j < now; ++j) {
             const auto k = static_cast<float>(done + j);
             const float x = x0 + k * dx, y = y0 + k * dy;
@@ -102,23 +102,25 @@ bool solve(const double (&m)[3][3], const double (&b)[3], int n, double (&x)[3],
 /// A ray counts by how sharply it tells its edge, as far as that is more than chance: a dark patch
 /// of the texture at the limb says little, and that wrongly.
 void weigh(std::vector<RayEdge>& edges, std::vector<double>& sharpness) {
-    constexpr double power = 0.6, most = 4.0;
+    constexpr double power = 0.6, maximum = 4.0;
     sharpness.clear();
     for (const RayEdge& e : edges) sharpness.push_back(e.weight);
     const double middle = middle_of(sharpness);
     for (RayEdge& e : edges)
-        e.weight = middle > 0.0 ? std::pow(std::min(e.weight / middle, most), power) : 1.0;
+        e.weight = middle > 0.0 ? std::pow(std::min(e.weight / middle, maximum), power) : 1.0;
 }
 
 /// By the limb's profile, around a circle that is known to about a pixel.
-void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
-                const RaySettings& settings, std::vector<RayEdge>& edges) {
-    const Limb& limb = *settings.limb;
-    const int samples = limb.inside() + limb.outside() + 1;
+void edge_profile_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
+                        const RaySettings& settings, std::vector<RayEdge>& edges) {
+    const EdgeProfile& edge_profile = *settings.edge_profile;
+    const int samples = edge_profile.inside() + edge_profile.outside() + 1;
     std::vector<float> profile(static_cast<std::size_t>(samples));
     for (const Vec2& u : directions(settings.rays)) {
-        const Vec2 first = fit.centre + (fit.radius - Limb::step * limb.inside()) * u,
-                   last = fit.centre + (fit.radius + Limb::step * limb.outside()) * u;
+        const Vec2 first =
+                       fit.centre + (fit.radius - EdgeProfile::step * edge_profile.inside()) * u,
+                   last =
+                       fit.centre + (fit.radius + EdgeProfile::step * edge_profile.outside()) * u;
         const auto within = [&](const Vec2& p) {
             return p.x >= 0.0 && p.y >= 0.0 && p.x < picture.cols - 1.01 &&
                    p.y < picture.rows - 1.01;
@@ -129,8 +131,8 @@ void limb_edges(const cv::Mat& picture, const CircleFit& fit, Polarity polarity,
                 return dot(d, d) < o.radius * o.radius;
             }))
             continue;
-        sample_ray(picture, first, Limb::step * u, samples, profile.data());
-        const Limb::Edge edge = limb.find(profile.data());
+        sample_ray(picture, first, EdgeProfile::step * u, samples, profile.data());
+        const EdgeProfile::Edge edge = edge_profile.find(profile.data());
         if (!edge.found || polarity * edge.contrast <= 0.0) continue;
         edges.push_back({u.x, u.y, fit.radius + edge.at, std::abs(edge.contrast), edge.rest,
                          std::max(0.0, edge.sharpness)});
@@ -146,13 +148,13 @@ double onset(const std::vector<double>& values, double width) {
         return std::lower_bound(sorted.begin(), sorted.end(), from + 2.0 * width) -
                std::lower_bound(sorted.begin(), sorted.end(), from);
     };
-    std::ptrdiff_t most = 0;
+    std::ptrdiff_t maximum = 0;
     double at = 0.0;
     for (const double v : sorted)
-        if (number(v) > most) most = number(v), at = v;
+        if (number(v) > maximum) maximum = number(v), at = v;
     // Of discs in contact the distances rise steeply, and fall off slowly: half way back up.
     double half = at;
-    while (2 * number(half) > most && half > sorted.front()) half -= 0.2 * width;
+    while (2 * number(half) > maximum && half > sorted.front()) half -= 0.2 * width;
     return 0.5 * (half + at) + width;
 }
 
@@ -185,7 +187,7 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
     const double noise = median(copy) / 1.18;
     const auto high = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() * 97 / 100);
     std::nth_element(sample.begin(), high, sample.end());
-    const auto least = static_cast<float>(std::max({3.5 * noise, 0.12 * *high, 0.25}));
+    const auto minimum = static_cast<float>(std::max({3.5 * noise, 0.12 * *high, 0.25}));
     std::vector<EdgePixel> edges;
     for (int row = 1; row + 1 < picture.rows; ++row) {
         const float* s = steepness.ptr<float>(row);
@@ -193,7 +195,7 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
         const float* below = steepness.ptr<float>(row + 1);
         for (int column = 1; column + 1 < picture.cols; ++column) {
             const float here = s[column];
-            if (here < least) continue;
+            if (here < minimum) continue;
             const float gx = dx.ptr<float>(row)[column], gy = dy.ptr<float>(row)[column];
             // The ridge of steepness: larger than both neighbours along the gradient.
             float one, other;
@@ -209,14 +211,14 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& picture) {
             }
             if (here < one || here <= other) continue;
             edges.push_back({static_cast<float>(column), static_cast<float>(row), gx / here,
-                             gy / here, std::min(1.0f, here / (2.0f * least))});
+                             gy / here, std::min(1.0f, here / (2.0f * minimum))});
         }
     }
     return edges;
 }
 
 std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size size, double radius,
-                                  Polarity polarity, double least, std::size_t most) {
+                                  Polarity polarity, double minimum, std::size_t maximum) {
     // Votes scatter: by the pixels' grid, and by a few degrees of the gradient's direction. Where
     // that is by many pixels they are counted in cells of several.
     const double scatter = 0.7 + 0.07 * radius;
@@ -249,7 +251,7 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
     const double whole =
         0.9 * 2.0 * pi * radius / (2.0 * pi * (spread * spread + own * own / (cell * cell)));
     std::vector<CircleCandidate> found;
-    const auto threshold = static_cast<float>(least * whole);
+    const auto threshold = static_cast<float>(minimum * whole);
     const int near = std::max(1, static_cast<int>(0.5 * radius));
     for (int row = 1; row + 1 < cells.height; ++row) {
         const float* v = votes.ptr<float>(row);
@@ -280,7 +282,7 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
     });
     std::vector<CircleCandidate> kept;
     for (const CircleCandidate& c : found) {
-        if (kept.size() == most) break;
+        if (kept.size() == maximum) break;
         const bool taken = std::any_of(kept.begin(), kept.end(), [&](const auto& k) {
             const Vec2 d = k.centre - c.centre;
             return dot(d, d) < double(near) * double(near);
@@ -299,15 +301,15 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
     std::vector<double> sizes, weights;
     double window = settings.window;
     CircleFit steep = fit;  // by the steepest places alone
-    for (int round = settings.limb_alone ? 2 : 0; round < 4; ++round) {
+    for (int round = settings.edge_profile_alone ? 2 : 0; round < 4; ++round) {
         edges.clear();
-        const bool by_limb = settings.limb && round >= 2;
+        const bool by_edge_profile = settings.edge_profile && round >= 2;
         if (round == 2) steep = fit;
-        if (by_limb) limb_edges(picture, fit, polarity, settings, edges);
+        if (by_edge_profile) edge_profile_edges(picture, fit, polarity, settings, edges);
         const int samples = 2 * static_cast<int>(std::ceil(window / step)) + 5;
         profile.resize(static_cast<std::size_t>(samples));
         for (const Vec2& u : directions(settings.rays)) {
-            if (by_limb) break;
+            if (by_edge_profile) break;
             const double begin = fit.radius - 0.5 * step * (samples - 1);
             const Vec2 first = fit.centre + begin * u,
                        last = fit.centre + (begin + step * (samples - 1)) * u;
@@ -327,7 +329,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             };
             for (int j = 2; j + 2 < samples; ++j)
                 if (const float s = slope(j); s > steepest) steepest = s, best = j;
-            if (best < 3 || best + 3 >= samples || double(steepest) < settings.least) continue;
+            if (best < 3 || best + 3 >= samples || double(steepest) < settings.minimum) continue;
             const float before = slope(best - 1), after = slope(best + 1);
             const float bend = before - 2.0f * steepest + after;
             const double shift = bend < 0.0f ? 0.5 * double((before - after) / bend) : 0.0;
@@ -336,7 +338,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         }
         // Where limbs cannot be made out, the steepest places must do.
         if (edges.size() < static_cast<std::size_t>(settings.rays) / 5 + 3)
-            return by_limb ? steep : fit;
+            return by_edge_profile ? steep : fit;
         // Reweighted until it stands still, with a scale that shrinks to that of the inliers.
         double d[3] = {0.0, 0.0, 0.0}, inverse[3] = {0.0, 0.0, 0.0};
         {  // a start that half of the rays cannot move: the median of the distances
@@ -344,7 +346,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             for (const RayEdge& e : edges) sizes.push_back(e.distance - fit.radius);
             if (settings.free_radius) d[2] = middle_of(sizes);
         }
-        if (by_limb) weigh(edges, sizes);
+        if (by_edge_profile) weigh(edges, sizes);
         double scale = window;
         for (int pass = 0; pass < 8; ++pass) {
             double m[3][3] = {}, b[3] = {}, x[3];
@@ -364,7 +366,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
             }
             m[1][0] = m[0][1];
             if (!solve(m, b, settings.free_radius ? 3 : 2, x, inverse))
-                return by_limb ? steep : fit;
+                return by_edge_profile ? steep : fit;
             double moved = 0.0;
             for (int r = 0; r < 3; ++r) moved += std::abs(x[r] - d[r]), d[r] = x[r];
             scale = std::max(1.4826 * middle_of(sizes), 0.15);
@@ -373,7 +375,7 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         }
         const double limit = 1.5 * settings.window;
         if (std::abs(d[0]) > limit || std::abs(d[1]) > limit || std::abs(d[2]) > limit)
-            return by_limb ? steep : fit;
+            return by_edge_profile ? steep : fit;
         fit.centre = fit.centre + Vec2{d[0], d[1]};
         fit.radius += d[2];
         // What lies on the circle, and how well.
@@ -390,14 +392,14 @@ CircleFit fit_circle(const cv::Mat& picture, Vec2 centre, double radius, Polarit
         }
         if (on > 0) fit.rest = fit_rest / double(on);
         fit.support = std::max(fit.support, double(on) / settings.rays);
-        if (on < 6) return by_limb ? steep : fit;
+        if (on < 6) return by_edge_profile ? steep : fit;
         fit.contrast = middle_of(weights);
         fit.residual = std::sqrt(square / double(on - 2));
         fit.error = fit.residual * std::sqrt(0.5 * (inverse[0] + inverse[1]));
         fit.good = true;
         const double moved = std::sqrt(d[0] * d[0] + d[1] * d[1]);
         window = std::max(std::min(settings.window, 2.0), 0.6 * settings.window);
-        if (settings.limb) {
+        if (settings.edge_profile) {
             if (round == 1 && moved > 0.5) continue;
             if (round == 2 && moved < 0.05) break;
         } else if (round > 0 && moved < 0.02) {

@@ -49,7 +49,7 @@ struct CircleCandidate {
 };
 /// The local maxima of the votes for one radius, best first; those above `least`.
 std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size size, double radius,
-                                  Polarity polarity, double least, std::size_t most);
+                                  Polarity polarity, double minimum, std::size_t maximum);
 
 struct NearCircle {
     Vec2 centre;
@@ -58,13 +58,13 @@ struct NearCircle {
 
 struct RaySettings {
     int rays = 64;
-    double window = 4.0;  // pixels to either side of the radius
-    double least = 0.0;   // slope that is an edge
+    double window = 4.0;   // pixels to either side of the radius
+    double minimum = 0.0;  // slope that is an edge
     bool free_radius = false;
     double tolerance = 1.0;  // an edge within this of the circle supports it, pixels
     /// The last rounds look for the limb (edge_profile.hpp) instead of the steepest place.
-    const Limb* limb = nullptr;
-    bool limb_alone = false;  // the circle is known to a pixel: no rounds before
+    const EdgeProfile* edge_profile = nullptr;
+    bool edge_profile_alone = false;  // the circle is known to a pixel: no rounds before
     /// Others next to it: rays whose outer end lies in one of them say nothing of the edge.
     std::vector<NearCircle> others = {};
 };

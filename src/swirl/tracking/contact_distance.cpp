@@ -91,21 +91,22 @@ double excess_if_positive(double x) {
 struct Constraint {
     std::size_t one, other;
     Vec2 apart;  // unit vector along which they are moved, `one` with it
-    double least, force = 0.0;
+    double minimum, force = 0.0;
 };
 
 std::vector<Constraint> constraints_of(const std::vector<HardDisc>& discs, double closest,
-                                       const Vec2& dish) {
+                                       const Vec2& container) {
     constexpr double looked_at = 1.08;  // of the closest distance: five errors and more
     std::vector<Constraint> all;
     for (std::size_t a = 0; a < discs.size(); ++a) {
         for (std::size_t b = a + 1; b < discs.size(); ++b) {
             const Vec2 d = discs[a].centre - discs[b].centre;
             const double far = std::sqrt(dot(d, d));
-            const double least = closest * (discs[a].radius + discs[b].radius);
-            if (far > 0.0 && far < looked_at * least) all.push_back({a, b, (1.0 / far) * d, least});
+            const double minimum = closest * (discs[a].radius + discs[b].radius);
+            if (far > 0.0 && far < looked_at * minimum)
+                all.push_back({a, b, (1.0 / far) * d, minimum});
         }
-        const Vec2 d = discs[a].centre - dish;
+        const Vec2 d = discs[a].centre - container;
         const double far = std::sqrt(dot(d, d));
         if (far > 0.0 && far > discs[a].reach - 0.1 * discs[a].radius)
             all.push_back({a, a, (-1.0 / far) * d, -discs[a].reach});
@@ -117,7 +118,7 @@ std::vector<Constraint> constraints_of(const std::vector<HardDisc>& discs, doubl
 
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
                                   double farthest) {
-    constexpr std::size_t fewest = 400;
+    constexpr std::size_t minimum = 400;
     Histogram seen;
     seen.from = nearest;
     seen.width = (farthest - nearest) / double(bins);
@@ -127,7 +128,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
         ++seen.number[std::min(static_cast<std::size_t>((d - nearest) / seen.width), bins - 1)];
         ++used;
     }
-    if (used < fewest) return std::nullopt;
+    if (used < minimum) return std::nullopt;
     // From where they are commonest.
     const auto top = std::max_element(seen.number.begin(), seen.number.end());
     const double at = double(top - seen.number.begin());
@@ -141,7 +142,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
 
 std::optional<Distortion> distortion_of(const std::vector<SeenPair>& pairs, const Vec2& middle,
                                         double half) {
-    constexpr double most = 0.12, coarse = 0.02, fine = 0.005;
+    constexpr double maximum = 0.12, coarse = 0.02, fine = 0.005;
     // Who is in contact is so in several pictures of a survey, and in each with several.
     constexpr double pairs_alike = 4.0;
     const auto worth = [&](double k) {
@@ -160,7 +161,7 @@ std::optional<Distortion> distortion_of(const std::vector<SeenPair>& pairs, cons
         return contact ? contact->worth : -1e300;
     };
     double best = 0.0, highest = -1e300;
-    for (double k = -most; k < most + 0.5 * coarse; k += coarse)
+    for (double k = -maximum; k < maximum + 0.5 * coarse; k += coarse)
         if (const double w = worth(k); w > highest) highest = w, best = k;
     if (highest == -1e300) return std::nullopt;
     for (double step = 0.5 * coarse; step > 0.5 * fine; step *= 0.5) {
@@ -189,32 +190,32 @@ std::optional<Distortion> distortion_of(const std::vector<SeenPair>& pairs, cons
                       std::hypot(by_chance, 0.5 * contact_known_to / std::max(farther, 1e-6))};
 }
 
-void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& dish) {
+void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container) {
     constexpr int linearized = 3, rounds = 60;
     constexpr double stands_still = 2e-3;  // pixels
     constexpr double follow = 0.7;         // all at once would swing
     const std::vector<HardDisc> seen = discs;
     for (int pass = 0; pass < linearized; ++pass) {
-        std::vector<Constraint> all = constraints_of(discs, closest, dish);
+        std::vector<Constraint> all = constraints_of(discs, closest, container);
         std::vector<Vec2> places;
         for (const HardDisc& disc : seen) places.push_back(disc.centre);
         for (int round = 0; round < rounds; ++round) {
-            double most = 0.0;
+            double maximum = 0.0;
             for (Constraint& c : all) {
                 const bool wall = c.one == c.other;
-                const Vec2 from = places[c.one] - (wall ? dish : places[c.other]);
+                const Vec2 from = places[c.one] - (wall ? container : places[c.other]);
                 const double share = seen[c.one].variance + (wall ? 0.0 : seen[c.other].variance);
                 const double deviation = std::sqrt(share);
-                const double free = dot(from, c.apart) - c.least - c.force * share;
+                const double free = dot(from, c.apart) - c.minimum - c.force * share;
                 const double more =
                     follow * (excess_if_positive(free / deviation) / deviation - c.force);
                 c.force += more;
                 places[c.one] = places[c.one] + more * seen[c.one].variance * c.apart;
                 if (!wall)
                     places[c.other] = places[c.other] - more * seen[c.other].variance * c.apart;
-                most = std::max(most, std::abs(more) * share);
+                maximum = std::max(maximum, std::abs(more) * share);
             }
-            if (most < stands_still) break;
+            if (maximum < stands_still) break;
         }
         for (std::size_t i = 0; i < discs.size(); ++i) discs[i].centre = places[i];
     }

@@ -54,6 +54,6 @@ struct HardDisc {
     double reach = 1e300;  // from the dish's centre, where the wall stops it
 };
 /// `closest`: of the sum of radii, at contact.
-void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& dish);
+void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container);
 
 }  // namespace swirl

@@ -58,8 +58,8 @@ Circle circle_through(const std::vector<Vec2>& points) {
     return circle;
 }
 
-constexpr double least_rim = 0.2;        // of its circumference must be seen
-constexpr double least_amplitude = 1.0;  // pixels: a dish that moves less stands still
+constexpr double min_rim = 0.2;        // of its circumference must be seen
+constexpr double min_amplitude = 1.0;  // pixels: a dish that moves less stands still
 
 }  // namespace
 
@@ -123,7 +123,7 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
     std::sort(all.begin(), all.end(),
               [](const Found& a, const Found& b) { return a.support > b.support; });
     const double looked_at = std::ceil(double(pictures.size()) / double(stride));
-    if (all.front().support < least_rim * looked_at)
+    if (all.front().support < min_rim * looked_at)
         throw Failure(
             "No dish was found: in hardly any picture is there a large circle. The whole rim must "
             "be in the picture, and stand out from the table or from the floor of the dish.");
@@ -138,7 +138,7 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
     }
     const Picture& first = pictures.front();
     const Found* moving = nullptr;
-    double most = 0.0;
+    double maximum = 0.0;
     for (Found& f : distinct) {
         for (const Picture& p : pictures) {
             const auto best = vote(p.edges, size, f.radius, f.polarity, 0.12, 1);
@@ -146,11 +146,11 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
             RaySettings rays;
             rays.rays = 180;
             rays.window = std::max(3.0, 1.8 / p.shrink);
-            rays.least = 3.0 * p.noise;
+            rays.minimum = 3.0 * p.noise;
             rays.free_radius = true;
             const CircleFit fit = fit_circle(p.sharp, p.to_sharp(best.front().centre),
                                              f.radius / p.shrink, f.polarity, rays);
-            if (!fit.good || fit.support < least_rim) continue;
+            if (!fit.good || fit.support < min_rim) continue;
             f.centres.push_back(fit.centre);
             f.radii.push_back(fit.radius);
         }
@@ -159,12 +159,12 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
         // A share of the way round must have been seen, or any three points lie on a circle.
         double reach = 0.0;
         for (const Vec2& c : f.centres) reach = std::max(reach, length(c - f.centres.front()));
-        const bool moves = f.path.radius > least_amplitude && reach > 1.4 * f.path.radius * 0.5 &&
+        const bool moves = f.path.radius > min_amplitude && reach > 1.4 * f.path.radius * 0.5 &&
                            f.path.scatter < std::max(1.0, 0.1 * f.path.radius) &&
                            f.path.radius < 1.5 * f.radius / first.shrink;
         if (!moves) continue;
         const double worth = f.support * double(f.centres.size()) / double(pictures.size());
-        if (worth > most) most = worth, moving = &f;
+        if (worth > maximum) maximum = worth, moving = &f;
     }
     if (!moving) {
         const Found& best = distinct.front();
@@ -201,22 +201,22 @@ Rim survey_rim(const std::vector<Picture>& pictures) {
                 break;
             }
     }
-    rim.second_dish = double(pairs) > 0.6 * looked_at;
+    rim.second_container = double(pairs) > 0.6 * looked_at;
     return rim;
 }
 
 namespace {
 
 CircleFit fit_rim(const Picture& picture, const Rim& rim, const Vec2& centre, double radius) {
-    const double window = std::max(3.0, 1.5 / picture.shrink), least = 3.0 * picture.noise;
+    const double window = std::max(3.0, 1.5 / picture.shrink), minimum = 3.0 * picture.noise;
     if (rim.lens) {
         const Lens::Circle circle{rim.lens->ideal(Lens::Circle{centre, radius}).centre, rim.radius};
-        return fit_outline(picture.sharp, *rim.lens, circle, {rim.polarity, window, least});
+        return fit_outline(picture.sharp, *rim.lens, circle, {rim.polarity, window, minimum});
     }
     RaySettings rays;
     rays.rays = 360;
     rays.window = window;
-    rays.least = least;
+    rays.minimum = minimum;
     rays.tolerance = 1.5;
     return fit_circle(picture.sharp, centre, radius, rim.polarity, rays);
 }
@@ -237,21 +237,21 @@ CircleFit find_rim(const Picture& picture, const Rim& rim) {
         const CircleFit fit = fit_rim(picture, rim, centre, radius);
         if (fit.good && fit.support > best.support) best = fit;
     }
-    if (best.support < 0.5 * least_rim) best.good = false;
+    if (best.support < 0.5 * min_rim) best.good = false;
     return best;
 }
 
-Vec2 DishPath::at(double time) const {
+Vec2 TrackedPath::at(double time) const {
     const double turn = angle(time);
     return {centre.x + amplitude * std::cos(turn), centre.y - amplitude * std::sin(turn)};
 }
 
-std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
-                                 const std::vector<double>& times) {
+std::optional<TrackedPath> fit_path(const std::vector<Vec2>& centres,
+                                    const std::vector<double>& times) {
     const std::size_t n = centres.size();
     if (n < 8) return std::nullopt;
     const Circle circle = circle_through(centres);
-    if (!(circle.radius > least_amplitude) || circle.scatter > 0.2 * circle.radius)
+    if (!(circle.radius > min_amplitude) || circle.scatter > 0.2 * circle.radius)
         return std::nullopt;
     // Angles as seen (y up), picture to picture; a stray one is left out before it spoils the
     // count.
@@ -278,7 +278,7 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
     }
     const double rate = (m * sta - st * sa) / (m * stt - st * st);
     if (!(std::abs(rate) > 0.0)) return std::nullopt;
-    DishPath path;
+    TrackedPath path;
     path.centre = circle.centre;
     path.amplitude = circle.radius;
     path.clockwise = rate < 0.0;
@@ -344,7 +344,7 @@ std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
 }
 
 double shake_of(const std::vector<Vec2>& centres, const std::vector<std::size_t>& numbers,
-                const DishPath& path) {
+                const TrackedPath& path) {
     std::vector<double> bends;
     for (std::size_t k = 1; k + 1 < centres.size(); ++k) {
         if (numbers[k + 1] != numbers[k - 1] + 2) continue;
@@ -356,11 +356,11 @@ double shake_of(const std::vector<Vec2>& centres, const std::vector<std::size_t>
 }
 
 std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
-                           const std::vector<std::size_t>& numbers, const DishPath& path) {
-    constexpr std::size_t around = 5, fewest = 12;
+                           const std::vector<std::size_t>& numbers, const TrackedPath& path) {
+    constexpr std::size_t around = 5, min_steps = 12;
     constexpr double on_path = 0.2;     // of the amplitude
     constexpr double stands_out = 6.0;  // standard deviations of a step
-    constexpr double least = 0.6;       // of a step: a picture lost or doubled is one
+    constexpr double minimum = 0.6;     // of a step: a picture lost or doubled is one
     std::vector<double> steps;
     std::vector<std::size_t> firsts;  // of the two centres
     for (std::size_t k = 0; k + 1 < centres.size(); ++k) {
@@ -373,7 +373,7 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
         steps.push_back((path.clockwise ? -1.0 : 1.0) * std::remainder(angle, 2.0 * pi));
         firsts.push_back(k);
     }
-    if (steps.size() < fewest) return {};
+    if (steps.size() < min_steps) return {};
     // Against those around it, for who swirls by hand does not keep to one speed.
     std::vector<double> usual, off;
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -399,19 +399,20 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
         return k >= steps.size() || (steps[k] > 0.5 * large && steps[k] < 1.5 * large);
     };
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        const bool stays = steady && std::abs(steps[k]) < 0.15 * large &&
-                           large * path.amplitude > least_amplitude && moves(k - 1) && moves(k + 1);
-        if (stays) {
+        const bool residences = steady && std::abs(steps[k]) < 0.15 * large &&
+                                large * path.amplitude > min_amplitude && moves(k - 1) &&
+                                moves(k + 1);
+        if (residences) {
             leap(k, large);
             continue;
         }
-        if (!(usual[k] > stands_out * scatter) || off[k] < least * usual[k]) continue;
+        if (!(usual[k] > stands_out * scatter) || off[k] < minimum * usual[k]) continue;
         // A centre that was found beside its place goes there and back.
-        const auto strays = [&](std::size_t j) {
+        const auto unassigned = [&](std::size_t j) {
             return j < steps.size() &&
                    std::abs(steps[k] + steps[j] - 2.0 * usual[k]) < 0.5 * off[k];
         };
-        if (strays(k + 1) || (k > 0 && strays(k - 1))) continue;
+        if (unassigned(k + 1) || (k > 0 && unassigned(k - 1))) continue;
         leap(k, usual[k]);
     }
     return leaps;
@@ -431,7 +432,7 @@ struct Departures {
         return std::sqrt(2.0 * std::max(0.0, square - explained)) / double(outward.size());
     }
 };
-Departures departures(const std::vector<Vec2>& centres, const DishPath& path) {
+Departures departures(const std::vector<Vec2>& centres, const TrackedPath& path) {
     Departures all;
     const double cut = std::max(5.0 * path.residual, 0.5);
     for (const Vec2& c : centres) {
@@ -475,25 +476,25 @@ double corners_of(double amplitude, int sides) {
 }  // namespace
 
 PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                       const DishPath& path) {
-    constexpr int least_sides = 3, fewest_a_side = 2;
-    constexpr std::size_t fewest_pictures = 16;
+                       const TrackedPath& path) {
+    constexpr int min_sides = 3, min_per_side = 2;
+    constexpr std::size_t min_pictures = 16;
     constexpr double size_known_to = 0.35, rivals = 0.5;  // of what the best explains
     constexpr double stands_out = 5.0, not_there = 3.0, told_apart = 2.0;  // standard errors
     PathPolygon polygon;
-    if (centres.size() < fewest_pictures) return polygon;
+    if (centres.size() < min_pictures) return polygon;
     const Departures all = departures(centres, path);
-    if (all.outward.size() < fewest_pictures) return polygon;
+    if (all.outward.size() < min_pictures) return polygon;
     const double spans = (times.back() - times.front()) / double(times.size() - 1);
     const double per_swirl = 2.0 * pi / (path.omega * spans), error = all.error();
     const auto expected = [&](double n) { return 2.0 * path.amplitude / (n * n); };
-    const int limit = static_cast<int>(per_swirl / fewest_a_side);
+    const int limit = static_cast<int>(per_swirl / min_per_side);
     int in_doubt = limit + 1;  // the fewest sides that are neither seen nor sure not to be there
     std::vector<std::pair<int, Harmonic>> fitting;
-    for (int n = least_sides; n <= limit && expected(n) >= stands_out * error; ++n) {
+    for (int n = min_sides; n <= limit && expected(n) >= stands_out * error; ++n) {
         const Harmonic found = harmonic_of(all, n);
         if (!found.told) break;
-        polygon.most_sides = n;
+        polygon.max_sides = n;
         if (found.size > stands_out * error &&
             std::abs(found.size / expected(n) - 1.0) < size_known_to)
             fitting.emplace_back(n, found);
@@ -504,7 +505,7 @@ PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<doubl
         fitting.begin(), fitting.end(),
         [](const auto& a, const auto& b) { return a.second.explained < b.second.explained; });
     if (best == fitting.end()) {
-        polygon.most_sides = std::min(polygon.most_sides, in_doubt - 1);
+        polygon.max_sides = std::min(polygon.max_sides, in_doubt - 1);
         return polygon;
     }
     // One of more sides than two pictures a side tell looks like one of fewer, but for its size.
@@ -521,7 +522,7 @@ PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<doubl
         polygon.sides = sides;
         polygon.corners = corners_of(path.amplitude, sides);
     } else {
-        polygon.most_sides = std::min(in_doubt, sides) - 1;
+        polygon.max_sides = std::min(in_doubt, sides) - 1;
     }
     return polygon;
 }

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "swirl/tracking/circles.hpp"
-#include "swirl/tracking/dish_path.hpp"
 #include "swirl/tracking/lens.hpp"
+#include "swirl/tracking/tracked_path.hpp"
 
 namespace swirl {
 
@@ -41,8 +41,8 @@ struct Rim {
     double support = 0.0;
     Vec2 swirl_centre{0.0, 0.0};
     double amplitude = 0.0;
-    bool second_dish = false;  // another circle of that size moves as well
-    std::optional<Lens> lens;  // where what it does to the rim is worth knowing
+    bool second_container = false;  // another circle of that size moves as well
+    std::optional<Lens> lens;       // where what it does to the rim is worth knowing
 };
 
 /// From pictures spread over the film; throws Failure with the likely cause.
@@ -52,13 +52,13 @@ Rim survey_rim(const std::vector<Picture>& pictures);
 CircleFit find_rim(const Picture& picture, const Rim& rim);
 
 /// Nothing where the centres do not run round a circle.
-std::optional<DishPath> fit_path(const std::vector<Vec2>& centres,
-                                 const std::vector<double>& times);
+std::optional<TrackedPath> fit_path(const std::vector<Vec2>& centres,
+                                    const std::vector<double>& times);
 
 /// How far the camera shakes from frame to frame, rms of a coordinate: from the second differences
 /// of the centres' distances from the path's middle, which change slowly on any path.
 double shake_of(const std::vector<Vec2>& centres, const std::vector<std::size_t>& numbers,
-                const DishPath& path);
+                const TrackedPath& path);
 
 /// Where the dish went another way between two pictures than between those around them: pictures
 /// that are lost, or are there twice. Angles about the path's middle, picture by picture, tell
@@ -68,7 +68,7 @@ struct Leap {
     double steps = 1.0;                 // of the usual way between two
 };
 std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
-                           const std::vector<std::size_t>& numbers, const DishPath& path);
+                           const std::vector<std::size_t>& numbers, const TrackedPath& path);
 
 /// Run through at constant speed, a regular polygon of n sides departs from the circle of the same
 /// mean radius by (2A/n²) cos n(φ − φ_corner), and by less at multiples of n: the one harmonic of
@@ -76,6 +76,6 @@ std::vector<Leap> leaps_of(const std::vector<Vec2>& centres,
 /// number of sides. Where two numbers would do, or one of more sides than two pictures a side tell,
 /// which looks like one of fewer, none is told.
 PathPolygon polygon_of(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                       const DishPath& path);
+                       const TrackedPath& path);
 
 }  // namespace swirl

@@ -5,7 +5,7 @@
 
 namespace swirl {
 
-Limb::Limb(double blur, int inside, int outside, double reach, bool bent)
+EdgeProfile::EdgeProfile(double blur, int inside, int outside, double reach, bool bent)
     : blur_(blur), inside_(inside), outside_(outside), first_(-reach), spacing_(0.25) {
     const int samples = inside + outside + 1;
     // The kernel on a grid fine enough for the root's cusp.
@@ -69,11 +69,11 @@ Limb::Limb(double blur, int inside, int outside, double reach, bool bent)
     }
 }
 
-Limb::Edge Limb::find(const float* profile) const {
+EdgeProfile::Edge EdgeProfile::find(const float* profile) const {
     const auto samples = static_cast<std::size_t>(inside_ + outside_ + 1);
-    constexpr std::size_t most = 64;
-    std::array<std::array<float, most>, columns> products;
-    const std::size_t stride = std::min(stride_, most);
+    constexpr std::size_t maximum = 64;
+    std::array<std::array<float, maximum>, columns> products;
+    const std::size_t stride = std::min(stride_, maximum);
     for (std::size_t c = 0; c < columns; ++c) {
         float* const sum = products[c].data();
         for (std::size_t k = 0; k < stride; ++k) sum[k] = 0.0f;
@@ -84,7 +84,7 @@ Limb::Edge Limb::find(const float* profile) const {
         }
     }
     Edge edge;
-    std::array<float, most> explained{};
+    std::array<float, maximum> explained{};
     std::size_t best = 0;
     for (std::size_t k = 0; k < candidates_; ++k) {
         for (std::size_t c = 0; c < columns; ++c) explained[k] += products[c][k] * products[c][k];

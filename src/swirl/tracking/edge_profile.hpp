@@ -17,13 +17,13 @@
 
 namespace swirl {
 
-class Limb {
+class EdgeProfile {
   public:
     static constexpr double step = 0.5;  // between samples, in pixels
 
     /// For profiles of `samples` values around a guess, and edges up to `reach` pixels from it.
     /// `bent`: with t, which takes a window that is long against the blur.
-    Limb(double blur, int inside, int outside, double reach, bool bent = true);
+    EdgeProfile(double blur, int inside, int outside, double reach, bool bent = true);
 
     /// How many samples to either side of the guess; the guess itself is one more.
     int inside() const { return inside_; }

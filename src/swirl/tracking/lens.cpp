@@ -104,7 +104,7 @@ void Lens::settle_distortion() {
     constexpr double size_misleads = 0.1;  // pixels
     // Standard errors.
     constexpr double contradicts = 3.0, supports = 1.5, stands_out = 4.0, with_contacts = 3.0;
-    constexpr double not_known = 0.01, least_seen = 0.002, most_possible = 0.3;  // of k
+    constexpr double not_available = 0.01, min_seen = 0.002, max_possible = 0.3;  // of k
     const double hidden = nearness * half * nearness * half / 8.0, by_sizes = apparent_k + hidden;
     double whole = by_sizes;
     k_error = std::hypot(apparent_k_error, ball > 0.0 ? size_misleads / ball : 0.0);
@@ -126,8 +126,8 @@ void Lens::settle_distortion() {
             seen = true;
         }
     }
-    const bool possible = std::abs(whole) > least_seen && std::abs(whole) < most_possible;
-    k = seen && possible && k_error < not_known ? whole : 0.0;
+    const bool possible = std::abs(whole) > min_seen && std::abs(whole) < max_possible;
+    k = seen && possible && k_error < not_available ? whole : 0.0;
 }
 
 Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half) {

@@ -39,7 +39,8 @@ struct Track {
 
 class Linker {
   public:
-    Linker(const DishPath& path, const LinkSettings& settings) : path_(path), settings_(settings) {}
+    Linker(const TrackedPath& path, const LinkSettings& settings)
+        : path_(path), settings_(settings) {}
 
     /// A place as the three observers have it, and back.
     Vec2 seen_by(int way, const Vec2& place, double time) const {
@@ -55,7 +56,7 @@ class Linker {
 
     std::vector<int> step(const std::vector<SeenDisc>& discs, double time);
     std::vector<Track> tracks;
-    std::uint64_t refused = 0;
+    std::uint64_t rejected = 0;
 
   private:
     Vec2 flow_at(const Vec2& place, double time_from, double time_to) const;
@@ -80,7 +81,7 @@ class Linker {
         return there < settings_.numbers[kind];
     }
 
-    const DishPath& path_;
+    const TrackedPath& path_;
     const LinkSettings& settings_;
     double last_time_ = 0.0;
     int steps_ = 0;
@@ -100,9 +101,9 @@ Vec2 Linker::flow_at(const Vec2& place, double time_from, double time_to) const 
         sum = sum + (w / (t.time - t.time_before)) * move;
         weights += w;
     }
-    Vec2 at_dish = seen_by(1, place, time_from);
-    if (weights > 0.0) at_dish = at_dish + ((time_to - time_from) / weights) * sum;
-    return in_lab(1, at_dish, time_to);
+    Vec2 at_container = seen_by(1, place, time_from);
+    if (weights > 0.0) at_container = at_container + ((time_to - time_from) / weights) * sum;
+    return in_lab(1, at_container, time_to);
 }
 
 Vec2 Linker::expect(Track& track, double time) const {
@@ -274,7 +275,7 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
     for (std::size_t d = 0; d < discs.size(); ++d) {
         if (of[d] >= 0 || !discs[d].sure) continue;
         if (!may_be_born(discs[d].kind)) {
-            ++refused;
+            ++rejected;
             continue;
         }
         of[d] = static_cast<int>(tracks.size());
@@ -297,18 +298,18 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
     const std::size_t rows = cost.size();
     if (rows == 0) return {};
     const std::size_t columns = cost.front().size();
-    double most = 0.0, least_cost = 0.0;
+    double maximum = 0.0, min_cost = 0.0;
     for (const auto& row : cost)
         for (const double c : row)
-            if (is_allowed(c)) most = std::max(most, c), least_cost = std::min(least_cost, c);
+            if (is_allowed(c)) maximum = std::max(maximum, c), min_cost = std::min(min_cost, c);
     // Shortest augmenting paths need at least as many columns as rows; the missing ones cost more
     // than any other. One forbidden pair costs more than all others can differ by together, so as
     // few as possible are taken, and these are removed at the end. All costs of the search are
     // finite, so every pass of its inner loop adds a column, and it ends.
     const std::size_t width = std::max(rows, columns);
-    const double forbidden = (most - least_cost + 1.0) * static_cast<double>(width + 1);
+    const double forbidden = (maximum - min_cost + 1.0) * static_cast<double>(width + 1);
     const auto at = [&](std::size_t r, std::size_t c) {
-        if (c >= columns) return most + 1.0;
+        if (c >= columns) return maximum + 1.0;
         return is_allowed(cost[r][c]) ? cost[r][c] : forbidden;
     };
     constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -318,7 +319,7 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
         if (listen) listen();
         row_of[0] = r;
         std::size_t c0 = 0;
-        std::vector<double> least(width + 1, infinite);
+        std::vector<double> minimum(width + 1, infinite);
         std::vector<char> used(width + 1, 0);
         do {
             used[c0] = 1;
@@ -328,15 +329,15 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
             for (std::size_t c = 1; c <= width; ++c) {
                 if (used[c]) continue;
                 const double reduced = at(r0 - 1, c - 1) - u[r0] - v[c];
-                if (reduced < least[c]) least[c] = reduced, way[c] = c0;
-                if (least[c] < delta) delta = least[c], c1 = c;
+                if (reduced < minimum[c]) minimum[c] = reduced, way[c] = c0;
+                if (minimum[c] < delta) delta = minimum[c], c1 = c;
             }
             for (std::size_t c = 0; c <= width; ++c) {
                 if (used[c]) {
                     u[row_of[c]] += delta;
                     v[c] -= delta;
                 } else {
-                    least[c] -= delta;
+                    minimum[c] -= delta;
                 }
             }
             c0 = c1;
@@ -355,7 +356,7 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
 }
 
 Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
-                 const std::vector<double>& times, const DishPath& path,
+                 const std::vector<double>& times, const TrackedPath& path,
                  const LinkSettings& settings) {
     if (times.size() != pictures.size()) throw std::invalid_argument("Every frame needs a time.");
     for (std::size_t k = 0; k < times.size(); ++k)
@@ -367,12 +368,12 @@ Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
     Links links;
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         if (settings.listen) settings.listen();
-        const std::uint64_t refused = linker.refused;
+        const std::uint64_t rejected = linker.rejected;
         links.track.push_back(linker.step(pictures[k], times[k]));
-        if (linker.refused > refused) ++links.crowded;
+        if (linker.rejected > rejected) ++links.crowded;
     }
     for (const Track& t : linker.tracks) links.kind.push_back(t.kind);
-    links.refused = linker.refused;
+    links.rejected = linker.rejected;
     return links;
 }
 

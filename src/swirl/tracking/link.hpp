@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "swirl/math/vec2.hpp"
-#include "swirl/tracking/dish_path.hpp"
+#include "swirl/tracking/tracked_path.hpp"
 
 namespace swirl {
 
@@ -42,13 +42,13 @@ struct Links {
     /// For each picture and each disc seen in it, the track it belongs to, or −1.
     std::vector<std::vector<int>> track;
     std::vector<std::size_t> kind;  // of each track
-    std::uint64_t refused = 0;      // sure discs that would have been one too many
+    std::uint64_t rejected = 0;     // sure discs that would have been one too many
     std::uint64_t crowded = 0;      // frames with at least one of these
 };
 
 /// Throws std::invalid_argument unless every picture has a finite time later than the one before.
 Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
-                 const std::vector<double>& times, const DishPath& path,
+                 const std::vector<double>& times, const TrackedPath& path,
                  const LinkSettings& settings);
 
 /// The column assigned to each row, or -1. As many pairs as possible are assigned, and of these

@@ -38,12 +38,12 @@ std::optional<Vec2> steepest(const cv::Mat& picture, const Vec2& at, const Vec2&
         return -0.5 * settings.polarity * double(profile[j + 2] - profile[j - 2]);
     };
     std::size_t best = 0;
-    double most = settings.least;
+    double maximum = settings.minimum;
     for (std::size_t j = 2; j + 2 < profile.size(); ++j)
-        if (slope(j) > most) most = slope(j), best = j;
+        if (slope(j) > maximum) maximum = slope(j), best = j;
     if (best < 3 || best + 3 >= profile.size()) return {};
     const double before = slope(best - 1), after = slope(best + 1);
-    const double bend = before - 2.0 * most + after;
+    const double bend = before - 2.0 * maximum + after;
     const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
     return at + (sample_step * (double(best) - reach + std::clamp(shift, -1.0, 1.0))) * u;
 }

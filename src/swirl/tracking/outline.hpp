@@ -14,8 +14,8 @@ namespace swirl {
 
 struct OutlineSettings {
     Polarity polarity = 1;
-    double window = 3.0;  // pixels to either side
-    double least = 0.0;   // slope that is an edge
+    double window = 3.0;   // pixels to either side
+    double minimum = 0.0;  // slope that is an edge
 };
 
 /// As seen, of the circle with this middle and radius without lens and tilt.

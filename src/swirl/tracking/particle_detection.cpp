@@ -16,7 +16,7 @@ namespace {
 constexpr double sure_support = 0.45, any_support = 0.16;
 /// Centres of hard discs are the sum of their radii apart; what is nearer than this share of it is
 /// the same disc twice.
-constexpr double least_distance = 0.8, same_distance = 0.25;
+constexpr double min_distance = 0.8, same_distance = 0.25;
 /// By the mean ball: the score of a ball, and how near two of them may seem.
 constexpr double like_a_ball = 0.5, free_distance = 0.86;
 
@@ -40,7 +40,7 @@ std::vector<CircleCandidate> apart(std::vector<CircleCandidate> all) {
     std::vector<CircleCandidate> kept;
     for (const CircleCandidate& c : all) {
         const bool free = std::none_of(kept.begin(), kept.end(), [&](const auto& k) {
-            return length(k.centre - c.centre) < least_distance * (k.radius + c.radius);
+            return length(k.centre - c.centre) < min_distance * (k.radius + c.radius);
         });
         if (free) kept.push_back(c);
     }
@@ -55,7 +55,7 @@ RaySettings rays_for(const Picture& picture, double radius) {
     RaySettings rays;
     rays.rays = std::clamp(static_cast<int>(pi * radius), 28, 96);
     rays.window = std::max(3.0, 0.17 * radius);
-    rays.least = 2.5 * picture.noise;
+    rays.minimum = 2.5 * picture.noise;
     rays.tolerance = std::max(1.2, 0.06 * radius);
     return rays;
 }
@@ -65,19 +65,20 @@ constexpr double small_discs = 18.0;
 
 /// Windows of a fifth of the radius to either side, four pixels at most outside, where neighbours
 /// are.
-Limb limb_for(double radius, double blur) {
-    const int inside = std::clamp(static_cast<int>(0.22 * radius / Limb::step), 5, 14);
-    const int outside = std::clamp(static_cast<int>(0.16 * radius / Limb::step), 5, 8);
-    return Limb(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0), radius > small_discs);
+EdgeProfile edge_profile_for(double radius, double blur) {
+    const int inside = std::clamp(static_cast<int>(0.22 * radius / EdgeProfile::step), 5, 14);
+    const int outside = std::clamp(static_cast<int>(0.16 * radius / EdgeProfile::step), 5, 8);
+    return EdgeProfile(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0),
+                       radius > small_discs);
 }
 
 /// One size or two? The gap that splits the radii best.
-std::vector<BeadKind> kinds_of(std::vector<double> radii) {
+std::vector<ParticleKind> kinds_of(std::vector<double> radii) {
     std::sort(radii.begin(), radii.end());
     const auto kind = [&](std::size_t from, std::size_t to) {
         const std::vector<double> part(radii.begin() + static_cast<std::ptrdiff_t>(from),
                                        radii.begin() + static_cast<std::ptrdiff_t>(to));
-        BeadKind k;
+        ParticleKind k;
         k.radius = median(part);
         std::vector<double> off;
         for (const double r : part) off.push_back(std::abs(r - k.radius));
@@ -86,7 +87,7 @@ std::vector<BeadKind> kinds_of(std::vector<double> radii) {
         return k;
     };
     const std::size_t n = radii.size();
-    const BeadKind one = kind(0, n);
+    const ParticleKind one = kind(0, n);
     std::size_t best = 0;
     double best_square = 0.0, sum = 0.0, total = 0.0;
     for (const double r : radii) total += r;
@@ -97,7 +98,7 @@ std::vector<BeadKind> kinds_of(std::vector<double> radii) {
         if (square > best_square) best_square = square, best = k;
     }
     if (best == 0) return {one};
-    const BeadKind small = kind(0, best), large = kind(best, n);
+    const ParticleKind small = kind(0, best), large = kind(best, n);
     const double gap = large.radius - small.radius;
     // One ball that turns a dark patch of its texture to the rim seems smaller, by more in one
     // picture than in another: 6.7 times as much as these scatter in a film of the tests.
@@ -139,17 +140,17 @@ double contact_distance(const std::vector<Spot>& spots, const std::vector<Circle
 std::vector<CircleFit> exact_fits(const std::vector<Picture>& pictures,
                                   const std::vector<Spot>& spots, double radius, Polarity polarity,
                                   double blur, unsigned threads) {
-    const Limb limb = limb_for(radius / pictures.front().shrink, blur);
+    const EdgeProfile edge_profile = edge_profile_for(radius / pictures.front().shrink, blur);
     std::vector<CircleFit> fits(spots.size());
     const auto fit_spot = [&](std::size_t k) {
         const Spot& spot = spots[k];
         const Picture& p = pictures[spot.picture];
         RaySettings rays = rays_for(p, spot.radius);
         rays.free_radius = true;
-        rays.limb = &limb;
+        rays.edge_profile = &edge_profile;
         fits[k] = fit_circle(p.sharp, spot.centre, spot.radius, polarity, rays);
     };
-    on_all_cores(spots.size(), fit_spot, threads);
+    parallel_for(spots.size(), fit_spot, threads);
     return fits;
 }
 
@@ -182,8 +183,8 @@ double blur_of(const std::vector<Picture>& pictures, const std::vector<Spot>& sp
 
 }  // namespace
 
-BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims,
-                      unsigned threads) {
+ParticleLook survey_particles(const std::vector<Picture>& pictures,
+                              const std::vector<CircleFit>& rims, unsigned threads) {
     // Which radius explains most edges?
     const std::size_t stride = std::max<std::size_t>(1, pictures.size() / 6);
     struct Best {
@@ -194,14 +195,14 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     for (std::size_t k = 0; k < pictures.size(); ++k)
         edges.push_back(edges_inside(pictures[k], rims[k]));
     std::vector<std::pair<double, Polarity>> radii;
-    const double dish = rims.front().radius * pictures.front().shrink;
-    for (double radius = std::max(3.0, dish / 25.0); radius < dish / 2.5;
+    const double container = rims.front().radius * pictures.front().shrink;
+    for (double radius = std::max(3.0, container / 25.0); radius < container / 2.5;
          radius += std::max(0.5, 0.04 * radius))
         for (const Polarity polarity : {1, -1}) {
             double worth = 0.0;
             for (std::size_t k = 0; k < pictures.size(); k += stride) {
                 if (!rims[k].good) continue;
-                const double area = dish * dish / (radius * radius);
+                const double area = container * container / (radius * radius);
                 auto found = apart(vote(edges[k], pictures[k].small.size(), radius, polarity, 0.3,
                                         static_cast<std::size_t>(1.2 * area)));
                 for (const CircleCandidate& c : found)
@@ -243,7 +244,7 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
         std::vector<CircleFit> separate;
         for (const CircleFit& f : kept)
             if (std::none_of(separate.begin(), separate.end(), [&](const CircleFit& s) {
-                    return length(s.centre - f.centre) < least_distance * (s.radius + f.radius);
+                    return length(s.centre - f.centre) < min_distance * (s.radius + f.radius);
                 }))
                 separate.push_back(f);
         for (const CircleFit& f : separate) spots.push_back({k, f.centre, f.radius});
@@ -261,7 +262,7 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
         throw Failure(
             "The dish was found, but no discs in it: what circles there are have no sharp edges. "
             "Is the film out of focus, or the contrast between discs and floor too low?");
-    BeadLook look;
+    ParticleLook look;
     look.polarity = best.polarity;
     std::vector<double> shares;
     for (std::size_t k = 0; k < spots.size(); ++k)
@@ -282,7 +283,7 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
                                std::clamp(0.1 * look.radius(), 0.6, 2.0));
     // The pictures that are searched may be smoothed more than these were.
     for (std::size_t k = 0; k < look.kinds.size(); ++k)
-        look.limbs.push_back(limb_for(
+        look.limbs.push_back(edge_profile_for(
             look.kinds[k].radius, std::sqrt(std::max(0.2, blur * blur - survey_blur * survey_blur +
                                                               look.blur * look.blur))));
     look.sure = std::clamp(0.8 * median(supports), 0.3, sure_support);
@@ -291,7 +292,7 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
     for (std::size_t k = 0; k < spots.size(); ++k) {
         if (!exact[k].good || exact[k].support < look.sure) continue;
         double nearest = 1e300, size = 0.0;
-        for (const BeadKind& kind : look.kinds)
+        for (const ParticleKind& kind : look.kinds)
             if (std::abs(exact[k].radius - kind.radius) < nearest) {
                 nearest = std::abs(exact[k].radius - kind.radius);
                 size = exact[k].radius / kind.radius;
@@ -308,15 +309,15 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
         for (const SeenSize& s : sizes)
             ratios.push_back(s.size / look.lens.seen_radius(s.centre, 1.0));
         const double factor = median(ratios);
-        for (BeadKind& kind : look.kinds) kind.radius *= factor;
+        for (ParticleKind& kind : look.kinds) kind.radius *= factor;
     }
     // How many of each: what most pictures say.
     const auto commonest = [&](auto&& counts) {
         std::map<std::size_t, std::size_t> times;
         for (const auto& here : by_picture) ++times[counts(here)];
-        std::size_t mode = 0, most = 0;
+        std::size_t mode = 0, maximum = 0;
         for (const auto& [count, often] : times)
-            if (often >= most) mode = count, most = often;
+            if (often >= maximum) mode = count, maximum = often;
         return mode;
     };
     look.number = commonest([](const std::vector<double>& here) { return here.size(); });
@@ -336,29 +337,32 @@ BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<Ci
 namespace {
 
 /// The exact place of a disc that is known to a pixel or two.
-void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, const BeadLook& look) {
-    const double radius = look.kinds[bead.kind].radius;
-    const double seen = look.lens.seen_radius(bead.centre, radius);
+void place(Particle& particle, const std::vector<Particle>& all, const Picture& picture,
+           const ParticleLook& look) {
+    const double radius = look.kinds[particle.kind].radius;
+    const double seen = look.lens.seen_radius(particle.centre, radius);
     RaySettings rays = rays_for(picture, radius);
     // With its true radius: on the side where a ball is dark its edge is not where the brightness
     // changes most, and that circle is too small and too far on the bright side.
-    const CircleFit whole = fit_circle(picture.sharp, bead.centre, seen, look.polarity, rays);
-    if (whole.good && length(whole.centre - bead.centre) < 0.2 * radius) bead.centre = whole.centre;
-    rays.limb = &look.limbs[bead.kind];
-    rays.limb_alone = true;
-    for (const Bead& other : all) {
-        if (&other == &bead || !other.sure) continue;
+    const CircleFit whole = fit_circle(picture.sharp, particle.centre, seen, look.polarity, rays);
+    if (whole.good && length(whole.centre - particle.centre) < 0.2 * radius)
+        particle.centre = whole.centre;
+    rays.edge_profile = &look.limbs[particle.kind];
+    rays.edge_profile_alone = true;
+    for (const Particle& other : all) {
+        if (&other == &particle || !other.sure) continue;
         const double size = look.lens.seen_radius(other.centre, look.kinds[other.kind].radius);
-        if (length(other.centre - bead.centre) < radius + size + 8.0)
+        if (length(other.centre - particle.centre) < radius + size + 8.0)
             rays.others.push_back({other.centre, size + 0.5});
     }
-    const CircleFit fit = fit_circle(picture.sharp, bead.centre, seen, look.polarity, rays);
+    const CircleFit fit = fit_circle(picture.sharp, particle.centre, seen, look.polarity, rays);
     // The steepest places err towards the lamp, the limb's with the texture: independent errors, of
     // which the mean is better than both; the limb's are smaller.
-    const double limb_counts = radius > small_discs ? 0.7 : 0.5;
-    if (!fit.good || length(fit.centre - bead.centre) > std::max(1.5, 0.06 * radius)) return;
-    bead.centre = (1.0 - limb_counts) * bead.centre + limb_counts * fit.centre;
-    bead.error = fit.error;
+    const double edge_profile_counts = radius > small_discs ? 0.7 : 0.5;
+    if (!fit.good || length(fit.centre - particle.centre) > std::max(1.5, 0.06 * radius)) return;
+    particle.centre =
+        (1.0 - edge_profile_counts) * particle.centre + edge_profile_counts * fit.centre;
+    particle.error = fit.error;
 }
 
 }  // namespace
@@ -366,27 +370,27 @@ void place(Bead& bead, const std::vector<Bead>& all, const Picture& picture, con
 namespace {
 
 /// Between the place of its edge and that of the mean ball.
-void move_to_mean(Bead& bead, const Vec2& by_edge, const MeanBall::Excess& excess,
-                  const std::vector<Bead>& all, const BeadLook& look) {
-    const MeanBall& mean = *look.mean_ball;
-    const auto others = sure_others(all, bead, look);
-    const auto fit = mean.fit(excess, bead.centre, bead.kind, others);
-    const Vec2 place = fit.good ? fit.centre : bead.centre;
-    bead.centre = (1.0 - mean.counts()) * by_edge + mean.counts() * place;
-    bead.error = std::max(bead.error, mean.error());
+void move_to_mean(Particle& particle, const Vec2& by_edge, const AppearanceTemplate::Excess& excess,
+                  const std::vector<Particle>& all, const ParticleLook& look) {
+    const AppearanceTemplate& mean = *look.appearance_template;
+    const auto others = sure_others(all, particle, look);
+    const auto fit = mean.fit(excess, particle.centre, particle.kind, others);
+    const Vec2 place = fit.good ? fit.centre : particle.centre;
+    particle.centre = (1.0 - mean.counts()) * by_edge + mean.counts() * place;
+    particle.error = std::max(particle.error, mean.error());
 }
 
 /// Who looks like the mean ball in a picture, the best first, whether or not there is an edge.
 class MeanSearch {
   public:
     /// `beads`: those that were found by their edges.
-    MeanSearch(const Picture& picture, const CircleFit& rim, const BeadLook& look,
-               const std::vector<Bead>& beads)
+    MeanSearch(const Picture& picture, const CircleFit& rim, const ParticleLook& look,
+               const std::vector<Particle>& particles)
         : look_(look),
-          mean_(*look.mean_ball),
+          mean_(*look.appearance_template),
           rim_(rim),
-          excess_(mean_.excess(picture.sharp, rim, beads)) {
-        for (const Bead& b : beads)
+          excess_(mean_.excess(picture.sharp, rim, particles)) {
+        for (const Particle& b : particles)
             if (mean_.inside(excess_, b.centre, b.kind))
                 open_.push_back({b, b.centre, mean_.score(excess_, b.centre, b.kind, {}, 2)});
     }
@@ -401,64 +405,66 @@ class MeanSearch {
             Candidate best = best_without_edge();
             if (best.score < 0.5 * like_a_ball) return;
             judge(best);
-            best.by_edge = best.bead.centre;
-            if (best.score < like_a_ball || meets(best.bead, free_distance)) return;
-            best.bead.error = mean_.error();
+            best.by_edge = best.particle.centre;
+            if (best.score < like_a_ball || meets(best.particle, free_distance)) return;
+            best.particle.error = mean_.error();
             open_.push_back(best);
             take(open_.size() - 1);
         }
     }
     /// Those taken, at their places; the others that were found by their edges remain as
     /// candidates.
-    std::vector<Bead> found() {
+    std::vector<Particle> found() {
         for (std::size_t k = 0; k < taken_.size(); ++k)
             move_to_mean(taken_[k], edges_[k], excess_, taken_, look_);
         for (Candidate& c : open_) {
-            if (meets(c.bead, same_distance)) continue;
-            c.bead.sure = false;
-            c.bead.support = std::max(c.score, 0.01);
-            taken_.push_back(c.bead);
+            if (meets(c.particle, same_distance)) continue;
+            c.particle.sure = false;
+            c.particle.support = std::max(c.score, 0.01);
+            taken_.push_back(c.particle);
         }
         return std::move(taken_);
     }
 
   private:
     struct Candidate {
-        Bead bead;
+        Particle particle;
         Vec2 by_edge;
         double score;
     };
 
-    double sum_of_radii(const Bead& a, const Bead& b) const {
+    double sum_of_radii(const Particle& a, const Particle& b) const {
         return look_.kinds[a.kind].radius + look_.kinds[b.kind].radius;
     }
     /// One that was taken is nearer than this share of the sum of their radii.
-    bool meets(const Bead& bead, double distance) const {
-        return std::any_of(taken_.begin(), taken_.end(), [&](const Bead& t) {
-            return length(t.centre - bead.centre) < distance * sum_of_radii(t, bead);
+    bool meets(const Particle& particle, double distance) const {
+        return std::any_of(taken_.begin(), taken_.end(), [&](const Particle& t) {
+            return length(t.centre - particle.centre) < distance * sum_of_radii(t, particle);
         });
     }
-    double score(const Bead& bead) const {
-        return mean_.score(excess_, bead.centre, bead.kind, sure_others(taken_, bead, look_), 2);
+    double score(const Particle& particle) const {
+        return mean_.score(excess_, particle.centre, particle.kind,
+                           sure_others(taken_, particle, look_), 2);
     }
     /// At its best place.
     void judge(Candidate& c) const {
-        const auto fit =
-            mean_.fit(excess_, c.bead.centre, c.bead.kind, sure_others(taken_, c.bead, look_), 2);
-        if (fit.good) c.bead.centre = fit.centre;
-        c.score = score(c.bead);
+        const auto fit = mean_.fit(excess_, c.particle.centre, c.particle.kind,
+                                   sure_others(taken_, c.particle, look_), 2);
+        if (fit.good) c.particle.centre = fit.centre;
+        c.score = score(c.particle);
     }
     void take(std::size_t k) {
         Candidate c = open_[k];
         judge(c);
         open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(k));
-        c.bead.sure = true;
-        c.bead.support = c.score;
-        taken_.push_back(c.bead);
+        c.particle.sure = true;
+        c.particle.support = c.score;
+        taken_.push_back(c.particle);
         edges_.push_back(c.by_edge);
         for (Candidate& o : open_)
-            if (length(o.bead.centre - c.bead.centre) < 1.3 * sum_of_radii(o.bead, c.bead))
-                o.score = score(o.bead);
+            if (length(o.particle.centre - c.particle.centre) <
+                1.3 * sum_of_radii(o.particle, c.particle))
+                o.score = score(o.particle);
     }
     /// As many as there are open ones: none.
     std::size_t best_open() const {
@@ -467,7 +473,7 @@ class MeanSearch {
             if (open_[k].score < like_a_ball ||
                 (best < open_.size() && open_[k].score <= open_[best].score))
                 continue;
-            if (!meets(open_[k].bead, free_distance)) best = k;
+            if (!meets(open_[k].particle, free_distance)) best = k;
         }
         return best;
     }
@@ -479,28 +485,29 @@ class MeanSearch {
             for (double x = -rim_.radius; x < rim_.radius; x += stride)
                 for (double y = -rim_.radius; y < rim_.radius; y += stride) {
                     Candidate c{{rim_.centre + Vec2{x, y}, kind, 0.0, 0.0, false}, {}, 0.0};
-                    if (!mean_.inside(excess_, c.bead.centre, kind)) continue;
-                    if (!(mean_.excess_at(excess_, c.bead.centre) > 0.3 * mean_.soft())) continue;
-                    if (meets(c.bead, least_distance)) continue;
-                    c.score = score(c.bead);
+                    if (!mean_.inside(excess_, c.particle.centre, kind)) continue;
+                    if (!(mean_.excess_at(excess_, c.particle.centre) > 0.3 * mean_.soft()))
+                        continue;
+                    if (meets(c.particle, min_distance)) continue;
+                    c.score = score(c.particle);
                     if (c.score > best.score) best = c;
                 }
         }
         return best;
     }
 
-    const BeadLook& look_;
-    const MeanBall& mean_;
+    const ParticleLook& look_;
+    const AppearanceTemplate& mean_;
     const CircleFit& rim_;
-    MeanBall::Excess excess_;
+    AppearanceTemplate::Excess excess_;
     std::vector<Candidate> open_;
-    std::vector<Bead> taken_;
+    std::vector<Particle> taken_;
     std::vector<Vec2> edges_;  // of those taken
 };
 
-std::vector<Bead> by_the_mean(const std::vector<Bead>& beads, const Picture& picture,
-                              const CircleFit& rim, const BeadLook& look) {
-    MeanSearch search(picture, rim, look, beads);
+std::vector<Particle> by_the_mean(const std::vector<Particle>& particles, const Picture& picture,
+                                  const CircleFit& rim, const ParticleLook& look) {
+    MeanSearch search(picture, rim, look, particles);
     search.take_by_edges();
     search.take_without_edges();
     return search.found();
@@ -508,19 +515,19 @@ std::vector<Bead> by_the_mean(const std::vector<Bead>& beads, const Picture& pic
 
 }  // namespace
 
-std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
-                                   const BeadLook& look, const Vec2& where, std::size_t kind,
-                                   const std::vector<Bead>& others) {
+std::optional<Particle> find_particle_near(const Picture& picture, const CircleFit& rim,
+                                           const ParticleLook& look, const Vec2& where,
+                                           std::size_t kind, const std::vector<Particle>& others) {
     constexpr double farthest = 0.45, step = 0.15;  // radii
     const double radius = look.kinds[kind].radius;
-    if (look.mean_ball) {
-        const MeanBall& mean = *look.mean_ball;
-        const MeanBall::Excess excess = mean.excess(picture.sharp, rim, others);
-        Bead best;
+    if (look.appearance_template) {
+        const AppearanceTemplate& mean = *look.appearance_template;
+        const AppearanceTemplate::Excess excess = mean.excess(picture.sharp, rim, others);
+        Particle best;
         best.kind = kind;
         for (double x = -2.0 * farthest; x <= 2.0 * farthest + 1e-9; x += step)
             for (double y = -2.0 * farthest; y <= 2.0 * farthest + 1e-9; y += step) {
-                Bead trial = best;
+                Particle trial = best;
                 trial.centre = where + radius * Vec2{x, y};
                 trial.support =
                     mean.score(excess, trial.centre, kind, sure_others(others, trial, look), 2);
@@ -529,7 +536,7 @@ std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
         if (best.support < 0.7 * like_a_ball) return std::nullopt;
         const auto fit = mean.fit(excess, best.centre, kind, sure_others(others, best, look));
         if (fit.good) best.centre = fit.centre;
-        for (const Bead& other : others)
+        for (const Particle& other : others)
             if (length(other.centre - best.centre) <
                 free_distance * (radius + look.kinds[other.kind].radius))
                 return std::nullopt;
@@ -537,7 +544,7 @@ std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
         return best;
     }
     const RaySettings rays = rays_for(picture, look.steepest * radius);
-    Bead best;
+    Particle best;
     best.kind = kind;
     for (double x = -farthest; x <= farthest + 1e-9; x += step)
         for (double y = -farthest; y <= farthest + 1e-9; y += step) {
@@ -546,10 +553,11 @@ std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
                 fit_circle(picture.sharp, seed, look.steepest * look.lens.seen_radius(seed, radius),
                            look.polarity, rays);
             if (!fit.good || length(fit.centre - where) > farthest * radius) continue;
-            const bool taken = std::any_of(others.begin(), others.end(), [&](const Bead& other) {
-                return length(other.centre - fit.centre) <
-                       0.88 * (radius + look.kinds[other.kind].radius);
-            });
+            const bool taken =
+                std::any_of(others.begin(), others.end(), [&](const Particle& other) {
+                    return length(other.centre - fit.centre) <
+                           0.88 * (radius + look.kinds[other.kind].radius);
+                });
             if (taken || fit.support <= best.support) continue;
             best.centre = fit.centre;
             best.support = fit.support;
@@ -564,18 +572,19 @@ namespace {
 
 /// Patches of the texture lead votes astray, and a fit that begins there ends on the patch: where a
 /// circle has little of an edge it is tried from all around.
-Bead started_elsewhere(const Bead& bead, const Picture& picture, const BeadLook& look) {
+Particle started_elsewhere(const Particle& particle, const Picture& picture,
+                           const ParticleLook& look) {
     constexpr double far = 0.2;  // radii
     constexpr int starts = 8;
-    const double radius = look.steepest * look.kinds[bead.kind].radius;
+    const double radius = look.steepest * look.kinds[particle.kind].radius;
     RaySettings rays = rays_for(picture, radius);
-    Bead best = bead;
+    Particle best = particle;
     for (int k = 0; k < starts; ++k) {
-        const Vec2 seed = bead.centre + far * radius * unit_circle(double(k) / starts);
+        const Vec2 seed = particle.centre + far * radius * unit_circle(double(k) / starts);
         const CircleFit fit = fit_circle(picture.sharp, seed, look.lens.seen_radius(seed, radius),
                                          look.polarity, rays);
         if (!fit.good || fit.support <= best.support ||
-            length(fit.centre - bead.centre) > 2.0 * far * radius)
+            length(fit.centre - particle.centre) > 2.0 * far * radius)
             continue;
         best.centre = fit.centre;
         best.support = fit.support;
@@ -586,9 +595,10 @@ Bead started_elsewhere(const Bead& bead, const Picture& picture, const BeadLook&
 
 }  // namespace
 
-std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look) {
+std::vector<Particle> find_particles(const Picture& picture, const CircleFit& rim,
+                                     const ParticleLook& look) {
     const std::vector<EdgePixel> edges = edges_inside(picture, rim);
-    std::vector<Bead> all;
+    std::vector<Particle> all;
     for (std::size_t kind = 0; kind < look.kinds.size(); ++kind) {
         const double radius = look.steepest * look.kinds[kind].radius;
         const double area = rim.radius * rim.radius / (radius * radius);
@@ -608,28 +618,28 @@ std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const
         }
     }
     std::stable_sort(all.begin(), all.end(),
-                     [](const Bead& a, const Bead& b) { return a.support > b.support; });
-    std::vector<Bead> kept;
-    const auto meets = [&](const Bead& bead, bool sure_ones, double distance) {
-        return std::any_of(kept.begin(), kept.end(), [&](const Bead& k) {
+                     [](const Particle& a, const Particle& b) { return a.support > b.support; });
+    std::vector<Particle> kept;
+    const auto meets = [&](const Particle& particle, bool sure_ones, double distance) {
+        return std::any_of(kept.begin(), kept.end(), [&](const Particle& k) {
             return (k.sure || !sure_ones) &&
-                   length(k.centre - bead.centre) <
-                       distance * (look.kinds[k.kind].radius + look.kinds[bead.kind].radius);
+                   length(k.centre - particle.centre) <
+                       distance * (look.kinds[k.kind].radius + look.kinds[particle.kind].radius);
         });
     };
-    for (Bead bead : all) {
-        if (meets(bead, false, same_distance)) continue;
-        bool overlaps = meets(bead, true, least_distance);
-        if (!overlaps && bead.support < look.sure) {
-            bead = started_elsewhere(bead, picture, look);
-            overlaps = meets(bead, true, least_distance);
+    for (Particle particle : all) {
+        if (meets(particle, false, same_distance)) continue;
+        bool overlaps = meets(particle, true, min_distance);
+        if (!overlaps && particle.support < look.sure) {
+            particle = started_elsewhere(particle, picture, look);
+            overlaps = meets(particle, true, min_distance);
         }
-        bead.sure = !overlaps && bead.support >= look.sure;
-        kept.push_back(bead);
+        particle.sure = !overlaps && particle.support >= look.sure;
+        kept.push_back(particle);
     }
     // Their exact places.
-    for (Bead& bead : kept) place(bead, kept, picture, look);
-    return look.mean_ball ? by_the_mean(kept, picture, rim, look) : kept;
+    for (Particle& particle : kept) place(particle, kept, picture, look);
+    return look.appearance_template ? by_the_mean(kept, picture, rim, look) : kept;
 }
 
 }  // namespace swirl

@@ -21,31 +21,31 @@
 
 namespace swirl {
 
-class MeanBall;
+class AppearanceTemplate;
 
-struct BeadKind {
+struct ParticleKind {
     double radius = 0.0;     // pixels
     double scatter = 0.0;    // of the radii of single fits, standard deviation
     std::size_t number = 0;  // how many of this kind there are
 };
 
-struct BeadLook {
+struct ParticleLook {
     Polarity polarity = 1;
-    std::vector<BeadKind> kinds;  // one or two, the smaller first
-    std::size_t number = 0;       // of all
-    double blur = 0.6;            // by which pictures are to be smoothed for their noise, pixels
-    double sure = 0.45;           // support from which on a circle is a disc
+    std::vector<ParticleKind> kinds;  // one or two, the smaller first
+    std::size_t number = 0;           // of all
+    double blur = 0.6;   // by which pictures are to be smoothed for their noise, pixels
+    double sure = 0.45;  // support from which on a circle is a disc
     Lens lens;
     double steepest = 1.0;  // where the brightness changes most, in radii: inside of a shaded limb
-    std::vector<Limb> limbs;  // of each kind, with the blur of this film
+    std::vector<EdgeProfile> limbs;  // of each kind, with the blur of this film
 
     /// Where edges alone are too poor (appearance_template.hpp).
-    std::shared_ptr<const MeanBall> mean_ball;
+    std::shared_ptr<const AppearanceTemplate> appearance_template;
 
     double radius() const { return kinds.front().radius; }
 };
 
-struct Bead {
+struct Particle {
     Vec2 centre{0.0, 0.0};
     std::size_t kind = 0;
     double support = 0.0, error = 0.0;
@@ -53,19 +53,20 @@ struct Bead {
 };
 
 /// Throws Failure where there are none.
-BeadLook survey_beads(const std::vector<Picture>& pictures, const std::vector<CircleFit>& rims,
-                      unsigned threads);
+ParticleLook survey_particles(const std::vector<Picture>& pictures,
+                              const std::vector<CircleFit>& rims, unsigned threads);
 
 /// By how much the pictures of the survey are to be smoothed.
 inline constexpr double survey_blur = 0.6;
 
-std::vector<Bead> find_beads(const Picture& picture, const CircleFit& rim, const BeadLook& look);
+std::vector<Particle> find_particles(const Picture& picture, const CircleFit& rim,
+                                     const ParticleLook& look);
 
 /// The disc that is known to be near there and was not found: the circle with most of an edge
 /// within half a radius of it that is in nobody's way, however little that is. By the mean ball
 /// where there is one.
-std::optional<Bead> find_bead_near(const Picture& picture, const CircleFit& rim,
-                                   const BeadLook& look, const Vec2& where, std::size_t kind,
-                                   const std::vector<Bead>& others);
+std::optional<Particle> find_particle_near(const Picture& picture, const CircleFit& rim,
+                                           const ParticleLook& look, const Vec2& where,
+                                           std::size_t kind, const std::vector<Particle>& others);
 
 }  // namespace swirl

@@ -21,8 +21,8 @@ namespace {
 constexpr double smoothing = 0.8;    // pixels: less noise in gradients, and no jagged ones
 constexpr double patch_reach = 0.9;  // radii to each side that are cut out
 constexpr double seen_share = 0.75;  // of the radius: nearer to the limb texture is foreshortened
-constexpr double least_match = 0.5;
-constexpr double least_error = 0.2;  // of a centre, pixels: the film's own figure is a lower bound
+constexpr double min_match = 0.5;
+constexpr double min_error = 0.2;  // of a centre, pixels: the film's own figure is a lower bound
 
 using Vector = std::array<double, 3>;
 
@@ -158,7 +158,7 @@ Registered register_turn(const cv::Mat& first, const cv::Mat& second, const cv::
         if (moved < 2e-4) break;
     }
     best.turn = w;
-    best.found = best.match > least_match;
+    best.found = best.match > min_match;
     return best;
 }
 
@@ -182,7 +182,7 @@ Shift window_shift(const cv::Mat& first, const cv::Mat& second, const cv::Mat& s
     double peak = 0.0;
     cv::Point place;
     cv::minMaxLoc(correlation, nullptr, &peak, nullptr, &place);
-    if (!(peak > least_match)) return {};
+    if (!(peak > min_match)) return {};
     Shift s{double(place.x - search), double(place.y - search), true};
     for (int round = 0; round < 8; ++round) {
         double xx = 0, xy = 0, yy = 0, bx = 0, by = 0, across = 0, down = 0;
@@ -249,7 +249,7 @@ struct Cut {
 };
 
 void find_where_texture_shows(double radius, MeanDisc& all) {
-    constexpr double least = 0.7;  // of the variation that is common, relative to the brightness
+    constexpr double minimum = 0.7;  // of the variation that is common, relative to the brightness
     all.mean /= all.number;
     all.square /= all.number;
     const int middle = all.mean.rows / 2;
@@ -265,7 +265,7 @@ void find_where_texture_shows(double radius, MeanDisc& all) {
             variation.at<float>(row, column) = static_cast<float>(share);
             common.push_back(share);
         }
-    const double limit = least * median(common);
+    const double limit = minimum * median(common);
     all.shows = cv::Mat(all.mean.size(), CV_8U, cv::Scalar(0));
     for (int row = 0; row < all.mean.rows; ++row)
         for (int column = 0; column < all.mean.cols; ++column)
@@ -321,17 +321,17 @@ void leave_out_highlights(double radius, const cv::Mat& taken, MeanDisc& all) {
     smooth_shading(radius, all);
 }
 
-MeanDiscs mean_discs(const TrackedFilm& film, const TrackingSettings& settings) {
+MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settings) {
     constexpr std::int64_t some = 40;
-    const std::int64_t every = std::max<std::int64_t>(1, film.pictures / some);
-    Video video(settings.film, every);
+    const std::int64_t every = std::max<std::int64_t>(1, tracked.pictures / some);
+    Video video(settings.video, every);
     MeanDiscs means;
     cv::Mat grey;
-    for (std::int64_t k = 0; k < film.pictures && video.next(grey); k += every) {
+    for (std::int64_t k = 0; k < tracked.pictures && video.next(grey); k += every) {
         const cv::Mat picture = smoothed(grey);
-        const TrackFrame& f = film.tracks.frames[static_cast<std::size_t>(k)];
+        const TrackFrame& f = tracked.tracks.frames[static_cast<std::size_t>(k)];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const cv::Mat patch = patch_of(picture, film.lens.seen(f.position[i]), f.radius[i]);
+            const cv::Mat patch = patch_of(picture, tracked.lens.seen(f.position[i]), f.radius[i]);
             MeanDisc& all = means[f.radius[i]];
             if (all.number == 0) {
                 all.mean = cv::Mat::zeros(patch.size(), CV_32F);
@@ -353,15 +353,15 @@ MeanDiscs mean_discs(const TrackedFilm& film, const TrackingSettings& settings) 
     return means;
 }
 
-std::vector<Cut> cut_out(const cv::Mat& picture, const TrackedFilm& film, std::size_t k,
+std::vector<Cut> cut_out(const cv::Mat& picture, const TrackedVideo& tracked, std::size_t k,
                          const MeanDiscs& means) {
     std::vector<Cut> cuts;
-    const TrackFrame& f = film.tracks.frames[k];
+    const TrackFrame& f = tracked.tracks.frames[k];
     for (std::size_t i = 0; i < f.id.size(); ++i) {
         const auto mean = means.find(f.radius[i]);
         if (mean == means.end()) continue;
-        const cv::Mat patch = patch_of(picture, film.lens.seen(f.position[i]), f.radius[i]);
-        cuts.push_back({f.id[i], f.radius[i], film.errors[k][i], texture_of(patch, mean->second),
+        const cv::Mat patch = patch_of(picture, tracked.lens.seen(f.position[i]), f.radius[i]);
+        cuts.push_back({f.id[i], f.radius[i], tracked.errors[k][i], texture_of(patch, mean->second),
                         mean->second.shows});
     }
     return cuts;
@@ -372,7 +372,7 @@ DiscSpin step_between(const Cut& from, const Cut& to) {
     const Gradient slope(to.texture);
     DiscSpin spin;
     const Piv piv = piv_of(from.texture, to.texture, to.shows, slope, from.radius);
-    const double error = std::hypot(least_error + from.error, least_error + to.error);
+    const double error = std::hypot(min_error + from.error, min_error + to.error);
     Registered found = register_turn(from.texture, to.texture, to.shows, slope, from.radius,
                                      {0.0, 0.0, piv.turn}, error);
     if (!found.found)
@@ -388,10 +388,10 @@ DiscSpin step_between(const Cut& from, const Cut& to) {
 using Steps =
     std::vector<std::map<std::int64_t, DiscSpin>>;  // of picture k, by disc: k to k + step
 
-Steps measure_steps(const TrackedFilm& film, const TrackingSettings& settings, int step) {
-    const MeanDiscs means = mean_discs(film, settings);
-    Video video(settings.film);
-    Steps steps(film.tracks.frames.size());
+Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& settings, int step) {
+    const MeanDiscs means = mean_discs(tracked, settings);
+    Video video(settings.video);
+    Steps steps(tracked.tracks.frames.size());
     std::vector<std::vector<Cut>> recent(static_cast<std::size_t>(step) + 1);
     cv::Mat grey;
     for (std::size_t k = 0; k < steps.size() && video.next(grey); ++k) {
@@ -399,7 +399,7 @@ Steps measure_steps(const TrackedFilm& film, const TrackingSettings& settings, i
         if (settings.progress && k % 8 == 0)
             settings.progress("measuring spins", double(k) / double(steps.size()));
         std::vector<Cut>& now = recent[k % recent.size()];
-        now = cut_out(smoothed(grey), film, k, means);
+        now = cut_out(smoothed(grey), tracked, k, means);
         if (k < static_cast<std::size_t>(step)) continue;
         const std::size_t begin = k - static_cast<std::size_t>(step);
         const std::vector<Cut>& before = recent[begin % recent.size()];
@@ -409,7 +409,7 @@ Steps measure_steps(const TrackedFilm& film, const TrackingSettings& settings, i
                 if (a.id == b.id && a.texture.size() == b.texture.size())
                     pairs.emplace_back(&a, &b);
         std::vector<DiscSpin> found(pairs.size());
-        on_all_cores(
+        parallel_for(
             pairs.size(),
             [&](std::size_t p) { found[p] = step_between(*pairs[p].first, *pairs[p].second); },
             settings.threads);
@@ -452,11 +452,11 @@ DiscSpin between(const DiscSpin& a, const DiscSpin& b, double u) {
 }
 
 /// Pictures in which a disc's spin is not known get what it had before and after.
-void fill_gaps(const TrackedFilm& film, FilmSpins& spins) {
+void fill_gaps(const TrackedVideo& tracked, VideoSpins& spins) {
     std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> places;
     for (std::size_t k = 0; k < spins.discs.size(); ++k)
         for (std::size_t i = 0; i < spins.discs[k].size(); ++i)
-            places[film.tracks.frames[k].id[i]].emplace_back(k, i);
+            places[tracked.tracks.frames[k].id[i]].emplace_back(k, i);
     for (const auto& [id, where] : places) {
         const auto spin = [&](std::size_t j) -> DiscSpin& {
             return spins.discs[where[j].first][where[j].second];
@@ -467,8 +467,8 @@ void fill_gaps(const TrackedFilm& film, FilmSpins& spins) {
             const std::size_t begin = last == where.size() ? 0 : last + 1;
             for (std::size_t g = begin; g < j; ++g) {
                 if (last == where.size() && j == where.size()) {
-                    spin(g).turn.fill(not_known);
-                    spin(g).piv_turn = spin(g).piv_velocity = not_known;
+                    spin(g).turn.fill(not_available);
+                    spin(g).piv_turn = spin(g).piv_velocity = not_available;
                     continue;
                 }
                 const DiscSpin& a = spin(last == where.size() ? j : last);
@@ -482,12 +482,12 @@ void fill_gaps(const TrackedFilm& film, FilmSpins& spins) {
 
 }  // namespace
 
-FilmSpins spins_of(const TrackedFilm& film, const TrackingSettings& settings) {
+VideoSpins spins_of(const TrackedVideo& tracked, const TrackingSettings& settings) {
     constexpr double steps_of_a_swirl = 32.0;
-    const double per_swirl = 2.0 * pi / film.path.omega / film.step();
-    FilmSpins spins;
+    const double per_swirl = 2.0 * pi / tracked.path.omega / tracked.step();
+    VideoSpins spins;
     spins.step = std::max(1, static_cast<int>(std::lround(per_swirl / steps_of_a_swirl)));
-    const Steps steps = measure_steps(film, settings, spins.step);
+    const Steps steps = measure_steps(tracked, settings, spins.step);
     std::vector<double> matches;
     std::size_t all = 0, known = 0;
     for (const auto& here : steps)
@@ -500,11 +500,11 @@ FilmSpins spins_of(const TrackedFilm& film, const TrackingSettings& settings) {
     spins.match = median(matches);
     for (std::size_t k = 0; k < steps.size(); ++k) {
         std::vector<DiscSpin> here;
-        for (const std::int64_t id : film.tracks.frames[k].id)
+        for (const std::int64_t id : tracked.tracks.frames[k].id)
             here.push_back(at_picture(steps, k, id, spins.step));
         spins.discs.push_back(std::move(here));
     }
-    fill_gaps(film, spins);
+    fill_gaps(tracked, spins);
     return spins;
 }
 

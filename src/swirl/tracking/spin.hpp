@@ -40,7 +40,7 @@ struct DiscSpin {
     bool known = false;
 };
 
-struct FilmSpins {
+struct VideoSpins {
     int step = 1;  // pictures
     /// For each disc of each frame of the film's tracks. Where a step could not be measured it is
     /// what the disc had before and after.
@@ -50,6 +50,6 @@ struct FilmSpins {
 };
 
 /// Reads the film once more. Throws Failure, Interrupted.
-FilmSpins spins_of(const TrackedFilm& film, const TrackingSettings& settings);
+VideoSpins spins_of(const TrackedVideo& video, const TrackingSettings& settings);
 
 }  // namespace swirl

@@ -13,7 +13,7 @@ namespace swirl {
 namespace {
 
 constexpr double stands_out = 4.0;   // standard errors
-constexpr std::size_t fewest = 8;    // pictures
+constexpr std::size_t minimum = 8;   // pictures
 constexpr double close_to_it = 3.0;  // pixels about an outline that is known
 constexpr double on_it = 1.0;        // pixels: an edge that may be the rim's
 constexpr double sure_rim = 0.9;     // of the edges lie on it
@@ -280,7 +280,7 @@ std::vector<Outline> outlines_of(const std::vector<Picture>& pictures, const Rim
 Tilt fitted(const std::vector<Picture>& pictures, const KnownCamera& known, Rim& rim, Lens& lens) {
     double radius = 0.0;
     const auto outlines = outlines_of(pictures, rim, lens, radius);
-    if (outlines.size() < fewest) return {};
+    if (outlines.size() < minimum) return {};
     const Vec2 centre = lens.ideal(Lens::Circle{rim.swirl_centre, rim.radius}).centre;
     const auto fit_from = [&](double start) {
         TiltFit one(outlines, lens, centre, rim.amplitude, start, known.tilt.has_value());

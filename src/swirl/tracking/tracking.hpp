@@ -18,19 +18,19 @@
 #include <vector>
 
 #include "swirl/io/tracks.hpp"
-#include "swirl/tracking/dish_path.hpp"
 #include "swirl/tracking/lens.hpp"
 #include "swirl/tracking/tilt.hpp"
+#include "swirl/tracking/tracked_path.hpp"
 
 namespace swirl {
 
 struct TrackingSettings {
-    std::string film;
+    std::string video;
     std::optional<double> fps;  // otherwise as the film says
     std::optional<std::int64_t> discs;
     KnownCamera camera;
-    std::int64_t most_pictures = 0;  // 0: all
-    unsigned threads = 0;            // 0: one for each core
+    std::int64_t max_pictures = 0;  // 0: all
+    unsigned threads = 0;           // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& what, double share)> progress;
 
@@ -43,7 +43,7 @@ struct TrackedKind {
     std::size_t number = 0;
 };
 
-struct TrackedFilm {
+struct TrackedVideo {
     int width = 0, height = 0;
     std::int64_t pictures = 0;
     double fps = 0.0;           // pictures per second; 0: not known, and times are in pictures
@@ -52,7 +52,7 @@ struct TrackedFilm {
 
     Lens lens;  // all places and radii are those of an ideal lens that looks straight down
     Tilt tilt;
-    DishPath path;  // per second, or per picture
+    TrackedPath path;  // per second, or per picture
     PathPolygon polygon;
     double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
     bool stopped = false;  // discs are hardly ever beyond `reach`: it is the wall
@@ -77,14 +77,14 @@ struct TrackedFilm {
     double position_error = 0.0;  // rms of errors, those of the edges or the larger ones of
     double overlap_error = 0.0;   // distances that hard discs cannot have; without the tail
     std::uint64_t filled = 0;
-    std::uint64_t refused = 0, crowded = 0;  // discs beyond the number, and frames with such
-    double jitter = 0.0;                     // of the film's times, in steps
+    std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such
+    double jitter = 0.0;                      // of the film's times, in steps
     std::vector<std::string> warnings;
 
     TrackScale scale() const;  // for series_of()
 };
 
 /// Throws Failure, with the likely cause, and Interrupted.
-TrackedFilm track_film(const TrackingSettings& settings);
+TrackedVideo track_video(const TrackingSettings& settings);
 
 }  // namespace swirl

@@ -21,8 +21,8 @@ namespace swirl {
 
 namespace {
 
-bool is_device(const std::string& film) { return film.starts_with("/dev/video"); }
-bool is_numbered(const std::string& film) { return film.find('%') != film.npos; }
+bool is_device(const std::string& source) { return source.starts_with("/dev/video"); }
+bool is_numbered(const std::string& source) { return source.find('%') != source.npos; }
 
 /// The least number for which there is a picture.
 std::int64_t first_number(const std::string& pattern) {
@@ -32,7 +32,7 @@ std::int64_t first_number(const std::string& pattern) {
     const std::string before = name.substr(0, begin), after = name.substr(end + 1);
     const std::filesystem::path folder =
         path.parent_path().empty() ? std::filesystem::path(".") : path.parent_path();
-    std::optional<std::int64_t> least;
+    std::optional<std::int64_t> minimum;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const std::string file = entry.path().filename().string();
@@ -43,32 +43,32 @@ std::int64_t first_number(const std::string& pattern) {
             file.substr(before.size(), file.size() - before.size() - after.size());
         if (digits.size() > 15 || digits.find_first_not_of("0123456789") != digits.npos) continue;
         const std::int64_t number = std::stoll(digits);
-        least = std::min(least.value_or(number), number);
+        minimum = std::min(minimum.value_or(number), number);
     }
-    if (!least) throw Failure(fmt::format("There are no pictures named '{}'.", pattern));
-    return *least;
+    if (!minimum) throw Failure(fmt::format("There are no pictures named '{}'.", pattern));
+    return *minimum;
 }
 
-std::vector<std::string> input_of(const std::string& film) {
+std::vector<std::string> input_of(const std::string& source) {
     std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
     const auto add = [&](std::initializer_list<std::string> more) {
         arguments.insert(arguments.end(), more.begin(), more.end());
     };
-    if (is_device(film)) {
-        add({"-f", "v4l2", "-i", film});
+    if (is_device(source)) {
+        add({"-f", "v4l2", "-i", source});
         return arguments;
     }
-    if (is_numbered(film)) {
-        if (const auto wrong = film_problem(film)) throw WrongCall(*wrong);
-        add({"-f", "image2", "-start_number", std::to_string(first_number(film))});
-    } else if (!std::filesystem::exists(film)) {
-        throw Failure(fmt::format("There is no film '{}'.", film));
-    } else if (!std::filesystem::is_regular_file(film)) {
+    if (is_numbered(source)) {
+        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
+        add({"-f", "image2", "-start_number", std::to_string(first_number(source))});
+    } else if (!std::filesystem::exists(source)) {
+        throw Failure(fmt::format("There is no film '{}'.", source));
+    } else if (!std::filesystem::is_regular_file(source)) {
         throw Failure(fmt::format(
             "'{}' is not a regular file, but a film must be one: it is read more than once.",
-            film));
+            source));
     }
-    add({"-i", "file:" + film, "-map", "0:v:0"});
+    add({"-i", "file:" + source, "-map", "0:v:0"});
     return arguments;
 }
 
@@ -80,27 +80,27 @@ constexpr const char* no_times =
     "The times of the video's frames do not ascend. If the frames are equally spaced in time, give "
     "--fps.";
 
-std::string no_film(const std::string& film, const std::string& words) {
+std::string no_video(const std::string& source, const std::string& words) {
     std::string cause;
     if (words.find("moov atom not found") != words.npos)
         cause = " The file was cut off before its end, where this format keeps its index.";
-    return fmt::format("'{}' holds no pictures that can be read{}{}", film,
+    return fmt::format("'{}' holds no pictures that can be read{}{}", source,
                        words.empty() ? "." : ": " + words + ".", cause);
 }
 
 }  // namespace
 
-FilmTimes film_times(const std::string& film) {
-    FilmTimes times;
-    if (is_device(film)) return times;
-    if (is_numbered(film)) {
-        if (const auto wrong = film_problem(film)) throw WrongCall(*wrong);
-        const Film names(film);
-        const std::int64_t first = first_number(film);
+VideoTimes video_times(const std::string& source) {
+    VideoTimes times;
+    if (is_device(source)) return times;
+    if (is_numbered(source)) {
+        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
+        const NumberedFrames names(source);
+        const std::int64_t first = first_number(source);
         while (names.may_have(first + times.pictures)) ++times.pictures;
         return times;
     }
-    std::vector<std::string> arguments = input_of(film);
+    std::vector<std::string> arguments = input_of(source);
     for (const char* more : {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"})
         arguments.push_back(more);
     Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing);
@@ -124,7 +124,7 @@ FilmTimes film_times(const std::string& film) {
             times.seconds.push_back(unit * pts);
     }
     ffmpeg.end();
-    if (times.seconds.empty()) throw Failure(no_film(film, ffmpeg.complaint()));
+    if (times.seconds.empty()) throw Failure(no_video(source, ffmpeg.problem()));
     times.pictures = static_cast<std::int64_t>(times.seconds.size());
     std::sort(times.seconds.begin(), times.seconds.end());
     const std::size_t n = times.seconds.size();
@@ -139,7 +139,7 @@ FilmTimes film_times(const std::string& film) {
 }
 
 AscendingTimes ascending_times(const std::vector<double>& seconds) {
-    constexpr double least = 0.01;  // of the usual step
+    constexpr double minimum = 0.01;  // of the usual step
     std::vector<double> steps;
     for (std::size_t k = 1; k < seconds.size(); ++k)
         if (const double step = seconds[k] - seconds[k - 1]; std::isfinite(step) && step > 0.0)
@@ -151,11 +151,11 @@ AscendingTimes ascending_times(const std::vector<double>& seconds) {
     std::vector<char> timed(seconds.size(), 1);
     double latest = -std::numeric_limits<double>::infinity(), earliest = -latest;
     for (std::size_t k = 0; k < seconds.size(); ++k) {
-        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > least * usual)) timed[k] = 0;
+        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > minimum * usual)) timed[k] = 0;
         if (std::isfinite(seconds[k])) latest = std::max(latest, seconds[k]);
     }
     for (std::size_t k = seconds.size(); k-- > 0;) {
-        if (!(earliest - seconds[k] > least * usual)) timed[k] = 0;
+        if (!(earliest - seconds[k] > minimum * usual)) timed[k] = 0;
         if (std::isfinite(seconds[k])) earliest = std::min(earliest, seconds[k]);
     }
     AscendingTimes found{seconds, {}};
@@ -179,8 +179,8 @@ AscendingTimes ascending_times(const std::vector<double>& seconds) {
     return found;
 }
 
-Video::Video(std::string film, std::int64_t every) : film_(std::move(film)) {
-    std::vector<std::string> arguments = input_of(film_);
+Video::Video(std::string source, std::int64_t every) : video_(std::move(source)) {
+    std::vector<std::string> arguments = input_of(video_);
     const auto add = [&](std::initializer_list<std::string> more) {
         arguments.insert(arguments.end(), more.begin(), more.end());
     };
@@ -226,9 +226,9 @@ bool Video::next(cv::Mat& grey) {
         return true;
     }
     ffmpeg_->end();
-    complaint_ = ffmpeg_->complaint();
+    problem_ = ffmpeg_->problem();
     ffmpeg_.reset();
-    if (count_ == 0) throw Failure(no_film(film_, complaint_));
+    if (count_ == 0) throw Failure(no_video(video_, problem_));
     return false;
 }
 

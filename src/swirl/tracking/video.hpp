@@ -14,7 +14,7 @@
 namespace swirl {
 
 /// When the pictures were taken, as the file says.
-struct FilmTimes {
+struct VideoTimes {
     std::vector<double> seconds;  // ascending; empty where it does not say
     std::int64_t pictures = 0;    // 0: not known
     double fps = 0.0;             // of the whole film; 0 where it does not say
@@ -22,7 +22,7 @@ struct FilmTimes {
 };
 
 /// Reads the file through without decoding a picture. Throws Failure if it is no film.
-FilmTimes film_times(const std::string& film);
+VideoTimes video_times(const std::string& source);
 
 /// Strictly ascending times, and which frames of the video had no time of their own.
 struct AscendingTimes {
@@ -39,20 +39,20 @@ AscendingTimes ascending_times(const std::vector<double>& seconds);
 class Video {
   public:
     /// Every `every`th picture, the first one first. Throws Failure.
-    explicit Video(std::string film, std::int64_t every = 1);
+    explicit Video(std::string source, std::int64_t every = 1);
 
     /// The next picture (8 bits a pixel), or false at the end. Throws Failure if there is not one.
     bool next(cv::Mat& grey);
     /// How many there were so far.
     std::int64_t count() const { return count_; }
     /// What ffmpeg had to say about a damaged film; empty if nothing.
-    std::string complaint() const { return complaint_; }
+    std::string problem() const { return problem_; }
 
   private:
     bool read(std::uint8_t* into, std::size_t bytes);
     bool read_picture(cv::Mat& grey);
 
-    std::string film_, complaint_;
+    std::string video_, problem_;
     std::unique_ptr<Ffmpeg> ffmpeg_;
     std::int64_t count_ = 0;
 };

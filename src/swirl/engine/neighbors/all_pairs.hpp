@@ -24,7 +24,7 @@ namespace all_pairs {
 
 using Eight = Lanes<8>;
 
-SWIRL_INLINE Others<8> load_eight(const SideBySide& all, int group) {
+SWIRL_INLINE Others<8> load_eight(const Columns& all, int group) {
     const int k = 8 * group;
     return {{{Eight::load(all.x + k), Eight::load(all.y + k)},
              {Eight::load(all.vx + k), Eight::load(all.vy + k)},
@@ -38,7 +38,7 @@ SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
 
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     const HotDisc& disc = state.discs[i];
-    SideBySide& all = *state.side_by_side;
+    Columns& all = *state.columns;
     set(all.x, i, disc.position.x);
     set(all.y, i, disc.position.y);
     set(all.vx, i, disc.velocity.x);
@@ -51,19 +51,19 @@ template <int G, Held held, int D>
 SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&who)[D], double t) {
     Eight contact[D][G];
     for (int g = 0; g < G; ++g) {
-        const Others<8> others = load_eight(*state.side_by_side, g);
+        const Others<8> others = load_eight(*state.columns, g);
         for (int d = 0; d < D; ++d)
             contact[d][g] = contact_times<held>(state.discs[who[d]], others, t);
     }
     double first = never;
     for (int d = 0; d < D; ++d) {
-        Eight least = contact[d][0];
-        for (int g = 1; g < G; ++g) least = smaller(least, contact[d][g]);
-        const double time = smallest(least);
+        Eight minimum = contact[d][0];
+        for (int g = 1; g < G; ++g) minimum = smaller(minimum, contact[d][g]);
+        const double time = smallest(minimum);
         // Where nobody is met all lanes are equal, and the first will do.
         const std::uint64_t equal = lanes_equal(contact[d], time);
         note_partner(state, {time, who[d], static_cast<std::uint32_t>(__builtin_ctzll(equal))});
-        set(state.side_by_side->meeting, who[d], time);
+        set(state.columns->meeting, who[d], time);
         first = smaller(first, time);
     }
     return first;
@@ -73,7 +73,7 @@ SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&w
 template <int G, int D>
 SWIRL_INLINE double predict_turning_wall(EngineState& state, const std::uint32_t (&who)[D],
                                          double t) {
-    SideBySide& all = *state.side_by_side;
+    Columns& all = *state.columns;
     const bool is_kept = D == 1 || G == 1;
     const Flight<double> centre = is_kept ? turning_centre_at(state, t) : container_near(state, t);
     const Lanes<2> time = earliest_wall_times<D>(state, centre, who);
@@ -87,27 +87,27 @@ SWIRL_INLINE double predict_turning_wall(EngineState& state, const std::uint32_t
 /// When a disc that has just collided, at time t, meets the wall.
 template <int G>
 SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double t) {
-    if (state.on_turning_leg()) [[unlikely]]
+    if (state.on_turning_segment()) [[unlikely]]
         return predict_turning_wall<G>(state, who, t);
     const double time = wall_time(state, who[0]);
-    set(state.side_by_side->wall, who[0], time);
+    set(state.columns->wall, who[0], time);
     return time;
 }
 /// When the first of two does.
 template <int G>
 SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[2], double t) {
-    if (state.on_turning_leg()) [[unlikely]]
+    if (state.on_turning_segment()) [[unlikely]]
         return predict_turning_wall<G>(state, who, t);
     const Lanes<2> time = wall_times_from_now(state, state.discs[who[0]], state.discs[who[1]], t);
-    set(state.side_by_side->wall, who[0], lane(time, 0));
-    set(state.side_by_side->wall, who[1], lane(time, 1));
+    set(state.columns->wall, who[0], lane(time, 0));
+    set(state.columns->wall, who[1], lane(time, 1));
     return smaller(lane(time, 0), lane(time, 1));
 }
 
 template <int G>
 SWIRL_INLINE void predict_all_walls(EngineState& state) {
-    SideBySide& all = *state.side_by_side;
-    const bool turning = state.on_turning_leg();
+    Columns& all = *state.columns;
+    const bool turning = state.on_turning_segment();
     all.wall_is_earliest = turning ? ~std::uint64_t{0} : 0;
     all.walls_asked_at = state.clock;
     if (turning) {
@@ -126,7 +126,7 @@ SWIRL_INLINE void predict_all_walls(EngineState& state) {
 /// come near the wall meet somebody else before they are there. Then when disc i is at the wall.
 template <int G>
 [[gnu::noinline]] static void ask_wall_again(EngineState& state, std::uint32_t i, double time) {
-    SideBySide& all = *state.side_by_side;
+    Columns& all = *state.columns;
     const Eight then(time);
     if (time - all.walls_asked_at > 0.5 * state.turning_bound.horizon) {
         all.walls_asked_at = time;
@@ -141,12 +141,12 @@ template <int G>
         return;
     }
     set(all.wall, i, never);
-    Eight least = Eight(state.legs[state.leg].end);
+    Eight minimum = Eight(state.segments[state.segment].end);
     for (int g = 0; g < G; ++g)
-        least = smaller(least,
-                        smaller(Eight::load(all.meeting + 8 * g), Eight::load(all.wall + 8 * g)));
+        minimum = smaller(minimum,
+                          smaller(Eight::load(all.meeting + 8 * g), Eight::load(all.wall + 8 * g)));
     const WallContact contact = seek_wall(
-        state, i, all.centre[i], smallest(least) + state.turning_bound.horizon * (1.0 / 16.0));
+        state, i, all.centre[i], smallest(minimum) + state.turning_bound.horizon * (1.0 / 16.0));
     set(all.wall, i, contact.time);
     if (!contact.is_later) all.wall_is_earliest &= ~(std::uint64_t{1} << i);
 }
@@ -167,19 +167,19 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 /// Looks at everybody's pending meeting and wall contact and writes down which comes first.
 template <int G>
 SWIRL_INLINE void find_next(EngineState& state) {
-    SideBySide& all = *state.side_by_side;
+    Columns& all = *state.columns;
     for (;;) {
         Eight meeting[G], wall[G];
         for (int g = 0; g < G; ++g) {
             meeting[g] = Eight::load(all.meeting + 8 * g);
             wall[g] = Eight::load(all.wall + 8 * g);
         }
-        Eight least = smaller(meeting[0], wall[0]);
-        for (int g = 1; g < G; ++g) least = smaller(least, smaller(meeting[g], wall[g]));
-        const double time = smallest(least);
+        Eight minimum = smaller(meeting[0], wall[0]);
+        for (int g = 1; g < G; ++g) minimum = smaller(minimum, smaller(meeting[g], wall[g]));
+        const double time = smallest(minimum);
         const std::uint64_t walls = lanes_equal(wall, time);
         // Who comes after the leg's end need not be known.
-        if (!(time < state.legs[state.leg].end)) {
+        if (!(time < state.segments[state.segment].end)) {
             all.next = {time, state.size, state.size};
             return;
         }
@@ -201,13 +201,13 @@ template <int G>
 }
 
 template <int G>
-SWIRL_INLINE void leg_ended(EngineState& state) {
-    if (state.leg == 0) return predict_all<G>(state);
+SWIRL_INLINE void segment_ended(EngineState& state) {
+    if (state.segment == 0) return predict_all<G>(state);
     predict_all_walls<G>(state);
     find_next<G>(state);
 }
 
-SWIRL_INLINE void take_out(SideBySide& all, std::uint32_t i) {
+SWIRL_INLINE void remove(Columns& all, std::uint32_t i) {
     set(all.meeting, i, never);
     set(all.wall, i, never);
 }
@@ -219,19 +219,17 @@ template <int G>
 struct AllPairs {
     SWIRL_INLINE static void start(EngineState& state) { all_pairs::predict_all<G>(state); }
 
-    SWIRL_INLINE static PendingEvent next(const EngineState& state) {
-        return state.side_by_side->next;
-    }
-    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static PendingEvent next(const EngineState& state) { return state.columns->next; }
+    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
         all_pairs::predict_meetings<G, Held::for_a_while, 1>(state, {event.disc}, event.time);
         all_pairs::find_next<G>(state);
     }
     /// What comes next is mostly known before the discs that now
     /// collide have been predicted: the first of all others' events.
-    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
-        all_pairs::take_out(*state.side_by_side, event.disc);
-        if (!event.is_with_wall()) all_pairs::take_out(*state.side_by_side, event.partner);
+    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
+        all_pairs::remove(*state.columns, event.disc);
+        if (!event.is_with_wall()) all_pairs::remove(*state.columns, event.partner);
         all_pairs::find_next<G>(state);
         return event;
     }
@@ -241,12 +239,12 @@ struct AllPairs {
         for (int d = 0; d < D; ++d) all_pairs::copy(state, who[d]);
         const double wall = all_pairs::predict_wall<G>(state, who, t);
         const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
-        if (smaller(meeting, wall) <= state.side_by_side->next.time) [[unlikely]]
+        if (smaller(meeting, wall) <= state.columns->next.time) [[unlikely]]
             all_pairs::find_next<G>(state);
     }
     SWIRL_INLINE static void check(const EngineState& state, double) { check_columns(state); }
-    SWIRL_INLINE static void leg_ended(EngineState& state, double) {
-        all_pairs::leg_ended<G>(state);
+    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
+        all_pairs::segment_ended<G>(state);
     }
 };
 

@@ -16,11 +16,11 @@ inline namespace SWIRL_TARGET {
 inline constexpr double stretches_per_turn = 30.0;
 
 static void begin_stretch(EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
-    state.stretch_end = leg.end;
-    if (leg.turning != 0.0)
+    const Segment& segment = state.segments[state.segment];
+    state.stretch_end = segment.end;
+    if (segment.turning != 0.0)
         state.stretch_end =
-            smaller(leg.end, t + 2.0 * pi / (stretches_per_turn * magnitude(leg.turning)));
+            smaller(segment.end, t + 2.0 * pi / (stretches_per_turn * magnitude(segment.turning)));
 }
 
 /// How the discs move against the frame, at one time: their mean velocity, and how fast they turn
@@ -82,19 +82,19 @@ static MotionInFrame motion_in_frame(const EngineState& state, double t) {
 
 /// A frame does not turn by more than this before it is renewed, so that what moves uniformly in it
 /// stays near what turns.
-inline constexpr double most_turn = 0.2;
+inline constexpr double max_turn = 0.2;
 /// Nor does it stretch distances by more than so many times; where it has by less, it is begun
 /// again with the next swirl.
-inline constexpr double most_stretch = 1.4, bearable_stretch = 1.2;
+inline constexpr double max_stretch = 1.4, bearable_stretch = 1.2;
 /// If the energy of the rotation is less than this, over that of the random motion, hardly any skin
 /// would last longer, and all that is asked of the frame is less work where it has never turned.
-inline constexpr double least_rotation = 0.01;
+inline constexpr double min_rotation = 0.01;
 
 static bool pays_to_turn(const EngineState& state, const MotionInFrame& motion, double turning,
                          double t) {
-    return turning * turning * motion.inertia > least_rotation * motion.random &&
-           magnitude(turning) * (state.stretch_end - t) < most_turn &&
-           state.comoving_frame.scale < most_stretch;
+    return turning * turning * motion.inertia > min_rotation * motion.random &&
+           magnitude(turning) * (state.stretch_end - t) < max_turn &&
+           state.comoving_frame.scale < max_stretch;
 }
 
 /// From time t on the co-moving frame has the discs' mean motion. The pack circles in the dish with
@@ -119,9 +119,9 @@ static void renew_comoving_frame(EngineState& state, const MotionInFrame& motion
 }
 /// The frame begins in the centre of the container, and nothing rests in it.
 static void begin_comoving_frame(EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
+    const Segment& segment = state.segments[state.segment];
     begin_stretch(state, t);
-    state.comoving_frame = {.origin = {leg.position_at(t), leg.velocity_at(t), t}};
+    state.comoving_frame = {.origin = {segment.position_at(t), segment.velocity_at(t), t}};
     renew_comoving_frame(state, motion_in_frame(state, t), t);
 }
 
@@ -141,7 +141,7 @@ inline constexpr std::uint32_t discs_per_event_till_asked = 4;
 static bool renew_frame_if_left(EngineState& state, double t) {
     const ComovingFrame& frame = state.comoving_frame;
     const bool may_stay =
-        magnitude(frame.turning) * (state.stretch_end - frame.origin.time) < most_turn;
+        magnitude(frame.turning) * (state.stretch_end - frame.origin.time) < max_turn;
     const std::uint64_t since = state.disc_disc + state.disc_wall - state.events_when_asked;
     if (may_stay && discs_per_event_till_asked * since < state.size) return false;
     const MotionInFrame motion = motion_in_frame(state, t);

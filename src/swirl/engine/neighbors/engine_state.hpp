@@ -130,7 +130,7 @@ struct Cell {
     std::uint32_t count;
 };
 static_assert(sizeof(Cell) == 32);  // read and written as one piece of eight numbers
-inline constexpr std::uint32_t most_annex_room = 40;  // a multiple of 8
+inline constexpr std::uint32_t max_overflow_capacity = 40;  // a multiple of 8
 
 /// Followed by `room` disc numbers, a multiple of 8, unused ones being `EngineState::size`.
 struct alignas(16) ListTail {
@@ -154,7 +154,7 @@ struct Grid {
     std::uint32_t* heads;
     Cell* cells;
 };
-inline constexpr std::uint32_t most_grids = 48;
+inline constexpr std::uint32_t max_grids = 48;
 
 /// Room for the discs around one whose list is being rebuilt (verlet_skin.hpp).
 struct CandidateColumns {
@@ -166,28 +166,29 @@ struct CandidateColumns {
 
 /// The discs of a small dish in columns, for the loop that looks at all of them at once
 /// (all_pairs.hpp): a copy of what HotDisc holds, and when each disc meets another, and the wall.
-struct alignas(64) SideBySide {
-    static constexpr std::uint32_t most = 40;
-    double x[most], y[most], vx[most], vy[most], time[most], radius[most];
-    double meeting[most], wall[most];
-    double nobody[most];  // 0; `never` where there is no disc, and no position either (NaN)
-    PendingEvent next;    // the first of all
+struct alignas(64) Columns {
+    static constexpr std::uint32_t maximum = 40;
+    double x[maximum], y[maximum], vx[maximum], vy[maximum], time[maximum], radius[maximum];
+    double meeting[maximum], wall[maximum];
+    double nobody[maximum];  // 0; `never` where there is no disc, and no position either (NaN)
+    PendingEvent next;       // the first of all
     // On a turning leg (wall_times.hpp): bit i is set where wall[i] is the earliest time possible.
     std::uint64_t wall_is_earliest;
     double walls_asked_at;
     // The container's when each disc collided last, if that is its time.
-    Flight<double> centre[most];
+    Flight<double> centre[maximum];
 };
 
 /// The same of a few spheres (few_spheres.hpp), with their accelerations and when they begin to
 /// roll, which is an event of theirs and ends what is known of their flight.
-struct alignas(64) SpheresSideBySide {
-    static constexpr std::uint32_t most = 64;
-    double x[most], y[most], vx[most], vy[most], ax[most], ay[most], time[most], radius[most];
-    double meeting[most], wall[most], rolls[most], first[most];  // first: of the three
+struct alignas(64) SphereColumns {
+    static constexpr std::uint32_t maximum = 64;
+    double x[maximum], y[maximum], vx[maximum], vy[maximum], ax[maximum], ay[maximum],
+        time[maximum], radius[maximum];
+    double meeting[maximum], wall[maximum], rolls[maximum], first[maximum];  // first: of the three
     // Where each would be at time 0 if it moved with the floor, and how far from there, seen from
     // the floor, it can come in this leg.
-    double X[most], Y[most], reach[most];
+    double X[maximum], Y[maximum], reach[maximum];
     PendingEvent next;  // the first of all
 };
 
@@ -204,7 +205,7 @@ struct TurningBound {
 };
 
 /// Of the tournament: a few rows more to look at take less than another level.
-inline constexpr std::uint32_t most_top_rows = 8;
+inline constexpr std::uint32_t max_top_rows = 8;
 
 struct EngineState {
     std::uint32_t size;      // N; disc N is nobody: its position is NaN, so it never meets anyone
@@ -213,7 +214,7 @@ struct EngineState {
     HotDisc* discs;
     unsigned char* cold_discs;
     Skin* skins;
-    SideBySide* side_by_side;
+    Columns* columns;
     const DiscKind* kinds;
 
     // The tournament (tournament.hpp).
@@ -230,28 +231,28 @@ struct EngineState {
 
     // A grid for each size of disc that there is (verlet_skin.hpp), from the smallest on; or one
     // for all, if the discs are few or equal; or that of a thin gas (linked_cells.hpp).
-    Grid grids[most_grids];
+    Grid grids[max_grids];
     std::uint32_t grid_count;
     bool has_no_grid;  // few enough to look at all of them when a list is rebuilt
     double cell_origin;
 
     // Of cells alone (linked_cells.hpp).
     Cell* cells;
-    std::uint32_t* annexes;    // of each cell; there are none where cells are not full
-    std::uint32_t annex_room;  // of each, in discs: a multiple of 8
+    std::uint32_t* annexes;           // of each cell; there are none where cells are not full
+    std::uint32_t overflow_capacity;  // of each, in discs: a multiple of 8
     Vec2 middle_of_path;
-    double most_drift;            // from there, of the cells in half a swirl
+    double max_drift;             // from there, of the cells in half a swirl
     double reach_of_far_cells;    // if they do not drift: how far they are from the middle, at most
     double far_from_wall_square;  // of this, if they do
-    std::uint32_t near_wall_count, stray_count;
-    std::uint32_t *near_wall, *strays;  // those who may reach the wall; those without a place
+    std::uint32_t near_wall_count, unassigned_count;
+    std::uint32_t *near_wall, *unassigned;  // those who may reach the wall; those without a place
     double narrowest_cell, widest_cell;
     // Since the width was last asked about; and when lists are asked about again.
     std::uint64_t candidates_looked_at, entered_before, candidates_till_asked;
 
     // Whether lists or cells (lists_or_cells.hpp), and how wide cells are to be; 0: lists.
-    bool is_outgrown;     // another search is to take over
-    bool chooses_search;  // or cells stay cells as long as they have room
+    bool should_switch_search;  // another search is to take over
+    bool chooses_search;        // or cells stay cells as long as they have room
     double wanted_cell;
     std::uint32_t returns_to_cells;  // from lists that did not last
     std::uint64_t rebuilds_when_asked, collisions_when_asked;
@@ -270,8 +271,8 @@ struct EngineState {
     bool (*is_stopped)(const void* caller);
     const void* caller;
 
-    const Leg* legs;
-    std::uint32_t leg, leg_count;
+    const Segment* segments;
+    std::uint32_t segment, segment_count;
     // Of the leg; or sooner, if the search has something to do by then that is no event.
     double stretch_end;
     TurningBound turning_bound;     // of a turning leg
@@ -279,7 +280,7 @@ struct EngineState {
     double period, container_radius;
     Surface disc_surface, wall_surface;
 
-    std::int64_t swirls;
+    std::int64_t periods;
     double clock;
     std::uint64_t disc_disc, disc_wall, path_vertex;
     std::uint64_t elastic_by_tc;  // collisions made elastic by the TC model
@@ -288,7 +289,7 @@ struct EngineState {
 
     // Of spheres alone.
     SphereState* spheres;
-    SpheresSideBySide* spheres_side_by_side;
+    SphereColumns* sphere_columns;
     Floor floor;
     std::uint64_t begun_to_roll;
 
@@ -300,16 +301,16 @@ struct EngineState {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
     }
-    SWIRL_INLINE bool on_turning_leg() const { return legs[leg].turning != 0.0; }
+    SWIRL_INLINE bool on_turning_segment() const { return segments[segment].turning != 0.0; }
     /// Asked in loops over all discs, every thousand of them.
     SWIRL_INLINE bool stops_at(std::uint32_t i) const {
         return i % 1024 == 0 && is_stopped != nullptr && is_stopped(caller);
     }
-    SWIRL_INLINE std::uint32_t* annex(std::uint32_t cell) const {
-        return annexes + static_cast<std::uint64_t>(cell) * annex_room;
+    SWIRL_INLINE std::uint32_t* overflow(std::uint32_t cell) const {
+        return annexes + static_cast<std::uint64_t>(cell) * overflow_capacity;
     }
     SWIRL_INLINE std::uint32_t& disc_in_cell(std::uint32_t cell, std::uint32_t slot) const {
-        return slot < Cell::room ? cells[cell].disc[slot] : annex(cell)[slot - Cell::room];
+        return slot < Cell::room ? cells[cell].disc[slot] : overflow(cell)[slot - Cell::room];
     }
     SWIRL_INLINE ListTail& tail(std::uint32_t i) const { return tails[tail_places[i]]; }
     /// A disc's number; that of nobody in the place of a mark.
@@ -334,16 +335,16 @@ struct EventLoop {
     /// Executes the next event.
     Event (*step)(EngineState&);
     /// Executes `count` events, or as many as come before (swirls, clock]; says how many.
-    std::uint64_t (*run)(EngineState&, std::uint64_t count, std::int64_t swirls, double clock);
+    std::uint64_t (*run)(EngineState&, std::uint64_t count, std::int64_t periods, double clock);
 };
 
 /// The loops for one vector width: with neighbour lists, with cells, and all pairs for up to
 /// 8, 16, 24 … discs (all_pairs.hpp).
 struct EventLoops {
     EventLoop lists, cells;
-    EventLoop all_pairs[SideBySide::most / 8];
+    EventLoop all_pairs[Columns::maximum / 8];
     std::uint32_t few;  // up to this many discs, all pairs are the faster (docs/performance.md)
-    EventLoop few_spheres[SpheresSideBySide::most / 16];  // for up to 16, 32 … spheres
+    EventLoop few_spheres[SphereColumns::maximum / 16];  // for up to 16, 32 … spheres
     EventLoop many_spheres;
 };
 

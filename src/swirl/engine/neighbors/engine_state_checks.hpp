@@ -21,12 +21,12 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
 
 /// The paper's method: all times, the first.
 [[maybe_unused]] static PendingEvent first_of_all(const EngineState& state) {
-    const Leg& leg = state.legs[state.leg];
+    const Segment& segment = state.segments[state.segment];
     PendingEvent first{never, state.size, state.size};
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const HotDisc& disc = state.discs[i];
         const double wall =
-            time_of_wall_contact(disc.flight(), leg, state.container_radius - disc.radius);
+            time_of_wall_contact(disc.flight(), segment, state.container_radius - disc.radius);
         if (precedes({wall, i, i}, first)) first = {wall, i, i};
         for (std::uint32_t k = i + 1; k < state.size; ++k) {
             const HotDisc& other = state.discs[k];
@@ -35,7 +35,7 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
             if (precedes({time, i, k}, first)) first = {time, i, k};
         }
     }
-    return leg.end <= first.time ? PendingEvent{leg.end, state.size, state.size} : first;
+    return segment.end <= first.time ? PendingEvent{segment.end, state.size, state.size} : first;
 }
 
 [[maybe_unused]] static void check_order(const EngineState& state, const PendingEvent& next) {
@@ -59,12 +59,12 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
 }
 /// Whether at time t a disc reaches beyond the wall by more than rounding errors.
 [[maybe_unused]] static bool is_outside(const EngineState& state, const HotDisc& disc, double t) {
-    const Leg& leg = state.legs[state.leg];
-    const Vec2 s = disc.flight().position_at(t) - leg.position_at(t);
+    const Segment& segment = state.segments[state.segment];
+    const Vec2 s = disc.flight().position_at(t) - segment.position_at(t);
     const double distance = square_root(dot(s, s));
     const double rounding =
         larger(state.largest_rounding,
-               rounding_of_wall_contact(disc.flight(), leg, state.container_radius, t));
+               rounding_of_wall_contact(disc.flight(), segment, state.container_radius, t));
     return distance + disc.radius > state.container_radius * (1.0 + allowed_rounding) + rounding;
 }
 
@@ -151,7 +151,8 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
         bool found = false;
         for (std::uint32_t slot = 0; slot < cell.count; ++slot)
             found |= state.disc_in_cell(state.skins[i].cell, slot) == i;
-        for (std::uint32_t k = 0; k < state.stray_count; ++k) found |= state.strays[k] == i;
+        for (std::uint32_t k = 0; k < state.unassigned_count; ++k)
+            found |= state.unassigned[k] == i;
         const HotDisc& disc = state.discs[i];
         found &= disc.far_from_wall != 0 || state.near_wall[state.skins[i].near_wall] == i;
         promise::discs_are_in_their_cells(found && magnitude(offset.x) <= half &&
@@ -160,7 +161,7 @@ SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, doub
 }
 
 [[maybe_unused]] static void check_columns(const EngineState& state) {
-    const SideBySide& all = *state.side_by_side;
+    const Columns& all = *state.columns;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const HotDisc& disc = state.discs[i];
         promise::columns_are_what_the_discs_are(

@@ -37,7 +37,7 @@ using spheres::Eight, spheres::EightOthers, spheres::EightTimes, spheres::earlie
 /// narrow store waits for it. The others are not.
 SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     const Parabola<double> flight = Spheres::flight(state, i);
-    SpheresSideBySide& all = *state.spheres_side_by_side;
+    SphereColumns& all = *state.sphere_columns;
     all.x[i] = flight.position.x;
     all.y[i] = flight.position.y;
     all.vx[i] = flight.velocity.x;
@@ -47,37 +47,36 @@ SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
     all.time[i] = flight.time;
     all.rolls[i] = state.spheres[i].motion.begins_to_roll;
     // Without a floor a leg's end predicts nobody anew: then all must be looked at.
-    if (!Spheres::feel_every_leg(state)) {
+    if (!Spheres::feel_every_segment(state)) {
         set(all.X, i, 0.0);
         set(all.Y, i, 0.0);
         return;
     }
-    const Leg& leg = state.legs[state.leg];
-    const double way = spheres::way_over_floor(flight.velocity, flight.acceleration, leg.velocity,
-                                               leg.end - flight.time);
-    set(all.X, i, flight.position.x - flight.time * leg.velocity.x);
-    set(all.Y, i, flight.position.y - flight.time * leg.velocity.y);
+    const Segment& segment = state.segments[state.segment];
+    const double way = spheres::way_over_floor(flight.velocity, flight.acceleration,
+                                               segment.velocity, segment.end - flight.time);
+    set(all.X, i, flight.position.x - flight.time * segment.velocity.x);
+    set(all.Y, i, flight.position.y - flight.time * segment.velocity.y);
     set(all.reach, i, way + 0x1p-30 * state.container_radius);
 }
 
 /// Bit k is set if sphere k may be met.
 template <int G>
 SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t i) {
-    const SpheresSideBySide& all = *state.spheres_side_by_side;
+    const SphereColumns& all = *state.sphere_columns;
     const Eight X(all.X[i]), Y(all.Y[i]), near(all.reach[i] + all.radius[i]);
     Eight beyond[G];
     for (int g = 0; g < G; ++g) {
         const int k = 8 * g;
         const Eight dx = Eight::load(all.X + k) - X, dy = Eight::load(all.Y + k) - Y;
-        const Eight most = near + (Eight::load(all.reach + k) + Eight::load(all.radius + k));
-        beyond[g] = larger(dx * dx + dy * dy - most * most, Eight(0.0));
+        const Eight maximum = near + (Eight::load(all.reach + k) + Eight::load(all.radius + k));
+        beyond[g] = larger(dx * dx + dy * dy - maximum * maximum, Eight(0.0));
     }
     const std::uint64_t everybody = ~std::uint64_t{0} >> (64 - state.size);
     return lanes_equal(beyond, 0.0) & everybody & ~(std::uint64_t{1} << i);
 }
 
-SWIRL_INLINE void put(EightOthers& others, int lane, const SpheresSideBySide& all,
-                      std::uint32_t k) {
+SWIRL_INLINE void put(EightOthers& others, int lane, const SphereColumns& all, std::uint32_t k) {
     others.x[lane] = all.x[k];
     others.y[lane] = all.y[k];
     others.vx[lane] = all.vx[k];
@@ -94,7 +93,7 @@ SWIRL_INLINE void put(EightOthers& others, int lane, const SpheresSideBySide& al
 /// and the loops are compiled in a third of the time.)
 template <int G>
 [[gnu::noinline]] static double predict_meeting(EngineState& state, std::uint32_t i) {
-    SpheresSideBySide& all = *state.spheres_side_by_side;
+    SphereColumns& all = *state.sphere_columns;
     const EightTimes mine(state, i);
     PendingEvent first{never, i, 0};
     for (std::uint64_t left = within_reach<G>(state, i); left != 0;) {
@@ -111,12 +110,12 @@ template <int G>
 }
 
 [[gnu::noinline]] static void predict_wall(EngineState& state, std::uint32_t i) {
-    state.spheres_side_by_side->wall[i] = spheres::wall_time(state, i);
+    state.sphere_columns->wall[i] = spheres::wall_time(state, i);
 }
 
 /// Of the meeting, the wall and the beginning to roll, what comes first.
 SWIRL_INLINE double note_first(EngineState& state, std::uint32_t i) {
-    SpheresSideBySide& all = *state.spheres_side_by_side;
+    SphereColumns& all = *state.sphere_columns;
     const double first = smaller(smaller(all.meeting[i], all.wall[i]), all.rolls[i]);
     set(all.first, i, first);
     return first;
@@ -135,15 +134,15 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
 /// Looks at everybody's pending events and writes down which comes first.
 template <int G>
 [[gnu::noinline]] static void find_next(EngineState& state) {
-    SpheresSideBySide& all = *state.spheres_side_by_side;
+    SphereColumns& all = *state.sphere_columns;
     Eight first[G];
     for (int g = 0; g < G; ++g) first[g] = Eight::load(all.first + 8 * g);
-    Eight least = first[0];
-    for (int g = 1; g < G; ++g) least = smaller(least, first[g]);
-    const double time = smallest(least);
+    Eight minimum = first[0];
+    for (int g = 1; g < G; ++g) minimum = smaller(minimum, first[g]);
+    const double time = smallest(minimum);
     all.next = {time, state.size, state.size};
     // Who comes after the leg's end need not be known.
-    if (!(time < state.legs[state.leg].end)) return;
+    if (!(time < state.segments[state.segment].end)) return;
     std::uint64_t meetings = 0, walls = 0, rolls = 0;
     for (std::uint64_t equal = lanes_equal(first, time); equal != 0; equal &= equal - 1) {
         const int i = __builtin_ctzll(equal);
@@ -165,7 +164,7 @@ template <int G>
     find_next<G>(state);
 }
 
-SWIRL_INLINE void take_out(SpheresSideBySide& all, std::uint32_t i) {
+SWIRL_INLINE void remove(SphereColumns& all, std::uint32_t i) {
     all.meeting[i] = all.wall[i] = all.rolls[i] = never;
     set(all.first, i, never);
 }
@@ -180,9 +179,9 @@ struct FewSpheres {
     SWIRL_INLINE static void start(EngineState& state) { few_spheres::predict_all<G>(state); }
 
     SWIRL_INLINE static PendingEvent next(const EngineState& state) {
-        return state.spheres_side_by_side->next;
+        return state.sphere_columns->next;
     }
-    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
         few_spheres::predict_meeting<G>(state, event.disc);
         few_spheres::note_first(state, event.disc);
@@ -190,11 +189,11 @@ struct FewSpheres {
     }
     /// What comes next is mostly known before the spheres that now collide have been predicted: the
     /// first of all others' events.
-    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
-        SpheresSideBySide& all = *state.spheres_side_by_side;
-        few_spheres::take_out(all, event.disc);
+    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
+        SphereColumns& all = *state.sphere_columns;
+        few_spheres::remove(all, event.disc);
         if (event.partner < state.size && !event.is_with_wall())
-            few_spheres::take_out(all, event.partner);
+            few_spheres::remove(all, event.partner);
         few_spheres::find_next<G>(state);
         return event;
     }
@@ -208,10 +207,10 @@ struct FewSpheres {
             few_spheres::predict_meeting<G>(state, who[d]);
             first = smaller(first, few_spheres::note_first(state, who[d]));
         }
-        if (first <= state.spheres_side_by_side->next.time) few_spheres::find_next<G>(state);
+        if (first <= state.sphere_columns->next.time) few_spheres::find_next<G>(state);
     }
-    SWIRL_INLINE static void leg_ended(EngineState& state, double) {
-        if (state.leg == 0 || Spheres::feel_every_leg(state))
+    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
+        if (state.segment == 0 || Spheres::feel_every_segment(state))
             return few_spheres::predict_all<G>(state);
         for (std::uint32_t i = 0; i < state.size; ++i) {
             few_spheres::predict_wall(state, i);

@@ -44,12 +44,12 @@ SWIRL_INLINE double width(const EngineState& state) {
 
 /// With more strays than this narrower cells are faster; each eight of them cost everybody a
 /// vector.
-inline constexpr std::uint32_t most_strays = 16;
+inline constexpr std::uint32_t max_unassigned = 16;
 
 /// Discs would do with cells so much wider. If they have gathered and have no place, these are the
 /// widest from now on; and if there are no narrower ones, lists take over.
 SWIRL_INLINE void outgrow(EngineState& state, double factor, bool for_want_of_room) {
-    state.is_outgrown = true;
+    state.should_switch_search = true;
     const double before = width(state);
     const double wanted = smaller(larger(factor * before, state.narrowest_cell), state.widest_cell);
     const bool is_narrowest = before < 1.0001 * state.narrowest_cell;
@@ -74,7 +74,7 @@ SWIRL_INLINE void ask_about_lists(EngineState& state, double t) {
     const bool last = state.chooses_search && lists_would_last(state, width(state), t);
     begin_to_count(state);
     if (!last) return;
-    state.is_outgrown = true;
+    state.should_switch_search = true;
     state.wanted_cell = 0.0;
 }
 /// Asked at the end of a swirl, when so much has happened that laying all anew is little besides.
@@ -97,7 +97,7 @@ static void choose_width(EngineState& state) {
 /// come eight times nobody.
 struct Candidates {
     std::uint32_t count;
-    std::uint32_t disc[9 * (Cell::room + most_annex_room) + 8];
+    std::uint32_t disc[9 * (Cell::room + max_overflow_capacity) + 8];
 };
 
 template <bool have_annexes>
@@ -113,9 +113,9 @@ SWIRL_INLINE void collect(const EngineState& state, std::uint32_t i, Candidates&
             std::memcpy(candidates.disc + count, &row[x], sizeof(Cell));
             if (have_annexes && row[x].count > Cell::room) {
                 const auto number = static_cast<std::uint32_t>(row + x - state.cells);
-                for (std::uint32_t k = 0; k < state.annex_room; k += 8)
-                    std::memcpy(candidates.disc + count + Cell::room + k, state.annex(number) + k,
-                                8 * sizeof(std::uint32_t));
+                for (std::uint32_t k = 0; k < state.overflow_capacity; k += 8)
+                    std::memcpy(candidates.disc + count + Cell::room + k,
+                                state.overflow(number) + k, 8 * sizeof(std::uint32_t));
             }
             count += row[x].count;
         }
@@ -129,7 +129,7 @@ SWIRL_INLINE void collect(const EngineState& state, std::uint32_t i, Candidates&
 }
 SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
                                      Candidates& candidates) {
-    if (state.annex_room != 0) [[unlikely]]
+    if (state.overflow_capacity != 0) [[unlikely]]
         return collect_with_annexes(state, i, candidates);
     collect<false>(state, i, candidates);
 }
@@ -137,7 +137,7 @@ SWIRL_INLINE void collect_candidates(const EngineState& state, std::uint32_t i,
 /// When disc i, which does something else at `latest`, reaches the wall, if before.
 SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i, double latest) {
     if (state.discs[i].far_from_wall != 0) return never;
-    if (state.on_turning_leg()) [[unlikely]]
+    if (state.on_turning_segment()) [[unlikely]]
         return wall_time_by(state, i, latest);
     return swirl::wall_time(state, i);
 }
@@ -175,12 +175,13 @@ SWIRL_INLINE PendingEvent or_edge(const PendingEvent& meeting, const Leaving& le
 }
 
 /// The first of the strays that a disc meets, if it meets one before all others.
-[[gnu::noinline]] static PendingEvent earliest_stray(const EngineState& state, PendingEvent first) {
+[[gnu::noinline]] static PendingEvent earliest_unassigned(const EngineState& state,
+                                                          PendingEvent first) {
     const HotDisc& disc = state.discs[first.disc];
-    for (std::uint32_t k = 0; k < state.stray_count; k += 8) {
-        const Others<8> others = load_others<8>(state, state.strays + k);
-        first = earlier<8>(state.strays + k, contact_times<Held::for_a_while>(disc, others, 0.0),
-                           first);
+    for (std::uint32_t k = 0; k < state.unassigned_count; k += 8) {
+        const Others<8> others = load_others<8>(state, state.unassigned + k);
+        first = earlier<8>(state.unassigned + k,
+                           contact_times<Held::for_a_while>(disc, others, 0.0), first);
     }
     return first;
 }
@@ -242,8 +243,8 @@ SWIRL_INLINE void find_first(EngineState& state, const std::uint32_t (&who)[D], 
         PendingEvent meeting =
             first_of_candidates<held>(state, who[d], t, candidates[d], contacts[d]);
         state.candidates_looked_at += candidates[d].count;
-        if (state.stray_count != 0) [[unlikely]]
-            meeting = earliest_stray(state, meeting);
+        if (state.unassigned_count != 0) [[unlikely]]
+            meeting = earliest_unassigned(state, meeting);
         first[d] = or_edge(meeting, leaving_times(state, who[d], t, meeting.time));
     }
 }
@@ -252,19 +253,19 @@ template <Held held, int D>
     PendingEvent first[D];
     find_first<held, D>(state, who, t, first);
 #pragma GCC unroll 2
-    for (int d = 0; d < D; ++d) put_in(state, first[d]);
+    for (int d = 0; d < D; ++d) insert(state, first[d]);
 }
 
-[[gnu::noinline]] static void become_stray(EngineState& state, std::uint32_t i) {
-    state.strays[state.stray_count++] = i;
-    if (state.stray_count > most_strays) outgrow(state, narrower, true);
+[[gnu::noinline]] static void become_unassigned(EngineState& state, std::uint32_t i) {
+    state.unassigned[state.unassigned_count++] = i;
+    if (state.unassigned_count > max_unassigned) outgrow(state, narrower, true);
 }
 /// False if disc i is none.
-SWIRL_INLINE bool stray_leaves(EngineState& state, std::uint32_t i) {
-    for (std::uint32_t place = 0; place < state.stray_count; ++place) {
-        if (state.strays[place] != i) continue;
-        state.strays[place] = state.strays[--state.stray_count];
-        state.strays[state.stray_count] = state.size;
+SWIRL_INLINE bool unassigned_leaves(EngineState& state, std::uint32_t i) {
+    for (std::uint32_t place = 0; place < state.unassigned_count; ++place) {
+        if (state.unassigned[place] != i) continue;
+        state.unassigned[place] = state.unassigned[--state.unassigned_count];
+        state.unassigned[state.unassigned_count] = state.size;
         return true;
     }
     return false;
@@ -279,7 +280,7 @@ SWIRL_INLINE bool stray_leaves(EngineState& state, std::uint32_t i) {
         if (state.disc_in_cell(number, slot) == i) state.disc_in_cell(number, slot) = last;
 }
 SWIRL_INLINE void leave(EngineState& state, std::uint32_t i) {
-    if (state.stray_count != 0 && stray_leaves(state, i)) [[unlikely]]
+    if (state.unassigned_count != 0 && unassigned_leaves(state, i)) [[unlikely]]
         return;
     const std::uint32_t number = state.skins[i].cell;
     Cell& cell = state.cells[number];
@@ -301,10 +302,10 @@ static void enter(EngineState& state, std::uint32_t i, std::uint32_t number) {
     Cell& cell = state.cells[number];
     if (cell.count < Cell::room) [[likely]]
         cell.disc[cell.count++] = i;
-    else if (cell.count < Cell::room + state.annex_room)
+    else if (cell.count < Cell::room + state.overflow_capacity)
         state.disc_in_cell(number, cell.count++) = i;
     else
-        become_stray(state, i);
+        become_unassigned(state, i);
     const std::uint32_t side = state.grids[0].cells_per_side;
     const auto centre = [&](std::uint32_t row) {
         return static_cast<float>(state.cell_origin + (row + 0.5) * width(state));
@@ -359,7 +360,7 @@ static void predict_all(EngineState& state, double t) {
             write_down(state.disc_in_cell(c, k));
         }
     }
-    for (std::uint32_t k = 0; k < state.stray_count; ++k) write_down(state.strays[k]);
+    for (std::uint32_t k = 0; k < state.unassigned_count; ++k) write_down(state.unassigned[k]);
     hold_tournament(state);
 }
 
@@ -369,8 +370,8 @@ static void enter_all(EngineState& state) {
     for (std::uint32_t c = 0; c < grid.cells_per_side * grid.cells_per_side; ++c)
         state.cells[c].count = 0;
     for (std::uint32_t k = 0; k < state.size + 8; ++k)
-        state.near_wall[k] = state.strays[k] = state.size;
-    state.near_wall_count = state.stray_count = 0;
+        state.near_wall[k] = state.unassigned[k] = state.size;
+    state.near_wall_count = state.unassigned_count = 0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         if (state.stops_at(i)) return;
         state.discs[i].far_from_wall = 1;
@@ -397,7 +398,7 @@ static Vec2 velocity_to_follow(const EngineState& state) {
     const double common = dot(mean, mean) * state.size;
     const double drift = 0.5 * state.period * square_root(dot(mean, mean));
     const bool pays = common > bearable_common_motion * (squares - common);
-    return pays && drift <= state.most_drift ? mean : Vec2{0.0, 0.0};
+    return pays && drift <= state.max_drift ? mean : Vec2{0.0, 0.0};
 }
 /// In the middle of the swirl the cells are where the path is.
 SWIRL_INLINE void begin_frame(EngineState& state, const Vec2& velocity) {
@@ -413,7 +414,7 @@ static void start(EngineState& state) {
     state.candidates_till_asked = candidates_till_asked * state.size;
     begin_frame(state, velocity_to_follow(state));
     enter_all(state);
-    if (!state.is_outgrown) predict_all<Held::for_a_while>(state, state.clock);
+    if (!state.should_switch_search) predict_all<Held::for_a_while>(state, state.clock);
 }
 
 /// All clocks restart.
@@ -439,8 +440,8 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin) 
 }
 
 /// The container takes another course.
-static void leg_ended(EngineState& state) {
-    if (state.leg == 0) return swirl_ended(state);
+static void segment_ended(EngineState& state) {
+    if (state.segment == 0) return swirl_ended(state);
     for (std::uint32_t k = 0; k < state.near_wall_count; k += 8) renew_walls_of_eight(state, k);
 }
 
@@ -449,8 +450,8 @@ static void leg_ended(EngineState& state) {
 struct LinkedCells {
     SWIRL_INLINE static void start(EngineState& state) { cells::start(state); }
     SWIRL_INLINE static PendingEvent next(const EngineState& state) { return next_pending(state); }
-    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
-        swirl::take_out(state, event.disc);
+    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
+        swirl::remove(state, event.disc);
         if (event.partner >= leaves_skin) {
             cells::enter_next_cell(state, event.disc, event.time);
         } else {
@@ -458,7 +459,7 @@ struct LinkedCells {
             cells::predict<Held::for_a_while, 1>(state, {event.disc}, event.time);
         }
     }
-    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
         return take_first<LinkedCells>(state, event);
     }
     template <int D>
@@ -470,8 +471,12 @@ struct LinkedCells {
         check_cells(state, t);
         check_tournament(state);
     }
-    SWIRL_INLINE static bool is_outgrown(const EngineState& state) { return state.is_outgrown; }
-    SWIRL_INLINE static void leg_ended(EngineState& state, double) { cells::leg_ended(state); }
+    SWIRL_INLINE static bool should_switch_search(const EngineState& state) {
+        return state.should_switch_search;
+    }
+    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
+        cells::segment_ended(state);
+    }
 };
 
 }  // namespace SWIRL_TARGET

@@ -30,7 +30,7 @@ inline constexpr double bearable_rebuilds = 0.3;
 /// lists last, though skins are narrow where discs have gathered. Each time that this was an error
 /// they have to go less, up to a third.
 inline constexpr double short_way = 0.2, shorter = 0.7;
-inline constexpr std::uint32_t most_returns_counted = 3;
+inline constexpr std::uint32_t max_returns_counted = 3;
 static bool lists_would_last(const EngineState& state, double width, double t) {
     double way = short_way * state.smallest_radius * collisions_since_asked(state);
     for (std::uint32_t k = 0; k < state.returns_to_cells; ++k) way *= shorter;

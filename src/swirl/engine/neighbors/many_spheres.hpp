@@ -38,14 +38,14 @@ using spheres::EightOthers, spheres::EightTimes;
 
 /// The centre of the container at time 0, if it had always gone as in this leg; X counts from it.
 SWIRL_INLINE Vec2 origin(const EngineState& state) {
-    const Leg& leg = state.legs[state.leg];
-    return leg.start - leg.begin * leg.velocity;
+    const Segment& segment = state.segments[state.segment];
+    return segment.start - segment.begin * segment.velocity;
 }
 
 /// X and reach of sphere i from time t on, in its Skin.
 SWIRL_INLINE void find_place(EngineState& state, std::uint32_t i, double t) {
     const Parabola<double> flight = Spheres::flight(state, i);
-    const Vec2 u = state.legs[state.leg].velocity;
+    const Vec2 u = state.segments[state.segment].velocity;
     const Vec2 X = flight.position_at(t) - t * u - origin(state);
     const double way = spheres::way_over_floor(flight.velocity_at(t), flight.acceleration, u,
                                                state.stretch_end - t);
@@ -125,15 +125,15 @@ SWIRL_INLINE double predict_wall(const EngineState& state, std::uint32_t i) {
     const PendingEvent rolls{spheres::begins_to_roll_at(state, i), i, the_floor};
     if (precedes(wall, first)) first = wall;
     if (precedes(rolls, first)) first = rolls;
-    put_in<true>(state, first);
+    insert<true>(state, first);
 }
 
 /// How long a stretch is worth while, were everybody as fast over the floor as they are on average.
 static double stretch_worth_while(const EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
+    const Segment& segment = state.segments[state.segment];
     double squares = 0.0, areas = 0.0;
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        const Vec2 v = Spheres::flight(state, i).velocity_at(t) - leg.velocity;
+        const Vec2 v = Spheres::flight(state, i).velocity_at(t) - segment.velocity;
         squares += dot(v, v);
         areas += state.discs[i].radius * state.discs[i].radius;
     }
@@ -141,13 +141,14 @@ static double stretch_worth_while(const EngineState& state, double t) {
     const double radius = square_root(areas / state.size);
     const double reach = radius * larger(square_root(2.0 / packing) - 1.0, 0.25);
     // A thousandth of the leg at least, so that it comes to its end.
-    return larger(reach / square_root(squares / state.size), 0.001 * (leg.end - leg.begin));
+    return larger(reach / square_root(squares / state.size), 0.001 * (segment.end - segment.begin));
 }
 
 /// From time t on, all is known anew.
 static void begin_stretch(EngineState& state, double t) {
     ++state.full_rebuilds;
-    state.stretch_end = smaller(state.legs[state.leg].end, t + stretch_worth_while(state, t));
+    state.stretch_end =
+        smaller(state.segments[state.segment].end, t + stretch_worth_while(state, t));
     state.largest_skin_radius = 0.0;
     const Grid& grid = state.grids[0];
     empty_cells(state, grid);
@@ -172,13 +173,13 @@ struct ManySpheres {
         many_spheres::begin_stretch(state, state.clock);
     }
     SWIRL_INLINE static PendingEvent next(const EngineState& state) { return next_pending(state); }
-    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
         ++state.invalidated;
-        swirl::take_out<true>(state, event.disc);
+        swirl::remove<true>(state, event.disc);
         many_spheres::predict(state, event.disc);
     }
-    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
-        swirl::take_out<true>(state, event);
+    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
+        swirl::remove<true>(state, event);
         return event;
     }
     template <int D>
@@ -191,10 +192,10 @@ struct ManySpheres {
         }
         for (const std::uint32_t i : who) many_spheres::predict(state, i);
     }
-    SWIRL_INLINE static void leg_ended(EngineState& state, double) {
+    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
         many_spheres::begin_stretch(state, state.clock);
     }
-    SWIRL_INLINE static void stretch_ended(EngineState& state) {
+    SWIRL_INLINE static void segment_ended(EngineState& state) {
         many_spheres::begin_stretch(state, state.stretch_end);
     }
     static void check(const EngineState& state, double t) {

@@ -19,7 +19,7 @@ inline namespace SWIRL_TARGET {
 SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, double t, Leaving leaving,
                                 bool in_new_frame = true) {
     ColdDisc& cold = state.cold(i);
-    const bool turning = state.on_turning_leg();
+    const bool turning = state.on_turning_segment();
     if ((cold.partner == i && !turning) || (cold.partner == leaves_skin && in_new_frame))
         cold.partner = no_event;
     const PendingEvent held{pending_time(state, i), i, cold.partner};
@@ -30,7 +30,7 @@ SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, double t, L
             approach_wall(state, i, t, smaller(held.time, leaving.skin), leaving);
     }
     const PendingEvent first = first_of(held, leaving);
-    if (first.partner != held.partner) put_in(state, first);
+    if (first.partner != held.partner) insert(state, first);
 }
 
 }  // namespace SWIRL_TARGET

@@ -96,7 +96,7 @@ SWIRL_INLINE PendingEvent earlier_meeting(const EngineState& state, const EightT
 
 SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
     return time_of_wall_contact(Spheres::flight(state, i), begins_to_roll_at(state, i),
-                                state.legs[state.leg],
+                                state.segments[state.segment],
                                 state.container_radius - state.discs[i].radius);
 }
 
@@ -106,7 +106,7 @@ SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
     constexpr double rounding = 1e-10;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Vec2 at = Spheres::position_at(state, i, t);
-        const Vec2 centre = at - state.legs[state.leg].position_at(t);
+        const Vec2 centre = at - state.segments[state.segment].position_at(t);
         promise::no_disc_is_outside_the_container(square_root(dot(centre, centre)) +
                                                       state.discs[i].radius <=
                                                   state.container_radius * (1.0 + rounding));

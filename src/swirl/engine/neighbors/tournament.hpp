@@ -108,9 +108,9 @@ SWIRL_INLINE void note_first_of_rows(EngineState& state) {
     Lanes<8> rows[Rows];
     for (int row = 0; row < Rows; ++row)
         rows[row] = Lanes<8>::load(state.level_times[top] + 8 * row);
-    Lanes<8> least = rows[0];
-    for (int row = 1; row < Rows; ++row) least = smaller(least, rows[row]);
-    const double time = smallest(least);
+    Lanes<8> minimum = rows[0];
+    for (int row = 1; row < Rows; ++row) minimum = smaller(minimum, rows[row]);
+    const double time = smallest(minimum);
     const std::uint64_t equal = lanes_equal(rows, time);
     const auto lane = static_cast<std::uint32_t>(__builtin_ctzll(equal));
     std::uint32_t disc = top == 0 ? lane : state.level_winners[top][lane];
@@ -133,7 +133,7 @@ SWIRL_INLINE void note_first(EngineState& state) {
         case 6:
             return note_first_of_rows<6, in_order>(state);
         default:
-            note_first_of_rows<most_top_rows, in_order>(state);
+            note_first_of_rows<max_top_rows, in_order>(state);
     }
 }
 
@@ -187,13 +187,13 @@ SWIRL_INLINE void leave_rows(EngineState& state, const std::uint32_t (&who)[D]) 
 
 /// Leaves a disc without an event.
 template <bool in_order = false>
-SWIRL_INLINE void take_out(EngineState& state, std::uint32_t disc) {
+SWIRL_INLINE void remove(EngineState& state, std::uint32_t disc) {
     leave_rows<1, in_order>(state, {disc});
     note_first<in_order>(state);
 }
 /// The discs of an event.
 template <bool in_order = false>
-SWIRL_INLINE void take_out(EngineState& state, const PendingEvent& event) {
+SWIRL_INLINE void remove(EngineState& state, const PendingEvent& event) {
     if (event.is_with_wall() || (in_order && event.partner >= state.size))
         leave_rows<1, in_order>(state, {event.disc});
     else
@@ -203,7 +203,7 @@ SWIRL_INLINE void take_out(EngineState& state, const PendingEvent& event) {
 
 /// Gives a disc that has none, or a later one, an event at the given time.
 template <bool in_order = false>
-SWIRL_INLINE void put_in(EngineState& state, std::uint32_t disc, double time) {
+SWIRL_INLINE void insert(EngineState& state, std::uint32_t disc, double time) {
     std::uint32_t place = disc;
     set_lane<8>(state.level_times[0] + (place & ~7u), place & 7u, time);
     const auto comes_first = [&](double before, std::uint32_t winner) {
@@ -260,17 +260,17 @@ template <class Search>
 [[gnu::noinline]] static PendingEvent first_of_simultaneous(EngineState& state,
                                                             const PendingEvent& found,
                                                             double partner_pending) {
-    put_in(state, found.partner, partner_pending);
-    put_in(state, found.disc, found.time);
+    insert(state, found.partner, partner_pending);
+    insert(state, found.disc, found.time);
     for (;;) {
         PendingEvent first{found.time, state.size, state.size};
         for (std::uint32_t row = 0; row < state.top_rows; ++row)
             first = first_of_equals(state, state.levels - 1, row, first);
         if (state.is_valid(first)) {
-            take_out(state, first);
+            remove(state, first);
             return first;
         }
-        Search::predict_again(state, first);
+        Search::reschedule(state, first);
     }
 }
 
@@ -283,7 +283,7 @@ SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& fou
     // same time, so this is no branch.
     const bool is_one_event =
         (partner_pending != found.time) | (state.cold(found.partner).partner == found.disc);
-    take_out(state, found);
+    remove(state, found);
     if ((state.first_time == found.time) | !is_one_event) [[unlikely]]
         return first_of_simultaneous<Search>(state, found, partner_pending);
     if (state.prefetches && !found.is_with_wall()) prefetch_neighbours(state, found.partner);
@@ -292,9 +292,9 @@ SWIRL_INLINE PendingEvent take_first(EngineState& state, const PendingEvent& fou
 
 /// Gives a disc that has none a pending event.
 template <bool in_order = false>
-SWIRL_INLINE void put_in(EngineState& state, const PendingEvent& event) {
+SWIRL_INLINE void insert(EngineState& state, const PendingEvent& event) {
     note_partner(state, event);
-    put_in<in_order>(state, event.disc, event.time);
+    insert<in_order>(state, event.disc, event.time);
 }
 
 }  // namespace SWIRL_TARGET

@@ -64,7 +64,7 @@ template <Held held, int D>
     for (int d = 0; d < D; ++d) others[d] = load_others<8>(state, state.cold(who[d]).neighbours());
     for (int d = 0; d < D; ++d)
         contacts[d] = contact_times<held>(state.discs[who[d]], others[d], t);
-    const bool turning = state.on_turning_leg();
+    const bool turning = state.on_turning_segment();
     if (turning && !all_far<D>(state, who)) [[unlikely]]
         find_leaving_on_turn<D>(state, who, t, leaving);
     else
@@ -76,7 +76,7 @@ template <Held held, int D>
         if (state.discs[who[d]].neighbours > 8) meeting = earliest_beyond_eight(state, meeting, t);
         if (turning) [[unlikely]]
             approach_wall(state, who[d], t, smaller(meeting.time, leaving[d].skin), leaving[d]);
-        put_in(state, first_of(meeting, leaving[d]));
+        insert(state, first_of(meeting, leaving[d]));
     }
 }
 
@@ -99,7 +99,7 @@ static void rebuild_all_narrow(EngineState& state, double t) {
     SkinRadiusRange narrow = skin_radius_range(state);
     const double rounding = rounding_of_centre * state.container_radius;
     narrow.largest = larger(0.02 * state.smallest_radius, 2.0 * rounding);
-    narrow.least = larger(0.001 * state.smallest_radius, rounding);
+    narrow.minimum = larger(0.001 * state.smallest_radius, rounding);
     rebuild_all_lists(state, t, 0.0, narrow);
 }
 
@@ -116,8 +116,8 @@ static void rebuild_all_narrow(EngineState& state, double t) {
 SWIRL_INLINE void ask_whether_lists_last(EngineState& state) {
     if (rebuilds_since_asked(state) < state.size) return;
     if (rebuilds_since_asked(state) > bearable_rebuilds * collisions_since_asked(state)) {
-        if (state.returns_to_cells < most_returns_counted) ++state.returns_to_cells;
-        state.is_outgrown = true;
+        if (state.returns_to_cells < max_returns_counted) ++state.returns_to_cells;
+        state.should_switch_search = true;
     }
     begin_to_count(state);
 }
@@ -142,7 +142,7 @@ SWIRL_INLINE void ask_whether_lists_last(EngineState& state) {
     const std::uint32_t count = resolve_overflow(state, i, t, skin_radius_range(state));
     const std::uint32_t* const rebuilt = state.candidates.rebuilt;
     for (std::uint32_t k = 0; k < count; ++k) {
-        take_out(state, rebuilt[k]);
+        remove(state, rebuilt[k]);
         predict<Held::for_a_while, 1>(state, {rebuilt[k]}, t);
     }
     if (count == 0) follow_the_discs(state, t);
@@ -188,7 +188,7 @@ SWIRL_INLINE void renew_eight(EngineState& state, std::uint32_t begin, double t)
     soonest_wall_times<8>(state, discs.flight, discs.radius, t).store(wall);
     (Eight(t) + time_to_leave(offset, drift, inner_skin_radius(skins.radius))).store(skin);
     const WallReach reach = reach_far_from_wall(state, t);
-    const BasicVec2<Eight> s = centre - in_lanes<8>(state.legs[state.leg].position_at(t));
+    const BasicVec2<Eight> s = centre - in_lanes<8>(state.segments[state.segment].position_at(t));
     beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, skins.radius, discs.radius)
         .store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
@@ -217,8 +217,8 @@ SWIRL_INLINE void renew_walls_of_eight(EngineState& state, std::uint32_t begin,
     Eight times, radius;
     load_pairs<8>(radii, times, radius);
     const Skins skins = load_skins(state, begin, count);
-    const BasicVec2<Eight> s =
-        skins.flight.position_at(Eight(t)) - in_lanes<8>(state.legs[state.leg].position_at(t));
+    const BasicVec2<Eight> s = skins.flight.position_at(Eight(t)) -
+                               in_lanes<8>(state.segments[state.segment].position_at(t));
     beyond_reach(Eight(reach.reach), Eight(reach.growth) * s, skins.radius, radius).store(beyond);
     const unsigned far = lanes_below(beyond, 0.0);
     unsigned near = ~(far & were_far) & ((1u << count) - 1u);
@@ -249,7 +249,7 @@ static void renew_all_leaving(EngineState& state, double t) {
 /// cells to their size when they have grown.
 static void renew_all(EngineState& state, double t) {
     ComovingFrame& frame = state.comoving_frame;
-    const Vec2 drift = frame.origin.position_at(t) - state.legs[0].start;
+    const Vec2 drift = frame.origin.position_at(t) - state.segments[0].start;
     const bool gone = square_root(dot(drift, drift)) * state.grids[0].cells_per_length > 1.0;
     if ((!state.has_no_grid && gone) || frame.scale > bearable_stretch) {
         begin_comoving_frame(state, 0.0);
@@ -263,13 +263,13 @@ static void renew_all(EngineState& state, double t) {
     predict_all(state, 0.0);
 }
 
-SWIRL_INLINE void leg_ended(EngineState& state, double t) {
-    if (state.leg == 0) return renew_all(state, t);
+SWIRL_INLINE void segment_ended(EngineState& state, double t) {
+    if (state.segment == 0) return renew_all(state, t);
     renew_all_leaving(state, t);
 }
 
 /// Of a turning leg: the discs have turned with the container, and so does the frame.
-[[gnu::noinline]] static void stretch_ended(EngineState& state) {
+[[gnu::noinline]] static void segment_ended(EngineState& state) {
     renew_all_leaving(state, state.stretch_end);
 }
 
@@ -278,8 +278,8 @@ SWIRL_INLINE void leg_ended(EngineState& state, double t) {
 struct VerletLists {
     SWIRL_INLINE static void start(EngineState& state) { lists::start(state); }
     SWIRL_INLINE static PendingEvent next(const EngineState& state) { return next_pending(state); }
-    SWIRL_INLINE static void predict_again(EngineState& state, const PendingEvent& event) {
-        swirl::take_out(state, event.disc);
+    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
+        swirl::remove(state, event.disc);
         if (event.partner == leaves_skin) {
             lists::rebuild_list(state, event.disc, event.time);
         } else {
@@ -287,7 +287,7 @@ struct VerletLists {
             lists::predict<Held::for_a_while, 1>(state, {event.disc}, event.time);
         }
     }
-    SWIRL_INLINE static PendingEvent take_out(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
         return take_first<VerletLists>(state, event);
     }
     template <int D>
@@ -299,9 +299,13 @@ struct VerletLists {
         check_lists(state, t);
         check_tournament(state);
     }
-    SWIRL_INLINE static bool is_outgrown(const EngineState& state) { return state.is_outgrown; }
-    SWIRL_INLINE static void leg_ended(EngineState& state, double t) { lists::leg_ended(state, t); }
-    SWIRL_INLINE static void stretch_ended(EngineState& state) { lists::stretch_ended(state); }
+    SWIRL_INLINE static bool should_switch_search(const EngineState& state) {
+        return state.should_switch_search;
+    }
+    SWIRL_INLINE static void segment_ended(EngineState& state, double t) {
+        lists::segment_ended(state, t);
+    }
+    SWIRL_INLINE static void segment_ended(EngineState& state) { lists::segment_ended(state); }
 };
 
 }  // namespace SWIRL_TARGET

@@ -67,18 +67,18 @@ struct WallReach {
 /// there as the frame stretches; and the container turns away from its course by no more than half
 /// its acceleration times the square of the time.
 SWIRL_INLINE WallReach reach_far_from_wall(const EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
+    const Segment& segment = state.segments[state.segment];
     const ComovingFrame& frame = state.comoving_frame;
     const double time = state.stretch_end - t;
     const Vec2 rate = frame.rate_at(t);
-    const Vec2 centre = leg.position_at(t) - frame.origin.position_at(t);
+    const Vec2 centre = segment.position_at(t) - frame.origin.position_at(t);
     const Vec2 drift =
-        time * (frame.origin.velocity + complex_product(rate, centre) - leg.velocity_at(t));
+        time * (frame.origin.velocity + complex_product(rate, centre) - segment.velocity_at(t));
     const double turn = time * rate.y, growth = 1.0 + time * rate.x + 0.5 * turn * turn;
     const double reach = reach_short_of_wall(state) - square_root(dot(drift, drift));
-    if (leg.turning == 0.0) return {reach, growth};
-    const double speed = square_root(dot(leg.velocity, leg.velocity));
-    return {reach - 0.5 * speed * magnitude(leg.turning) * time * time, growth};
+    if (segment.turning == 0.0) return {reach, growth};
+    const double speed = square_root(dot(segment.velocity, segment.velocity));
+    return {reach - 0.5 * speed * magnitude(segment.turning) * time * time, growth};
 }
 
 /// Negative if a skin whose centre is at s from that of the container does not reach so far.
@@ -92,7 +92,7 @@ SWIRL_INLINE Real beyond_reach(const Real& reach, const BasicVec2<Real>& s, cons
 static void note_far_from_wall(EngineState& state, std::uint32_t i, double t) {
     const Skin& mine = state.skins[i];
     const Vec2 centre = state.comoving_frame.flight_of(mine).position_at(t);
-    const Vec2 s = centre - state.legs[state.leg].position_at(t);
+    const Vec2 s = centre - state.segments[state.segment].position_at(t);
     const double skin_radius = mine.skin_radius;
     const WallReach far = reach_far_from_wall(state, t);
     state.discs[i].far_from_wall =
@@ -208,7 +208,7 @@ SWIRL_INLINE void clear_list(EngineState& state, std::uint32_t i) {
 
 /// The bounds of h_i; below `least` there is no room for a disc on the lists of those around it.
 struct SkinRadiusRange {
-    double least, largest;
+    double minimum, largest;
 };
 
 /// The discs around one of them: `gap` is |X_i − X_k| − r_i − r_k and `reach` is h_k. Both are
@@ -295,9 +295,9 @@ static bool collect_within(const EngineState& state, std::uint32_t i, double sca
 [[gnu::noinline]] static bool collect_within(const EngineState& state, std::uint32_t i,
                                              double scale, const SkinRadiusRange& range,
                                              Candidates& candidates) {
-    for (double farthest = range.largest;; farthest = larger(0.5 * farthest, range.least)) {
+    for (double farthest = range.largest;; farthest = larger(0.5 * farthest, range.minimum)) {
         if (collect_within(state, i, scale, farthest, candidates)) return true;
-        if (!(farthest > range.least)) return false;
+        if (!(farthest > range.minimum)) return false;
     }
 }
 
@@ -381,11 +381,11 @@ SWIRL_INLINE double fair_skin_radius(const Candidates& candidates, std::uint32_t
     const auto too_many = [&](double skin_radius) {
         return count_below(candidates.gap, candidates.padded, 2.0 * skin_radius) > wanted;
     };
-    double skin_radius = smaller(larger(before, 2.0 * range.least), range.largest);
+    double skin_radius = smaller(larger(before, 2.0 * range.minimum), range.largest);
     if (too_many(skin_radius)) {
         do skin_radius *= 0.8;
-        while (skin_radius > range.least && too_many(skin_radius));
-        return larger(skin_radius, range.least);
+        while (skin_radius > range.minimum && too_many(skin_radius));
+        return larger(skin_radius, range.minimum);
     }
     while (skin_radius < range.largest && !too_many(1.25 * skin_radius)) skin_radius *= 1.25;
     return smaller(skin_radius, range.largest);
@@ -428,8 +428,9 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
     if (!collect_candidates(state, i, range, candidates)) return false;
     const DiscKind& kind = state.kinds[state.equal_radii ? 0 : state.discs[i].kind];
     double skin_radius = fair_skin_radius(candidates, kind.wanted_neighbours, before,
-                                          {range.least, candidates.farthest});
-    const std::uint32_t most = state.capacity + (state.tails == nullptr ? 0 : state.tail(i).room);
+                                          {range.minimum, candidates.farthest});
+    const std::uint32_t maximum =
+        state.capacity + (state.tails == nullptr ? 0 : state.tail(i).room);
     for (;;) {
         std::uint32_t count = 0;
         bool room = true;
@@ -438,7 +439,7 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
             for (; bits != 0; bits &= bits - 1) {
                 const std::uint32_t n = begin + static_cast<std::uint32_t>(__builtin_ctzll(bits));
                 if (candidates.reach[n] == 0.0) continue;
-                if (count == most || is_full(state, candidates.disc[n])) {
+                if (count == maximum || is_full(state, candidates.disc[n])) {
                     room = false;
                     break;
                 }
@@ -453,7 +454,7 @@ static bool build_list(EngineState& state, std::uint32_t i, double t, double bef
             break;
         }
         skin_radius *= 0.7;
-        if (skin_radius < range.least) return false;
+        if (skin_radius < range.minimum) return false;
     }
     // Rounded down, so that the single-precision number is on the safe side.
     Skin& mine = state.skins[i];
@@ -479,7 +480,7 @@ static std::uint32_t resolve_overflow(EngineState& state, std::uint32_t i, doubl
         if (!collect_candidates(state, k, range, candidates)) return 0;
         for (std::uint32_t n = 0; n < candidates.count; ++n) {
             if (candidates.reach[n] == 0.0 ||
-                candidates.gap[n] - candidates.reach[n] >= range.least)
+                candidates.gap[n] - candidates.reach[n] >= range.minimum)
                 continue;
             if (count + 1 >= room) return 0;
             recentre_skin(state, candidates.disc[n], t);

@@ -19,8 +19,8 @@ inline namespace SWIRL_TARGET {
 enum class Held { for_a_while, since_now };
 
 /// Where the centre of the container is, on a straight leg.
-SWIRL_INLINE Flight<double> container_flight(const Leg& leg) {
-    return {leg.start, leg.velocity, leg.begin};
+SWIRL_INLINE Flight<double> container_flight(const Segment& segment) {
+    return {segment.start, segment.velocity, segment.begin};
 }
 
 template <int W>
@@ -35,7 +35,7 @@ SWIRL_INLINE Flight<Lanes<W>> in_lanes(const Flight<double>& flight) {
 /// When disc i reaches the wall, on whatever leg.
 SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
     const HotDisc& disc = state.discs[i];
-    return time_of_wall_contact(disc.flight(), state.legs[state.leg],
+    return time_of_wall_contact(disc.flight(), state.segments[state.segment],
                                 state.container_radius - disc.radius);
 }
 
@@ -51,16 +51,16 @@ SWIRL_INLINE double wall_time(const EngineState& state, std::uint32_t i) {
 /// k = u·g + s·j/3 and L = Ω² (2u² + 8.7 V² + (Ω clearance)²/2)/12, more than a 24th of the fourth
 /// derivative in a sixth of a turn; as in contact_time.hpp, where the terms are others.
 SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
-    const Leg& leg = state.legs[state.leg];
-    const double O = leg.turning, O2 = O * O, turn = 2.0 * pi / magnitude(O);
-    const double speed2 = dot(leg.velocity, leg.velocity);
+    const Segment& segment = state.segments[state.segment];
+    const double O = segment.turning, O2 = O * O, turn = 2.0 * pi / magnitude(O);
+    const double speed2 = dot(segment.velocity, segment.velocity);
     TurningBound& bound = state.turning_bound;
-    bound.centre = leg.flight_at(t);
+    bound.centre = segment.flight_at(t);
     bound.turning = O;
     bound.per_turning = 1.0 / O;
     bound.lasts = turn / 30.0;
     bound.soon = turn / 90.0;
-    bound.horizon = state.side_by_side ? turn / 6.0 : turn / 30.0;
+    bound.horizon = state.columns ? turn / 6.0 : turn / 30.0;
     bound.L = O2 * (8.7 / 12.0) * speed2;
     bound.L_of_u2 = O2 * (2.0 / 12.0);
     bound.L_of_square = O2 * O2 * (0.5 / 12.0);
@@ -70,7 +70,8 @@ SWIRL_INLINE void renew_turning_bound(EngineState& state, double t) {
 
 /// The container at time t, of a turning leg. Several ask within an event.
 SWIRL_INLINE const Flight<double>& turning_centre_at(EngineState& state, double t) {
-    if (state.turning_centre.time != t) state.turning_centre = state.legs[state.leg].flight_at(t);
+    if (state.turning_centre.time != t)
+        state.turning_centre = state.segments[state.segment].flight_at(t);
     return state.turning_centre;
 }
 
@@ -95,14 +96,15 @@ SWIRL_INLINE Flight<double> container_near(EngineState& state, double t) {
 template <int W>
 SWIRL_INLINE Lanes<W> wall_times(const EngineState& state, const Flight<Lanes<W>>& flights,
                                  const Lanes<W>& radii) {
-    return time_of_wall_contact(flights, in_lanes<W>(container_flight(state.legs[state.leg])),
+    return time_of_wall_contact(flights,
+                                in_lanes<W>(container_flight(state.segments[state.segment])),
                                 Lanes<W>(state.container_radius) - radii);
 }
 
 /// When two discs that have just collided, at time t, reach the wall, on a straight leg.
 SWIRL_INLINE Lanes<2> wall_times_from_now(const EngineState& state, const HotDisc& a,
                                           const HotDisc& b, double t) {
-    const Flight<double> container = container_flight(state.legs[state.leg]);
+    const Flight<double> container = container_flight(state.segments[state.segment]);
     const Vec2 centre = container.position_at(t);
     const auto from = [](const Vec2& p, const Vec2& q, const Vec2& origin) {
         return BasicVec2<Lanes<2>>{two_lanes(p.x, q.x) - Lanes<2>(origin.x),
@@ -130,8 +132,8 @@ static constexpr double far_wait[2] = {0.0, never};
 template <Held held, int D>
 SWIRL_INLINE void find_leaving(const EngineState& state, const std::uint32_t (&who)[D], double t,
                                Leaving (&leaving)[D]) {
-    const Leg& leg = state.legs[state.leg];
-    const Flight<double> container = container_flight(leg);
+    const Segment& segment = state.segments[state.segment];
+    const Flight<double> container = container_flight(segment);
     Double2 now[D], x[D], y[D], vx[D], vy[D], clearance[D];
 #pragma GCC unroll 2
     for (int d = 0; d < D; ++d) {
@@ -205,7 +207,7 @@ SWIRL_INLINE Lanes<W> earliest_wall_times(const EngineState& state, const Flight
 template <int W>
 SWIRL_INLINE Lanes<W> soonest_wall_times(EngineState& state, const Flight<Lanes<W>>& flights,
                                          const Lanes<W>& radii, double t) {
-    if (!state.on_turning_leg()) return wall_times<W>(state, flights, radii);
+    if (!state.on_turning_segment()) return wall_times<W>(state, flights, radii);
     return earliest_wall_times<W>(state, container_near(state, t), flights.position_at(Lanes<W>(t)),
                                   flights.velocity, radii);
 }
@@ -278,10 +280,10 @@ SWIRL_INLINE void find_leaving_on_turn(EngineState& state, const std::uint32_t (
 SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i,
                                    const Flight<double>& known, double latest) {
     const HotDisc& disc = state.discs[i];
-    const Leg& leg = state.legs[state.leg];
-    const double now = beginning_on(leg, disc.flight());
-    return turning_wall_contact(disc.flight(), known.time == now ? known : leg.flight_at(now), leg,
-                                state.container_radius - disc.radius, latest);
+    const Segment& segment = state.segments[state.segment];
+    const double now = beginning_on(segment, disc.flight());
+    return turning_wall_contact(disc.flight(), known.time == now ? known : segment.flight_at(now),
+                                segment, state.container_radius - disc.radius, latest);
 }
 /// The same as a time; if it is later, that or never.
 [[maybe_unused, gnu::noinline]] static double wall_time_by(const EngineState& state,

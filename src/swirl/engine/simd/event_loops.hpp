@@ -16,8 +16,8 @@ template <std::uint32_t few>
 constexpr EventLoops event_loops(const char* width) {
 #if defined(SWIRL_INTERNAL_CHECKS)
     // The longest serves everybody: the sanitizers need a minute to compile each.
-    const EventLoop all_pairs = event_loop<AllPairs<SideBySide::most / 8>>(width);
-    const EventLoop few_spheres = event_loop<FewSpheres<SpheresSideBySide::most / 8>>(width);
+    const EventLoop all_pairs = event_loop<AllPairs<Columns::maximum / 8>>(width);
+    const EventLoop few_spheres = event_loop<FewSpheres<SphereColumns::maximum / 8>>(width);
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
             {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},

@@ -24,7 +24,8 @@ double largest_radius(const std::vector<Disc>& discs) {
 /// Of the container's centre from the origin.
 double farthest(const ContainerPath& path) {
     double square = 0.0;
-    for (const Leg& leg : path.legs) square = larger(dot(leg.start, leg.start), square);
+    for (const Segment& segment : path.segments)
+        square = larger(dot(segment.start, segment.start), square);
     return square_root(square);
 }
 
@@ -82,7 +83,7 @@ PlainLists::PlainLists(const InitialState& initial, double skin, Width width)
         enter_cell(i);
     }
     for (Number i = 0; i < size_; ++i) clear_list(i);
-    for (Number i = 0; i < size_; ++i) renew_list(i, leg().begin);
+    for (Number i = 0; i < size_; ++i) renew_list(i, segment().begin);
     begin_swirl();
 }
 
@@ -96,22 +97,22 @@ Disc PlainLists::disc(std::size_t i) const {
 Event PlainLists::step() {
     for (;;) {
         const Number i = first_in_calendar();
-        if (i == nobody || leg().end <= pending_[i].time) return end_leg();
+        if (i == nobody || segment().end <= pending_[i].time) return end_segment();
         const double time = pending_[i].time;
         const Number partner = pending_[i].partner;
         if (partner == own_list) {
             renew_list(i, time);
         } else if (partner == i) {
             const Event event = collision(i, i, time);
-            predict_again(i);
+            reschedule(i);
             return event;
         } else if (pending_[i].changes == hot_[partner].changes) {
             const Event event = collision(std::min(i, partner), std::max(i, partner), time);
-            predict_again(partner);
-            predict_again(i);
+            reschedule(partner);
+            reschedule(i);
             return event;
         }
-        predict_again(i);
+        reschedule(i);
     }
 }
 
@@ -129,11 +130,11 @@ Event PlainLists::collision(Number i, Number j, double time) {
     if (i == j) {
         const double since_last = time - hot_[i].flight.time;
         move_to(i, time);
-        Body disc = body(i), wall = wall_body(leg().velocity_at(time));
-        const Vec2 outwards = hot_[i].flight.position - leg().position_at(time);
+        Body disc = body(i), wall = wall_body(segment().velocity_at(time));
+        const Vec2 outwards = hot_[i].flight.position - segment().position_at(time);
         const Impulse J = collide(disc, wall, outwards, at_contact(wall_surface_, since_last));
         take_over(i, disc);
-        return {swirls_, time, EventKind::disc_wall, i, i, {}, J, 0.0};
+        return {periods_, time, EventKind::disc_wall, i, i, {}, J, 0.0};
     }
     const double since_last = time - larger(hot_[i].flight.time, hot_[j].flight.time);
     move_to(i, time);
@@ -143,7 +144,7 @@ Event PlainLists::collision(Number i, Number j, double time) {
                               at_contact(disc_surface_, since_last));
     take_over(i, a);
     take_over(j, b);
-    return {swirls_, time, EventKind::disc_disc, i, j, {}, J, 0.0};
+    return {periods_, time, EventKind::disc_disc, i, j, {}, J, 0.0};
 }
 
 void PlainLists::move_to(Number i, double time) {
@@ -153,15 +154,15 @@ void PlainLists::move_to(Number i, double time) {
     flight.time = time;
 }
 
-Event PlainLists::end_leg() {
-    const double end = leg().end;
-    const Event event{swirls_, end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
-    leg_ = (leg_ + 1) % path_.legs.size();
-    if (leg_ != 0) {
-        begin_leg();
+Event PlainLists::end_segment() {
+    const double end = segment().end;
+    const Event event{periods_, end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    segment_ = (segment_ + 1) % path_.segments.size();
+    if (segment_ != 0) {
+        begin_segment();
         return event;
     }
-    ++swirls_;
+    ++periods_;
     for (Number i = 0; i < size_; ++i) {
         move_to(i, end);
         hot_[i].flight.time = homes_of_[i].since = 0.0;
@@ -171,9 +172,9 @@ Event PlainLists::end_leg() {
 }
 
 /// The wall has another velocity.
-void PlainLists::begin_leg() {
+void PlainLists::begin_segment() {
     for (Number i = 0; i < size_; ++i)
-        if (hot_[i].at_wall) predict_again(i);
+        if (hot_[i].at_wall) reschedule(i);
 }
 
 /// All clocks restart.
@@ -189,12 +190,13 @@ void PlainLists::predict(Number i) {
     const Flight<double> flight = me.flight;
     FirstMeeting best = first_on_list_(hot_.data(), i, &lists_[room_ * i], own_list);
     if (me.at_wall) {
-        const Leg& leg = this->leg();
+        const Segment& segment = this->segment();
         const double clearance = container_radius_ - me.radius;
-        if (leg.turning != 0.0 ||
-            !is_well_inside(apart_at(flight, {leg.start, leg.velocity, leg.begin}, best.time),
-                            clearance)) {
-            const double time = time_of_wall_contact(flight, leg, clearance);
+        if (segment.turning != 0.0 ||
+            !is_well_inside(
+                apart_at(flight, {segment.start, segment.velocity, segment.begin}, best.time),
+                clearance)) {
+            const double time = time_of_wall_contact(flight, segment, clearance);
             if (precedes({time, i, i}, {best.time, i, best.partner})) best = {time, i};
         }
     }
@@ -209,7 +211,7 @@ void PlainLists::predict(Number i) {
     pending.changes = best.partner < size_ ? hot_[best.partner].changes : 0;
 }
 
-void PlainLists::predict_again(Number i) {
+void PlainLists::reschedule(Number i) {
     if (pending_[i].bin != nobody) leave_bin(i);
     predict(i);
     enter_bin(i);
@@ -347,7 +349,7 @@ bool PlainLists::comes_before(Number i, Number j) const {
 PlainLists::Number PlainLists::first_in_calendar() {
     const std::size_t later = first_in_bin_.size() - 1;
     while (first_in_bin_[now_] == nobody) {
-        if (calendar_begin_ + bin_width_ * double(now_) > leg().end) return nobody;
+        if (calendar_begin_ + bin_width_ * double(now_) > segment().end) return nobody;
         if (++now_ < later) {
             fetch_what_comes();
             continue;

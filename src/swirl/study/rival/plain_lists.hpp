@@ -56,15 +56,15 @@ class PlainLists {
         Number next, previous;
     };
 
-    const Leg& leg() const { return path_.legs[leg_]; }
+    const Segment& segment() const { return path_.segments[segment_]; }
     Event collision(Number i, Number partner, double time);
     void move_to(Number i, double time);
-    Event end_leg();
-    void begin_leg();
+    Event end_segment();
+    void begin_segment();
     void begin_swirl();
 
     void predict(Number i);
-    void predict_again(Number i);
+    void reschedule(Number i);
 
     void renew_list(Number i, double time);
     void look_out_for_wall(Number i);
@@ -90,8 +90,8 @@ class PlainLists {
     double container_radius_;
     Surface disc_surface_, wall_surface_;
     Number size_;
-    std::size_t leg_ = 0;
-    std::int64_t swirls_ = 0;
+    std::size_t segment_ = 0;
+    std::int64_t periods_ = 0;
     std::uint64_t renewed_lists_ = 0;
 
     double skin_, largest_radius_;

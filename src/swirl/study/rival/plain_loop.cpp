@@ -26,12 +26,12 @@ PlainLoop::PlainLoop(const InitialState& initial, Width width)
 Event PlainLoop::step() {
     const FlightColumns columns{x_.data(),    y_.data(),      vx_.data(), vy_.data(),
                                 time_.data(), radius_.data(), size_};
-    const Event event = discs_.apply(
-        search_(columns, discs_.leg(), radius_of_container_, wall_times_.data(), times_.data()));
+    const Event event = discs_.apply(search_(columns, discs_.segment(), radius_of_container_,
+                                             wall_times_.data(), times_.data()));
     if (event.kind != EventKind::path_vertex) {
         copy(event.i);
         copy(event.j);
-    } else if (discs_.leg().begin == 0.0) {
+    } else if (discs_.segment().begin == 0.0) {
         copy_all();
     }
     return event;

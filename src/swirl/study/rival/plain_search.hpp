@@ -40,15 +40,15 @@ SWIRL_INLINE Flight<Eight> eight_times(const Flight<double>& flight) {
             Eight(flight.time)};
 }
 
-SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const Leg& leg,
+SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const Segment& segment,
                                              double container_radius, double* __restrict times) {
     const double R = container_radius;
-    if (leg.turning != 0.0) {
+    if (segment.turning != 0.0) {
         for (std::size_t i = 0; i < discs.size; ++i)
-            times[i] = time_of_turning_wall_contact(discs.flight(i), leg, R - discs.radius[i]);
+            times[i] = time_of_turning_wall_contact(discs.flight(i), segment, R - discs.radius[i]);
         return;
     }
-    const Flight<Eight> centre = eight_times({leg.start, leg.velocity, leg.begin});
+    const Flight<Eight> centre = eight_times({segment.start, segment.velocity, segment.begin});
     for (std::size_t i = 0; i < discs.size; i += 8)
         time_of_wall_contact(eight_flights(discs, i), centre,
                              Eight(R) - Eight::load(discs.radius + i))
@@ -89,7 +89,7 @@ SWIRL_INLINE PendingEvent find_first_of_few(const FlightColumns& discs, const do
     return {time, static_cast<std::uint32_t>(disc), static_cast<std::uint32_t>(partner)};
 }
 
-SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double end_of_leg,
+SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double end_of_segment,
                                              const double* wall_times) {
     const auto number = [](std::size_t k) { return static_cast<std::uint32_t>(k); };
     PendingEvent first{never, number(discs.size), number(discs.size)};
@@ -98,7 +98,7 @@ SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double 
     for (std::size_t i = 0; i < discs.size; ++i) {
         const Flight<double> flight = discs.flight(i);
         for (std::size_t begin = (i + 1) / 8 * 8; begin < discs.size; begin += 8) {
-            unsigned near = may_come_before(discs, i, begin, smaller(first.time, end_of_leg));
+            unsigned near = may_come_before(discs, i, begin, smaller(first.time, end_of_segment));
             if (begin <= i) near &= ~0u << (i + 1 - begin);
             for (; near != 0; near &= near - 1) {
                 const std::size_t j = begin + static_cast<unsigned>(__builtin_ctz(near));
@@ -113,21 +113,22 @@ SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double 
 }
 
 /// Or the end of the leg. Both arrays are columns, too.
-SWIRL_INLINE PendingEvent find_first_of_all(const FlightColumns& discs, const Leg& leg,
+SWIRL_INLINE PendingEvent find_first_of_all(const FlightColumns& discs, const Segment& segment,
                                             double container_radius, double* __restrict wall_times,
                                             double* __restrict times) {
-    find_times_of_wall_contact(discs, leg, container_radius, wall_times);
-    const PendingEvent first = discs.size <= 12 ? find_first_of_few(discs, wall_times, times)
-                                                : find_first_of_many(discs, leg.end, wall_times);
-    if (first.time < leg.end) return first;
+    find_times_of_wall_contact(discs, segment, container_radius, wall_times);
+    const PendingEvent first = discs.size <= 12
+                                   ? find_first_of_few(discs, wall_times, times)
+                                   : find_first_of_many(discs, segment.end, wall_times);
+    if (first.time < segment.end) return first;
     const auto everybody = static_cast<std::uint32_t>(discs.size);
-    return {leg.end, everybody, everybody};
+    return {segment.end, everybody, everybody};
 }
 
-using PlainSearch = PendingEvent (*)(const FlightColumns& discs, const Leg& leg,
+using PlainSearch = PendingEvent (*)(const FlightColumns& discs, const Segment& segment,
                                      double container_radius, double* wall_times, double* times);
-PendingEvent plain_search_baseline(const FlightColumns&, const Leg&, double, double*, double*);
-PendingEvent plain_search_avx2(const FlightColumns&, const Leg&, double, double*, double*);
-PendingEvent plain_search_avx512(const FlightColumns&, const Leg&, double, double*, double*);
+PendingEvent plain_search_baseline(const FlightColumns&, const Segment&, double, double*, double*);
+PendingEvent plain_search_avx2(const FlightColumns&, const Segment&, double, double*, double*);
+PendingEvent plain_search_avx512(const FlightColumns&, const Segment&, double, double*, double*);
 
 }  // namespace swirl

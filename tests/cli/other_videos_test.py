@@ -1,4 +1,4 @@
-"""swirl track on films that were made without it (other_films.py): other dynamics, other looks, other
+"""swirl track on films that were made without it (other_videos.py): other dynamics, other looks, other
 faults. What is found is near the truth, or the film is refused with the cause."""
 
 import csv
@@ -9,7 +9,7 @@ import unittest
 
 try:
     import numpy
-    import other_films
+    import other_videos
 except ImportError:
     print("skipped: numpy is not installed; Debian's package python3-numpy provides it.")
     sys.exit(77)
@@ -20,7 +20,7 @@ from program import InFolder, swirl
 class OtherFilms(InFolder):
     def call(self, *more, **faults):
         path = self.path("film.mp4")
-        film = other_films.make(path, **faults)
+        film = other_videos.make(path, **faults)
         done = swirl("track", path, "--out", self.path("tracks.csv"), "--overwrite", *more)
         if "has no eyes" in done.stderr:
             self.skipTest("this build was made without OpenCV")

@@ -8,7 +8,7 @@
 
 namespace swirl {
 
-struct DishPath {
+struct TrackedPath {
     Vec2 centre{0.0, 0.0};
     double amplitude = 0.0;
     double omega = 0.0;  // per unit of time, above 0
@@ -25,7 +25,7 @@ struct DishPath {
 /// Circle or polygon, as far as the path tells (dish.hpp).
 struct PathPolygon {
     int sides = 0;         // 0: no polygon of up to most_sides
-    int most_sides = 0;    // that would have been seen: 5 standard errors, twice a side
+    int max_sides = 0;     // that would have been seen: 5 standard errors, twice a side
     double corners = 0.0;  // distance of the corners from the middle, pixels
 };
 
