@@ -1,6 +1,5 @@
-// count_instructions SCENE EVENTS: runs so many events and nothing else, for
-// instructions_test.py to count under valgrind. Baseline vectors, which valgrind and every
-// processor know.
+// count_instructions SCENE EVENTS: executes that many events; instructions_test.py counts its
+// instructions under valgrind. Uses baseline vectors, which valgrind and every processor support.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

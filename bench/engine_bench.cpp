@@ -1,9 +1,9 @@
-// What the pieces of an event cost, one by one (Google Benchmark): the law, a contact time alone
-// and eight at once, an event, a snapshot brought up to date, a look at the rotation.
+// The cost of the parts of an event (Google Benchmark): the collision law, one contact time, eight
+// contact times at once, an event, an updated snapshot, a sample of the rotation.
 //
 //     bench_engine [--benchmark_filter=...]
 //
-// For the rates of whole scenes: swirl bench.
+// bench/run measures the rates of whole scenes.
 #include <benchmark/benchmark.h>
 
 #include <vector>

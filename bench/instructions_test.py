@@ -1,9 +1,8 @@
-"""Instructions per event, counted by callgrind: a measure of work that is the same on a busy machine
-and an idle one, to a fraction of a per cent. Who makes the loop longer must raise the allowance
-here, and say why.
+"""Instructions per event, counted by callgrind. Unlike a time, the count does not depend on the load of
+the machine. A change that makes the loop longer must raise the allowance here and give the reason.
 
-The count is that of a long run less that of a shorter one, so starting up does not enter. Allowed is
-what was found when the number was written down, and a tenth for other compilers' choices."""
+The count is the difference of a long and a short run, so that start-up does not enter. The allowance is
+the count when it was recorded plus a tenth, for the choices of other compilers."""
 
 import os
 import re

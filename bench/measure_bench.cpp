@@ -1,6 +1,6 @@
-// What sampling costs: N = 48 in the paper's dish, one swirl per iteration. Every line is a whole
-// run, simulation included; the first is the simulation alone. Samples by time: 511 per swirl, the
-// paper's camera. The last lines are single samples.
+// The cost of sampling: N = 48 in the paper's container, one period per iteration. Every line is a
+// whole run, simulation included; the first line is the simulation alone. Samples by time: 511 per
+// period, as the paper's camera. The last lines are single samples.
 #include <benchmark/benchmark.h>
 
 #include <functional>
@@ -31,10 +31,10 @@ constexpr int camera = 511;
 constexpr double R = paper_container_radius;
 
 Simulation container(std::size_t discs) {
-    const auto places = place_discs(std::vector<double>(discs, 1.0), R, 1);
+    const auto positions = place_discs(std::vector<double>(discs, 1.0), R, 1);
     InitialState scene{{}, polygon_path(paper_amplitude, paper_period, paper_sides), R, {}, {}};
     const Segment& segment = scene.path.segments.front();
-    for (const Vec2& p : *places)
+    for (const Vec2& p : *positions)
         scene.discs.push_back(
             {segment.start + p, segment.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
     Simulation simulation(scene);
@@ -43,7 +43,7 @@ Simulation container(std::size_t discs) {
 }
 
 struct Samples {
-    std::function<void(const Snapshot&)> by_time;  // null: nobody samples
+    std::function<void(const Snapshot&)> by_time;  // null: no_disc samples
     std::function<void(const Snapshot&, const Event&)> by_event;
     std::function<void()> close_block = [] {};
 };

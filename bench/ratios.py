@@ -6,7 +6,7 @@ import sys
 
 
 def measured(file):
-    """Rates by scene, discs and width, and what has a name and is no rate or ratio to a rival."""
+    """Rates by scene, discs and width, and the named values that are neither rates nor ratios to a baseline."""
     with open(file) as f:
         result = json.load(f)
     rates = {(row["scene"], row["discs"], row["width"]): row["rate"] for row in result["rows"]}

@@ -1,7 +1,6 @@
-// replay dish|large|gas: what mispredicted branches cost (docs/performance.md, "Where the limit
-// is"). Runs the same few events again and again, each time from the same state, until the
-// processor knows every branch by heart, and as many events that it has not seen. Prints ns of the
-// processor per event.
+// replay dish|large|gas: the cost of mispredicted branches (docs/performance.md, "Where the limit
+// is"). Repeats the same few events from the same state until the processor has learnt every branch,
+// and compares them with as many new events. Prints nanoseconds of processor time per event.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -35,11 +34,11 @@ int main(int argc, char** argv) {
     swirl::InitialState scene = gas     ? swirl::gas_at_rest(1000, 0.7)
                                 : large ? large_container(500)
                                         : swirl::paper_container(48);
-    constexpr int places = 12, times = 2000, few = 300;
+    constexpr int positions = 12, times = 2000, few = 300;
     swirl::Simulation simulation(scene);
     std::int64_t swirl = 30;
     std::vector<double> by_heart, unseen;
-    for (int place = 0; place < places; ++place) {
+    for (int place = 0; place < positions; ++place) {
         // At the beginning of a swirl, where all clocks stand at 0.
         simulation.advance_to(swirl += 3, 0.0);
         for (std::size_t i = 0; i < scene.discs.size(); ++i) scene.discs[i] = simulation.disc(i);

@@ -1,7 +1,6 @@
-"""bench/table.py RUN.csv...: what `swirl bench --csv` wrote, as the tables of docs/performance.md.
+"""bench/table.py RUN.csv...: prints the files of `bench/run --csv` as the tables of docs/performance.md.
 
-Of several runs the median, and the range where it is not one number. The columns of the files are
-explained in bench/results/README.md.
+For several runs it prints the median and the range. bench/results/README.md explains the columns.
 """
 
 import csv
@@ -44,16 +43,16 @@ def numbers(rows, column):
 
 
 def tables(found):
-    lines = ["| scene | N | engine | rival | its rate | ratio | invalidated | rebuilt |",
+    lines = ["| scene | N | engine | baseline | baseline rate | ratio | invalidated | rebuilt |",
              "|---|---|---|---|---|---|---|---|"]
     several = len({width for _, _, width in found}) > 1
     for (scene, n, width), rows in found.items():
-        rates, rivals = numbers(rows, "rate"), numbers(rows, "rival_rate")
-        ratios = [rate / rival for rate, rival in zip(rates, rivals)]
+        rates, baselines = numbers(rows, "rate"), numbers(rows, "baseline_rate")
+        ratios = [rate / baseline for rate, baseline in zip(rates, baselines)]
         lines.append(
             f"| {scene}{', ' + width if several else ''} | {discs(n)} | {middle(rates, 1e6)} "
-            f"| {' or '.join(sorted({row['rival'] for row in rows if row['rival']}))} "
-            f"| {middle(rivals, 1e6) if rivals else ''} | {middle(ratios) if ratios else ''} "
+            f"| {' or '.join(sorted({row['baseline'] for row in rows if row['baseline']}))} "
+            f"| {middle(baselines, 1e6) if baselines else ''} | {middle(ratios) if ratios else ''} "
             f"| {number(statistics.median(numbers(rows, 'invalidated_per_event')))} "
             f"| {number(statistics.median(numbers(rows, 'list_rebuilds_per_event')))} |")
     lines += ["", "| compared | N | by | value |", "|---|---|---|---|"]

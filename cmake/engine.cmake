@@ -9,30 +9,37 @@ target_compile_options(swirl_physics INTERFACE -ffp-contract=off)
 target_include_directories(swirl_physics INTERFACE
   $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
 
-# The event loop is compiled once for each vector width, and the widest that the processor has is
-# chosen at run time; so are the search of its rival and the averages by event. The files of these
-# names get wider instructions; everything else is baseline x86-64.
+# The event loop and the averages by event are compiled once for each vector width; the program picks
+# the widest that the processor has. swirl_vector_sources(VARIABLE) gives NAME_avx2.cpp and
+# NAME_avx512.cpp in that list their instruction sets, and drops them on other architectures.
+# Everything else is baseline x86-64.
+function(swirl_vector_sources variable)
+  set(sources ${${variable}})
+  set(avx2_sources ${sources})
+  set(avx512_sources ${sources})
+  list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
+  list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    # The undefined-behaviour sanitizer checks the baseline loop only: the wide loops are the same
+    # source, and each of them takes the compiler a minute more with it.
+    set(once $<$<BOOL:${SWIRL_SANITIZE}>:-fno-sanitize=undefined>)
+    set_source_files_properties(${avx2_sources} PROPERTIES COMPILE_OPTIONS "-mavx2;${once}")
+    # g++ 12 warns about its own intrinsics there.
+    set_source_files_properties(${avx512_sources} PROPERTIES COMPILE_OPTIONS
+      "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>;${once}")
+    set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES
+      SKIP_UNITY_BUILD_INCLUSION ON)
+  else()
+    list(FILTER sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+  endif()
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
 file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS src/swirl/engine/*.cpp)
 file(GLOB_RECURSE statistics_sources CONFIGURE_DEPENDS src/swirl/statistics/*.cpp)
 file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/swirl/measure/*.cpp)
-file(GLOB_RECURSE rival_sources CONFIGURE_DEPENDS src/swirl/study/rival/*.cpp)
-set(avx2_sources ${engine_sources} ${measure_sources} ${rival_sources})
-set(avx512_sources ${avx2_sources})
-list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
-list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  # The same text three times; undefined behaviour is looked for once, as that takes the compiler a
-  # minute and more.
-  set(once $<$<BOOL:${SWIRL_SANITIZE}>:-fno-sanitize=undefined>)
-  set_source_files_properties(${avx2_sources} PROPERTIES COMPILE_OPTIONS "-mavx2;${once}")
-  # g++ 12 warns about its own intrinsics there.
-  set_source_files_properties(${avx512_sources} PROPERTIES COMPILE_OPTIONS
-    "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>;${once}")
-else()
-  list(FILTER engine_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
-  list(FILTER measure_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
-  list(FILTER rival_sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
-endif()
+swirl_vector_sources(engine_sources)
+swirl_vector_sources(measure_sources)
 
 add_library(swirl_engine STATIC ${engine_sources})
 target_link_libraries(swirl_engine PUBLIC swirl_physics)
@@ -49,11 +56,6 @@ endforeach()
 target_link_libraries(swirl_statistics PUBLIC swirl_physics)
 target_link_libraries(swirl_measure PUBLIC swirl_statistics)
 swirl_compiled_at_once(swirl_measure)
-set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-# The plain loop that the benchmark and the tests hold the engine against.
-add_library(swirl_rival STATIC ${rival_sources})
-target_link_libraries(swirl_rival PUBLIC swirl_engine)
-
 # By these names, installed or as a subdirectory.
 add_library(swirl::engine ALIAS swirl_engine)
 add_library(swirl::statistics ALIAS swirl_statistics)

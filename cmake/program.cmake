@@ -50,7 +50,7 @@ set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_layer(run -O1 PUBLIC swirl_io)
 swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
-swirl_layer(study -O1 PUBLIC swirl_run swirl_rival Threads::Threads)
+swirl_layer(study -O1 PUBLIC swirl_run Threads::Threads)
 swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)

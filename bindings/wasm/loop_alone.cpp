@@ -1,5 +1,5 @@
-// The event loop alone, with nobody who looks on: what WebAssembly comes to beside
-// `swirl bench --width baseline` (web/test/speed.mjs). No part of the laboratory.
+// The event loop alone, with no_disc who looks on: what WebAssembly comes to beside
+// `bench/run --width baseline` (web/test/speed.mjs). No part of the laboratory.
 #include <cstdint>
 #include <memory>
 #include <string>

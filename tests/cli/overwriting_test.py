@@ -305,8 +305,6 @@ class Names(InFolder):
 
     def test_one_file_for_two_things_of_other_commands(self):
         self.refused("crossing", "--json", "x", "--csv", "./x")
-        self.refused("bench", "--json", "x", "--csv", "./x")
-        self.refused("bench", "--json", "-", "--csv", "-", says="standard output")
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
         self.refused("collect", "study", "--csv", "x", "--crossings", "./x")

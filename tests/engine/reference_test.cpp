@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "baselines/all_pairs.hpp"
+#include "baselines/neighbor_lists.hpp"
 #include "engine/plain_grid.hpp"
 #include "engine/same_trajectory.hpp"
 #include "engine/scenes.hpp"
-#include "swirl/study/rival/plain_lists.hpp"
-#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
@@ -41,7 +41,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitAtEveryNumberOfVectors) {
     for (const std::size_t n : {8u, 9u, 16u, 17u, 24u, 25u, 32u, 33u, 40u, 41u})
         expect_same_trajectory(paper_container(n), 3000, tuning());
 }
-// Their times are one row, two, four of which one is nobody's, four, six and eight.
+// Their times are one row, two, four of which one is no_disc's, four, six and eight.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsWhereDiscsAreFew) {
     for (const std::size_t n : {1u, 2u, 5u, 12u, 20u, 28u, 40u, 52u})
         expect_same_trajectory(paper_container(n), 20000, tuning(1));
@@ -102,7 +102,7 @@ TEST_P(EveryWidth, EngineIsTheReferenceBitForBitWithListsInADishMuchWiderThanIts
                                   2e6 + 2.001 * static_cast<double>(i / 7)};
     expect_same_trajectory(heap, 300, tuning(NeighbourSearch::lists));
 }
-// Far from the origin places are known less well; a small turn is a long way.
+// Far from the origin positions are known less well; a small turn is a long way.
 TEST_P(EveryWidth, EngineIsTheReferenceBitForBitOnLongAndShortCircles) {
     for (const double amplitude : {1e-3, 30.0, 1e6}) {
         for (const std::size_t n : {28u, 48u}) {
@@ -297,7 +297,7 @@ TEST(FastDish, ListsAreRebuiltNoMoreOftenThanDiscsCollide) {
     simulation.run(20000);
     EXPECT_LT(simulation.loop_counts().list_rebuilds, 20000u);
 }
-// Every loop over all discs asks, from the first on; and once it was told so, nobody goes on.
+// Every loop over all discs asks, from the first on; and once it was told so, no_disc goes on.
 TEST(Stop, EndsTheMakingOfASimulationWhereverItIs) {
     const InitialState scene = gas_at_rest(5000, 0.7);
     InitialState spheres = scene;
@@ -449,7 +449,7 @@ TEST(ThinGas, CellsAreLaidAnewAFewTimesWhileItGathers) {
     simulation.run(sanitized ? 20000 : 400000);
     EXPECT_LT(simulation.loop_counts().full_rebuilds, 10u);
 }
-// In a thin dish that swirls nobody is carried from cell to cell by the container.
+// In a thin dish that swirls no_disc is carried from cell to cell by the container.
 TEST(ThinDish, DiscsEnterCellsNoOftenerThanTheyFlyThere) {
     InitialState scene =
         state_of({unit_disc()}, 2000, 258.0,
@@ -462,14 +462,14 @@ TEST(ThinDish, DiscsEnterCellsNoOftenerThanTheyFlyThere) {
     EXPECT_LT(simulation.loop_counts().list_rebuilds, 2000u);
 }
 
-// The rivals of the benchmark.
+// The baselines of the benchmark.
 
 /// Events one by one, and everybody at the end.
-template <class Rival>
-void expect_the_same(const InitialState& scene, Rival rival, int events) {
+template <class Baseline>
+void expect_the_same(const InitialState& scene, Baseline baseline, int events) {
     Reference plain(scene);
     for (int k = 0; k < events; ++k) {
-        const Event expected = plain.step(), found = rival.step();
+        const Event expected = plain.step(), found = baseline.step();
         ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
         ASSERT_EQ(expected.periods, found.periods) << "event " << k;
         ASSERT_EQ(expected.kind, found.kind) << "event " << k;
@@ -479,21 +479,22 @@ void expect_the_same(const InitialState& scene, Rival rival, int events) {
         ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
     }
     for (std::size_t i = 0; i < scene.discs.size(); ++i)
-        expect_same_state(plain.disc(i), rival.disc(i));
+        expect_same_state(plain.disc(i), baseline.disc(i));
 }
 
 TEST_P(EveryWidth, PlainLoopIsTheReferenceBitForBit) {
     for (const InitialState& scene :
          {paper_container(5), paper_container(28), paper_container(48), mixture_container(),
           gas_at_rest(101, 0.3), on_circle(paper_container(28))})
-        expect_the_same(scene, PlainLoop(scene, GetParam()), 5000);
+        expect_the_same(scene, AllPairsBaseline(scene, GetParam()), 5000);
 }
 TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInAGas) {
     // Dense, thin, and with lists that hold nearly everybody; over the end of a swirl, too.
     for (const auto& [packing, skin] : {std::pair{0.7, 0.6}, {0.2, 2.0}, {0.02, 5.0}}) {
         InitialState scene = gas_at_rest(101, packing);
         scene.path = still_path(3.0);
-        expect_the_same(scene, PlainLists(scene, skin, GetParam()), sanitized ? 1000 : 10000);
+        expect_the_same(scene, NeighborListBaseline(scene, skin, GetParam()),
+                        sanitized ? 1000 : 10000);
     }
 }
 // Lists that are left at once, and that hold nearly everybody.
@@ -507,12 +508,14 @@ TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitInASwirledDish) {
     for (const InitialState& scene : {paper_container(5), paper_container(48), dissipative, thin,
                                       mixture_container(), large_among_small(4, 60, 0.1, 3.0)})
         for (const double skin : {0.05, 0.5, 3.0})
-            expect_the_same(scene, PlainLists(scene, skin, GetParam()), sanitized ? 300 : 3000);
+            expect_the_same(scene, NeighborListBaseline(scene, skin, GetParam()),
+                            sanitized ? 300 : 3000);
 }
 TEST_P(EveryWidth, PlainListsAreTheReferenceBitForBitOnTheExactCircle) {
     for (const std::size_t n : {5u, 48u}) {
         const InitialState scene = on_circle(paper_container(n));
-        expect_the_same(scene, PlainLists(scene, 0.4, GetParam()), sanitized ? 300 : 5000);
+        expect_the_same(scene, NeighborListBaseline(scene, 0.4, GetParam()),
+                        sanitized ? 300 : 5000);
     }
 }
 

@@ -15,8 +15,8 @@ LIBRARIES = os.environ["SWIRL_LIBRARIES"]
 ALLOWED = {
     ("libswirl_engine.a", "event_loop_avx2.cpp.o"): ["swirl::event_loops_avx2"],
     ("libswirl_engine.a", "event_loop_avx512.cpp.o"): ["swirl::event_loops_avx512"],
-    ("libswirl_rival.a", "plain_search_avx2.cpp.o"): ["swirl::plain_search_avx2"],
-    ("libswirl_rival.a", "plain_search_avx512.cpp.o"): ["swirl::plain_search_avx512"],
+    ("bench/libswirl_baselines.a", "all_pairs_search_avx2.cpp.o"): ["swirl::all_pairs_search_avx2"],
+    ("bench/libswirl_baselines.a", "all_pairs_search_avx512.cpp.o"): ["swirl::all_pairs_search_avx512"],
     ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::kernel"],
     ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::kernel"],
 }

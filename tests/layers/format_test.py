@@ -1,4 +1,4 @@
-"""Every C++ file is as clang-format and the file .clang-format have it."""
+"""Every C++ file is formatted as .clang-format says."""
 
 import os
 import shutil
@@ -10,7 +10,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 
 
 def files():
-    for top in ("src", "tests", "bench", "examples"):
+    for top in ("src", "bindings", "tests", "bench", "examples"):
         for folder, _, names in os.walk(os.path.join(SOURCE, top)):
             for name in names:
                 if name.endswith((".hpp", ".cpp")):
@@ -19,7 +19,7 @@ def files():
 
 class Format(unittest.TestCase):
     @unittest.skipUnless(shutil.which("clang-format"), "clang-format is not installed")
-    def test_nothing_to_change(self):
+    def test_every_file_is_formatted(self):
         names = sorted(files())
         self.assertTrue(names)
         done = subprocess.run(["clang-format", "--dry-run", "-Werror", *names],

@@ -1,6 +1,6 @@
 // How fast the engine is as WebAssembly: node speed.mjs SWIRL, after ./swirl lab. Prints events per second in
 // this Node.js, by turns with the program SWIRL: of the event loop alone, with vectors and without, beside
-// `swirl bench --width baseline`, and with the page's averages beside `swirl run`.
+// `bench/run --width baseline`, and with the page's averages beside `swirl run`.
 import {execFileSync} from "node:child_process";
 import {readFileSync} from "node:fs";
 import {dirname, join} from "node:path";
@@ -51,7 +51,7 @@ const rows = new Map([48, 28, 5].map((discs) =>
 for (let turn = 0; turn < 5; ++turn) {
     const bench = benchRates();
     for (const [discs, row] of rows) {
-        row.native.push(bench.find((r) => r.scene.startsWith("dish, mu = 1") && r.discs === discs).rate / 1e6);
+        row.native.push(bench.find((r) => r.scene.startsWith("container, mu = 1") && r.discs === discs).rate / 1e6);
         row.loop.push(loopRate(loop, discs));
         row.scalar.push(loopRate(scalar, discs));
         row.run.push(runRate(discs));

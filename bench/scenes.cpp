@@ -1,4 +1,4 @@
-#include "swirl/study/bench_scenes.hpp"
+#include "scenes.hpp"
 
 #include "swirl/engine/placement.hpp"
 #include "swirl/math/random.hpp"
@@ -8,19 +8,19 @@
 namespace swirl {
 namespace {
 
-// The paper's dish at N = 48: 48 / 8.6².
+// The packing fraction of the paper's container at N = 48: 48 / 8.6².
 constexpr double paper_packing = 48.0 / (paper_container_radius * paper_container_radius);
-// The experiment's at N = 48.
+// The packing fraction of the paper's experiment at N = 48.
 constexpr double spheres_packing =
     48.0 / (experiment_container_radius * experiment_container_radius);
 
-// What is aimed at: everywhere twice the rate of the rival; no swirled dish below a third of the
-// rate at N = 48, large ones that have settled not below 0.8 of it; on the exact circle no more
-// than 1.3 times the polygon's time per swirl.
+// Targets: twice the rate of the baseline everywhere; in a container at least a third of the rate at
+// N = 48, and 0.8 of it where many discs have settled; on the exact circle at most 1.3 times the
+// time per period on the polygon.
 constexpr double twice = 2.0, third = 1.0 / 3.0, settled = 0.8, circle = 1.3;
 
 BenchScene container_of(std::int64_t discs) {
-    return {.name = "dish, mu = 1",
+    return {.name = "container, mu = 1",
             .kind = BenchScene::Kind::container,
             .discs = discs,
             .periods = 30,
@@ -39,18 +39,18 @@ BenchScene with_sides(const char* name, int sides) {
     return scene;
 }
 BenchScene mixture() {
-    BenchScene scene = variant("dish, radii 1 and 0.7");
+    BenchScene scene = variant("container, radii 1 and 0.7");
     scene.second_radius = 0.7;
     return scene;
 }
 BenchScene smooth() {
-    BenchScene scene = variant("dish, mu_disc = 0");
+    BenchScene scene = variant("container, mu_disc = 0");
     scene.mu_disc = 0.0;
     return scene;
 }
 BenchScene on_circle(std::int64_t discs) {
     BenchScene scene = container_of(discs);
-    scene.name = "dish, exact circle";
+    scene.name = "container, exact circle";
     if (discs > 48) scene.packing = paper_packing;
     scene.sides = 0;
     scene.compared_with = ComparedWith::polygon;
@@ -59,7 +59,7 @@ BenchScene on_circle(std::int64_t discs) {
 }
 BenchScene large(std::int64_t discs, std::int64_t periods, std::optional<double> target) {
     BenchScene scene = container_of(discs);
-    scene.name = "large dish, swirl " + std::to_string(periods) + " on";
+    scene.name = "large container, period " + std::to_string(periods) + " on";
     scene.packing = paper_packing;
     scene.periods = periods;
     scene.compared_with = ComparedWith::paper_container;
@@ -67,8 +67,8 @@ BenchScene large(std::int64_t discs, std::int64_t periods, std::optional<double>
     scene.only_full = discs > 2000;
     return scene;
 }
-/// From the third swirl on: later all discs have gathered somewhere.
-BenchScene thin(const char* name, double packing, std::int64_t replayed_periods) {
+/// Starts with the third period: later all discs have gathered in one place.
+BenchScene dilute(const char* name, double packing, std::int64_t replayed_periods) {
     BenchScene scene = variant(name);
     scene.discs = 2000;
     scene.packing = packing;
@@ -96,7 +96,7 @@ BenchScene of_spheres(std::int64_t discs) {
             .discs = discs,
             .packing = spheres_packing,
             .ratio_target = 10.0,
-            .has_rival = discs <= 500,
+            .has_baseline = discs <= 500,
             .only_full = discs > 500};
 }
 
@@ -107,8 +107,8 @@ const std::vector<BenchScene>& bench_scenes() {
         container_of(48),
         container_of(28),
         container_of(5),
-        with_sides("dish, 300 sides", 300),
-        with_sides("dish, 3000 sides", 3000),
+        with_sides("container, 300 sides", 300),
+        with_sides("container, 3000 sides", 3000),
         mixture(),
         smooth(),
         on_circle(5),
@@ -117,10 +117,10 @@ const std::vector<BenchScene>& bench_scenes() {
         on_circle(500),
         large(500, 30, settled),
         large(2000, 30, settled),
-        large(100000, 2, {}),  // thirty swirls of it are 10⁹ events
-        thin("thin dish, packing 0.38", 0.38, 1),
-        thin("thin dish, packing 0.2", 0.2, 5),
-        thin("thin dish, packing 0.1", 0.1, 10),
+        large(100000, 2, {}),  // thirty periods would be 10⁹ events
+        dilute("dilute container, packing 0.38", 0.38, 1),
+        dilute("dilute container, packing 0.2", 0.2, 5),
+        dilute("dilute container, packing 0.1", 0.1, 10),
         elastic("gas, packing 0.85", 0.85, 10000),
         elastic(dense_gas, 0.70, 1000),
         elastic(dense_gas, 0.70, 10000),
@@ -169,13 +169,13 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     if (scene.packing > 0.0) initial.container_radius = square_root(squares / scene.packing);
     const auto centres =
         place_discs(radii, initial.container_radius, 1, stopped_by(stop).is_stopped);
-    if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
-    if (!centres) throw Failure("The discs of a benchmark did not fit into their dish.");
+    if (stop && stop->load()) throw Interrupted("stopped before the benchmark was complete");
+    if (!centres) throw Failure("the discs of a benchmark do not fit into their container");
     Random random(2);
     const Segment& segment = initial.path.segments.front();
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double r = radii[i], mass = r * r;
-        // A gas begins with the same energy for all, on average.
+        // In a gas all discs start with the same energy on average.
         const Vec2 velocity = random.in_disc(still ? 1.0 / r : 0.1);
         initial.discs.push_back(
             {segment.start + (*centres)[i], segment.velocity + velocity, 0.0, 0.0, 0.0, r, mass,

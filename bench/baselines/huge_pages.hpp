@@ -1,4 +1,4 @@
-// Arrays that begin at a cache line; large ones ask the system for huge pages.
+// Arrays aligned to cache lines; large ones request huge pages from the system.
 #pragma once
 
 #if defined(__linux__)

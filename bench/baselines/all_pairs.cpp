@@ -1,29 +1,29 @@
-#include "swirl/study/rival/plain_loop.hpp"
+#include "baselines/all_pairs.hpp"
 
 namespace swirl {
 
-PlainSearch plain_search(Width width) {
+AllPairsSearch all_pairs_search(Width width) {
 #if defined(__x86_64__)
     width = width_meant(width);
-    if (width == Width::avx512) return plain_search_avx512;
-    if (width == Width::avx2) return plain_search_avx2;
+    if (width == Width::avx512) return all_pairs_search_avx512;
+    if (width == Width::avx2) return all_pairs_search_avx2;
 #endif
-    return plain_search_baseline;
+    return all_pairs_search_baseline;
 }
 
-PlainLoop::PlainLoop(const InitialState& initial, Width width)
+AllPairsBaseline::AllPairsBaseline(const InitialState& initial, Width width)
     : discs_(initial),
       radius_of_container_(initial.container_radius),
-      search_(plain_search(width)),
+      search_(all_pairs_search(width)),
       size_(initial.discs.size()) {
-    const std::size_t room = (size_ + 7) / 8 * 8;
+    const std::size_t capacity = (size_ + 7) / 8 * 8;
     for (auto* column : {&y_, &vx_, &vy_, &time_, &radius_, &wall_times_, &times_})
-        column->resize(room);
-    x_.resize(room, 1e100);
+        column->resize(capacity);
+    x_.resize(capacity, 1e100);
     copy_all();
 }
 
-Event PlainLoop::step() {
+Event AllPairsBaseline::step() {
     const FlightColumns columns{x_.data(),    y_.data(),      vx_.data(), vy_.data(),
                                 time_.data(), radius_.data(), size_};
     const Event event = discs_.apply(search_(columns, discs_.segment(), radius_of_container_,
@@ -37,16 +37,16 @@ Event PlainLoop::step() {
     return event;
 }
 
-void PlainLoop::copy(std::size_t k) {
+void AllPairsBaseline::copy(std::size_t k) {
     const Disc& d = disc(k);
     x_[k] = d.position.x, y_[k] = d.position.y;
     vx_[k] = d.velocity.x, vy_[k] = d.velocity.y;
     time_[k] = d.time, radius_[k] = d.radius;
 }
-void PlainLoop::copy_all() {
+void AllPairsBaseline::copy_all() {
     for (std::size_t k = 0; k < size_; ++k) copy(k);
 }
 
-Event PlainSpheres::step() { return spheres_.step(); }
+Event SphereBaseline::step() { return spheres_.step(); }
 
 }  // namespace swirl

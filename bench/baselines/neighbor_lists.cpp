@@ -1,4 +1,4 @@
-#include "swirl/study/rival/plain_lists.hpp"
+#include "baselines/neighbor_lists.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,8 +11,8 @@
 namespace swirl {
 namespace {
 
-constexpr double a_little_more = 1.0 + 1e-9;  // than rounding takes away
-// How many bins ahead things are fetched.
+constexpr double rounding_margin = 1.0 + 1e-9;  // larger than the rounding error
+// How many bins ahead data are prefetched.
 constexpr std::size_t bins_to_calendar = 48, bins_to_disc = 24, bins_to_others = 10;
 
 double largest_radius(const std::vector<Disc>& discs) {
@@ -21,7 +21,7 @@ double largest_radius(const std::vector<Disc>& discs) {
     return largest;
 }
 
-/// Of the container's centre from the origin.
+/// Largest distance of the container's centre from the origin.
 double farthest(const ContainerPath& path) {
     double square = 0.0;
     for (const Segment& segment : path.segments)
@@ -29,15 +29,15 @@ double farthest(const ContainerPath& path) {
     return square_root(square);
 }
 
-/// At `time`, from the origin.
-Vec2 apart_at(const Flight<double>& disc, const Flight<double>& centre, double time) {
+/// Separation of the two at `time`.
+Vec2 separation_at(const Flight<double>& disc, const Flight<double>& centre, double time) {
     return disc.position_at(time) - centre.position_at(time);
 }
 
-/// Is a disc that is there now still there at `time`? A circle is convex, so it was all the while.
-/// At its edge that is left open.
+/// Whether a point at distance |apart| is inside a circle. A disc that is inside now and at a later
+/// time is inside in between, as a circle is convex. Near the edge the answer is no.
 bool is_well_inside(const Vec2& apart, double clearance) {
-    return dot(apart, apart) * a_little_more < clearance * clearance;
+    return dot(apart, apart) * rounding_margin < clearance * clearance;
 }
 
 ListSearch list_search(Width width) {
@@ -51,7 +51,7 @@ ListSearch list_search(Width width) {
 
 }  // namespace
 
-PlainLists::PlainLists(const InitialState& initial, double skin, Width width)
+NeighborListBaseline::NeighborListBaseline(const InitialState& initial, double skin, Width width)
     : first_on_list_(list_search(width)),
       path_(initial.path),
       container_radius_(initial.container_radius),
@@ -65,39 +65,39 @@ PlainLists::PlainLists(const InitialState& initial, double skin, Width width)
       cold_(size_),
       pending_(size_),
       homes_of_(size_),
-      lists_(room_ * size_),
+      lists_(capacity_ * size_),
       half_width_(container_radius_ + farthest_centre_),
-      // The last bin: later than all others.
-      first_in_bin_(std::bit_ceil(std::size_t{size_}) + 1, nobody) {
-    const double reach = 2.0 * (largest_radius_ + skin_) * a_little_more;
+      // The last bin holds all later events.
+      first_in_bin_(std::bit_ceil(std::size_t{size_}) + 1, no_disc) {
+    const double reach = 2.0 * (largest_radius_ + skin_) * rounding_margin;
     cells_across_ = std::max<std::size_t>(1, std::size_t(2.0 * half_width_ / reach));
     cells_per_length_ = double(cells_across_) / (2.0 * half_width_);
-    first_in_cell_.assign(cells_across_ * cells_across_, nobody);
+    first_in_cell_.assign(cells_across_ * cells_across_, no_disc);
     for (Number i = 0; i < size_; ++i) {
         const Disc& disc = initial.discs[i];
         hot_[i] = {disc.flight(), disc.radius, 0, 0, false};
         cold_[i] = {disc.angle,   disc.spin,       disc.mass,
                     disc.inertia, 1.0 / disc.mass, 1.0 / disc.inertia};
-        pending_[i].bin = nobody;
-        homes_of_[i].place = disc.position;
+        pending_[i].bin = no_disc;
+        homes_of_[i].position = disc.position;
         enter_cell(i);
     }
     for (Number i = 0; i < size_; ++i) clear_list(i);
     for (Number i = 0; i < size_; ++i) renew_list(i, segment().begin);
-    begin_swirl();
+    begin_period();
 }
 
-Disc PlainLists::disc(std::size_t i) const {
+Disc NeighborListBaseline::disc(std::size_t i) const {
     const Flight<double>& flight = hot_[i].flight;
     const Cold& cold = cold_[i];
     return {flight.position, flight.velocity, cold.angle, cold.spin,
             flight.time,     hot_[i].radius,  cold.mass,  cold.inertia};
 }
 
-Event PlainLists::step() {
+Event NeighborListBaseline::step() {
     for (;;) {
         const Number i = first_in_calendar();
-        if (i == nobody || segment().end <= pending_[i].time) return end_segment();
+        if (i == no_disc || segment().end <= pending_[i].time) return end_segment();
         const double time = pending_[i].time;
         const Number partner = pending_[i].partner;
         if (partner == own_list) {
@@ -116,13 +116,13 @@ Event PlainLists::step() {
     }
 }
 
-Event PlainLists::collision(Number i, Number j, double time) {
+Event NeighborListBaseline::collision(Number i, Number j, double time) {
     const auto body = [this](Number k) {
         const Cold& cold = cold_[k];
         return Body{hot_[k].flight.velocity, cold.spin, hot_[k].radius, cold.inverse_mass,
                     cold.inverse_inertia};
     };
-    const auto take_over = [this](Number k, const Body& after) {
+    const auto write_back = [this](Number k, const Body& after) {
         hot_[k].flight.velocity = after.velocity;
         cold_[k].spin = after.spin;
         ++hot_[k].changes;
@@ -133,7 +133,7 @@ Event PlainLists::collision(Number i, Number j, double time) {
         Body disc = body(i), wall = wall_body(segment().velocity_at(time));
         const Vec2 outwards = hot_[i].flight.position - segment().position_at(time);
         const Impulse J = collide(disc, wall, outwards, at_contact(wall_surface_, since_last));
-        take_over(i, disc);
+        write_back(i, disc);
         return {periods_, time, EventKind::disc_wall, i, i, {}, J, 0.0};
     }
     const double since_last = time - larger(hot_[i].flight.time, hot_[j].flight.time);
@@ -142,19 +142,19 @@ Event PlainLists::collision(Number i, Number j, double time) {
     Body a = body(i), b = body(j);
     const Impulse J = collide(a, b, hot_[j].flight.position - hot_[i].flight.position,
                               at_contact(disc_surface_, since_last));
-    take_over(i, a);
-    take_over(j, b);
+    write_back(i, a);
+    write_back(j, b);
     return {periods_, time, EventKind::disc_disc, i, j, {}, J, 0.0};
 }
 
-void PlainLists::move_to(Number i, double time) {
+void NeighborListBaseline::move_to(Number i, double time) {
     Flight<double>& flight = hot_[i].flight;
     cold_[i].angle = cold_[i].angle + (time - flight.time) * cold_[i].spin;
     flight.position = flight.position_at(time);
     flight.time = time;
 }
 
-Event PlainLists::end_segment() {
+Event NeighborListBaseline::end_segment() {
     const double end = segment().end;
     const Event event{periods_, end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
     segment_ = (segment_ + 1) % path_.segments.size();
@@ -167,41 +167,41 @@ Event PlainLists::end_segment() {
         move_to(i, end);
         hot_[i].flight.time = homes_of_[i].since = 0.0;
     }
-    begin_swirl();
+    begin_period();
     return event;
 }
 
-/// The wall has another velocity.
-void PlainLists::begin_segment() {
+/// The velocity of the wall has changed.
+void NeighborListBaseline::begin_segment() {
     for (Number i = 0; i < size_; ++i)
         if (hot_[i].at_wall) reschedule(i);
 }
 
 /// All clocks restart.
-void PlainLists::begin_swirl() {
+void NeighborListBaseline::begin_period() {
     for (Number i = 0; i < size_; ++i)
-        if (pending_[i].bin != nobody) leave_bin(i);
+        if (pending_[i].bin != no_disc) leave_bin(i);
     for (Number i = 0; i < size_; ++i) predict(i);
     open_calendar();
 }
 
-void PlainLists::predict(Number i) {
+void NeighborListBaseline::predict(Number i) {
     const ListedDisc& me = hot_[i];
     const Flight<double> flight = me.flight;
-    FirstMeeting best = first_on_list_(hot_.data(), i, &lists_[room_ * i], own_list);
+    FirstContact best = first_on_list_(hot_.data(), i, &lists_[capacity_ * i], own_list);
     if (me.at_wall) {
         const Segment& segment = this->segment();
         const double clearance = container_radius_ - me.radius;
         if (segment.turning != 0.0 ||
             !is_well_inside(
-                apart_at(flight, {segment.start, segment.velocity, segment.begin}, best.time),
+                separation_at(flight, {segment.start, segment.velocity, segment.begin}, best.time),
                 clearance)) {
             const double time = time_of_wall_contact(flight, segment, clearance);
             if (precedes({time, i, i}, {best.time, i, best.partner})) best = {time, i};
         }
     }
-    const Flight<double> home{homes_of_[i].place, {0.0, 0.0}, homes_of_[i].since};
-    if (!is_well_inside(apart_at(flight, home, best.time), skin_)) {
+    const Flight<double> home{homes_of_[i].position, {0.0, 0.0}, homes_of_[i].since};
+    if (!is_well_inside(separation_at(flight, home, best.time), skin_)) {
         const double time = time_of_wall_contact(flight, home, skin_);
         if (time < best.time) best = {time, own_list};
     }
@@ -211,102 +211,102 @@ void PlainLists::predict(Number i) {
     pending.changes = best.partner < size_ ? hot_[best.partner].changes : 0;
 }
 
-void PlainLists::reschedule(Number i) {
-    if (pending_[i].bin != nobody) leave_bin(i);
+void NeighborListBaseline::reschedule(Number i) {
+    if (pending_[i].bin != no_disc) leave_bin(i);
     predict(i);
     enter_bin(i);
 }
 
-void PlainLists::renew_list(Number i, double time) {
+void NeighborListBaseline::renew_list(Number i, double time) {
     ++renewed_lists_;
-    for (Number k = 0; k < hot_[i].listed; ++k) forget(lists_[room_ * i + k], i);
+    for (Number k = 0; k < hot_[i].listed; ++k) remove_from_list(lists_[capacity_ * i + k], i);
     clear_list(i);
     leave_cell(i);
     const Vec2 home = hot_[i].flight.position_at(time);
-    homes_of_[i].place = home;
+    homes_of_[i].position = home;
     homes_of_[i].since = time;
     enter_cell(i);
-    look_out_for_wall(i);
-    const double reach = (hot_[i].radius + 2.0 * skin_) * a_little_more;
+    update_at_wall(i);
+    const double reach = (hot_[i].radius + 2.0 * skin_) * rounding_margin;
     const std::size_t cell = cell_at(home), row = cell / cells_across_,
                       column = cell % cells_across_;
     for (std::size_t y = row > 0 ? row - 1 : 0; y <= std::min(row + 1, cells_across_ - 1); ++y)
         for (std::size_t x = column > 0 ? column - 1 : 0;
              x <= std::min(column + 1, cells_across_ - 1); ++x)
-            for (Number j = first_in_cell_[y * cells_across_ + x]; j != nobody;
+            for (Number j = first_in_cell_[y * cells_across_ + x]; j != no_disc;
                  j = homes_of_[j].next) {
-                const Vec2 apart = homes_of_[j].place - home;
+                const Vec2 apart = homes_of_[j].position - home;
                 const double within = reach + hot_[j].radius;
                 if (j == i || dot(apart, apart) >= within * within) continue;
-                note(i, j);
-                note(j, i);
+                add_to_list(i, j);
+                add_to_list(j, i);
             }
 }
 
-/// May disc i reach it from its home, wherever on its path the container is?
-void PlainLists::look_out_for_wall(Number i) {
-    const Vec2 home = homes_of_[i].place;
+/// Whether disc i may reach the wall within `skin` of its home, for every position of the container.
+void NeighborListBaseline::update_at_wall(Number i) {
+    const Vec2 home = homes_of_[i].position;
     const double farthest =
-        container_radius_ - hot_[i].radius - skin_ * a_little_more - farthest_centre_;
+        container_radius_ - hot_[i].radius - skin_ * rounding_margin - farthest_centre_;
     hot_[i].at_wall = farthest <= 0.0 || dot(home, home) >= farthest * farthest;
 }
 
-void PlainLists::clear_list(Number i) {
-    std::fill_n(&lists_[room_ * i], room_, i);
+void NeighborListBaseline::clear_list(Number i) {
+    std::fill_n(&lists_[capacity_ * i], capacity_, i);
     hot_[i].listed = 0;
 }
 
-void PlainLists::forget(Number i, Number j) {
-    Number* const list = &lists_[room_ * i];
+void NeighborListBaseline::remove_from_list(Number i, Number j) {
+    Number* const list = &lists_[capacity_ * i];
     Number& listed = hot_[i].listed;
     *std::find(list, list + listed, j) = list[listed - 1];
     list[--listed] = i;
 }
 
-void PlainLists::note(Number i, Number j) {
-    Number* const list = &lists_[room_ * i];
+void NeighborListBaseline::add_to_list(Number i, Number j) {
+    Number* const list = &lists_[capacity_ * i];
     Number& listed = hot_[i].listed;
-    if (listed == room_) {
+    if (listed == capacity_) {
         widen_lists();
-        return note(i, j);
+        return add_to_list(i, j);
     }
     list[listed++] = j;
 }
 
-void PlainLists::widen_lists() {
-    OnHugePages<Number> wider(2 * room_ * size_);
+void NeighborListBaseline::widen_lists() {
+    OnHugePages<Number> wider(2 * capacity_ * size_);
     for (Number i = 0; i < size_; ++i) {
-        std::fill_n(&wider[2 * room_ * i], 2 * room_, i);
-        std::copy_n(&lists_[room_ * i], hot_[i].listed, &wider[2 * room_ * i]);
+        std::fill_n(&wider[2 * capacity_ * i], 2 * capacity_, i);
+        std::copy_n(&lists_[capacity_ * i], hot_[i].listed, &wider[2 * capacity_ * i]);
     }
     lists_ = std::move(wider);
-    room_ *= 2;
+    capacity_ *= 2;
 }
 
-/// Who has strayed from the grid stands in a cell at its edge.
-std::size_t PlainLists::cell_at(const Vec2& place) const {
+/// Positions outside the grid map to the nearest edge cell.
+std::size_t NeighborListBaseline::cell_at(const Vec2& position) const {
     const auto across = [this](double x) {
         const double cell = (x + half_width_) * cells_per_length_;
         return std::min(std::size_t(std::max(cell, 0.0)), cells_across_ - 1);
     };
-    return across(place.y) * cells_across_ + across(place.x);
+    return across(position.y) * cells_across_ + across(position.x);
 }
-void PlainLists::leave_cell(Number i) {
+void NeighborListBaseline::leave_cell(Number i) {
     const Home& home = homes_of_[i];
-    (home.previous == nobody ? first_in_cell_[cell_at(home.place)]
-                             : homes_of_[home.previous].next) = home.next;
-    if (home.next != nobody) homes_of_[home.next].previous = home.previous;
+    (home.previous == no_disc ? first_in_cell_[cell_at(home.position)]
+                              : homes_of_[home.previous].next) = home.next;
+    if (home.next != no_disc) homes_of_[home.next].previous = home.previous;
 }
-void PlainLists::enter_cell(Number i) {
-    Number& first = first_in_cell_[cell_at(homes_of_[i].place)];
-    homes_of_[i].previous = nobody;
+void NeighborListBaseline::enter_cell(Number i) {
+    Number& first = first_in_cell_[cell_at(homes_of_[i].position)];
+    homes_of_[i].previous = no_disc;
     homes_of_[i].next = first;
-    if (first != nobody) homes_of_[first].previous = i;
+    if (first != no_disc) homes_of_[first].previous = i;
     first = i;
 }
 
-/// About one event in a bin.
-void PlainLists::open_calendar() {
+/// Chooses the bin width such that a bin holds about one event.
+void NeighborListBaseline::open_calendar() {
     std::vector<double> waits;
     for (const Pending& pending : pending_) waits.push_back(pending.time);
     const auto middle = waits.begin() + std::ptrdiff_t(waits.size() / 2);
@@ -318,62 +318,62 @@ void PlainLists::open_calendar() {
     for (Number i = 0; i < size_; ++i) enter_bin(i);
 }
 
-std::size_t PlainLists::bin_at(double time) const {
+std::size_t NeighborListBaseline::bin_at(double time) const {
     const std::size_t later = first_in_bin_.size() - 1;
     const double bin = (time - calendar_begin_) * bins_per_time_;
-    // Rounding may not put it where the calendar has passed.
+    // Rounding must not put an event into a bin that has been passed.
     return bin < double(later) ? std::max(std::size_t(std::max(bin, 0.0)), now_) : later;
 }
-void PlainLists::leave_bin(Number i) {
+void NeighborListBaseline::leave_bin(Number i) {
     Pending& pending = pending_[i];
-    (pending.previous == nobody ? first_in_bin_[pending.bin] : pending_[pending.previous].next) =
+    (pending.previous == no_disc ? first_in_bin_[pending.bin] : pending_[pending.previous].next) =
         pending.next;
-    if (pending.next != nobody) pending_[pending.next].previous = pending.previous;
-    pending.bin = nobody;
+    if (pending.next != no_disc) pending_[pending.next].previous = pending.previous;
+    pending.bin = no_disc;
 }
-void PlainLists::enter_bin(Number i) {
+void NeighborListBaseline::enter_bin(Number i) {
     Pending& pending = pending_[i];
     pending.bin = Number(bin_at(pending.time));
     Number& first = first_in_bin_[pending.bin];
-    pending.previous = nobody;
+    pending.previous = no_disc;
     pending.next = first;
-    if (first != nobody) pending_[first].previous = i;
+    if (first != no_disc) pending_[first].previous = i;
     first = i;
 }
 
-bool PlainLists::comes_before(Number i, Number j) const {
+bool NeighborListBaseline::comes_before(Number i, Number j) const {
     return precedes({pending_[i].time, i, pending_[i].partner},
                     {pending_[j].time, j, pending_[j].partner});
 }
 
-PlainLists::Number PlainLists::first_in_calendar() {
+NeighborListBaseline::Number NeighborListBaseline::first_in_calendar() {
     const std::size_t later = first_in_bin_.size() - 1;
-    while (first_in_bin_[now_] == nobody) {
-        if (calendar_begin_ + bin_width_ * double(now_) > segment().end) return nobody;
+    while (first_in_bin_[now_] == no_disc) {
+        if (calendar_begin_ + bin_width_ * double(now_) > segment().end) return no_disc;
         if (++now_ < later) {
-            fetch_what_comes();
+            prefetch_next_events();
             continue;
         }
-        // The end of the page: all that is left comes later, and stands in the order of memory, not
-        // of the list.
-        first_in_bin_[later] = nobody;
+        // End of the page: all remaining events are in the overflow bucket. They are inserted again in
+        // the order of the discs, which is the order of memory.
+        first_in_bin_[later] = no_disc;
         calendar_begin_ += bin_width_ * double(later);
         now_ = 0;
         for (Number i = 0; i < size_; ++i) enter_bin(i);
     }
     Number first = first_in_bin_[now_];
-    for (Number i = pending_[first].next; i != nobody; i = pending_[i].next)
+    for (Number i = pending_[first].next; i != no_disc; i = pending_[i].next)
         if (comes_before(i, first)) first = i;
     return first;
 }
 
-/// Bins hold about one event each. First the disc itself, some events later its partner and its
-/// list, then those whom both ask.
-void PlainLists::fetch_what_comes() const {
+/// Prefetches first the disc itself, some bins later its partner and its list, then the discs of both
+/// lists.
+void NeighborListBaseline::prefetch_next_events() const {
     const std::size_t later = first_in_bin_.size() - 1;
     const auto in_bin = [&](std::size_t ahead, const auto& fetch) {
         if (now_ + ahead >= later) return;
-        for (Number i = first_in_bin_[now_ + ahead]; i != nobody; i = pending_[i].next) fetch(i);
+        for (Number i = first_in_bin_[now_ + ahead]; i != no_disc; i = pending_[i].next) fetch(i);
     };
     const auto partner_of = [this](Number i) {
         return pending_[i].partner < size_ ? pending_[i].partner : i;
@@ -381,14 +381,14 @@ void PlainLists::fetch_what_comes() const {
     const auto fetch_disc = [this](Number i) {
         __builtin_prefetch(&hot_[i], 1);
         __builtin_prefetch(&cold_[i], 1);
-        __builtin_prefetch(&lists_[room_ * i]);
+        __builtin_prefetch(&lists_[capacity_ * i]);
     };
     const auto fetch_others = [this](Number i) {
-        const Number* const list = &lists_[room_ * i];
+        const Number* const list = &lists_[capacity_ * i];
         for (Number k = 0; k < hot_[i].listed; ++k) __builtin_prefetch(&hot_[list[k]]);
     };
     if (const std::size_t bin = now_ + bins_to_calendar; bin < later)
-        if (const Number i = first_in_bin_[bin]; i != nobody) __builtin_prefetch(&pending_[i], 1);
+        if (const Number i = first_in_bin_[bin]; i != no_disc) __builtin_prefetch(&pending_[i], 1);
     in_bin(bins_to_disc, [&](Number i) {
         fetch_disc(i);
         if (const Number j = partner_of(i); j != i) {
@@ -400,8 +400,8 @@ void PlainLists::fetch_what_comes() const {
         fetch_others(i);
         if (const Number j = partner_of(i); j != i) {
             fetch_others(j);
-            for (const Number beside : {pending_[j].next, pending_[j].previous})
-                if (beside != nobody) __builtin_prefetch(&pending_[beside], 1);
+            for (const Number neighbour : {pending_[j].next, pending_[j].previous})
+                if (neighbour != no_disc) __builtin_prefetch(&pending_[neighbour], 1);
         }
     });
 }

@@ -1,4 +1,4 @@
-#include "swirl/study/bench.hpp"
+#include "scene_rates.hpp"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -8,19 +8,19 @@
 #include <fstream>
 #include <memory>
 
+#include "baselines/all_pairs.hpp"
+#include "baselines/neighbor_lists.hpp"
+#include "scenes.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/study/bench_scenes.hpp"
-#include "swirl/study/rival/plain_lists.hpp"
-#include "swirl/study/rival/plain_loop.hpp"
 
 namespace swirl {
 namespace {
 
 using Kind = BenchScene::Kind;
 
-/// Processor time of this thread in seconds: what else runs here does not count.
+/// Processor time of this thread in seconds. The time of other processes does not count.
 double now() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -34,17 +34,17 @@ double median(std::vector<double> values) {
 }
 
 void check(const std::atomic<bool>* stop) {
-    if (stop && stop->load()) throw Interrupted("Stopped before the benchmark was complete.");
+    if (stop && stop->load()) throw Interrupted("stopped before the benchmark was complete");
 }
 
 constexpr int turns = 7;
 
-/// Who takes turns at the processor: the engine, a rival.
+/// A program that is timed: the engine or a baseline.
 class Contender {
   public:
     virtual ~Contender() = default;
 
-    /// Counts per second of the processor over at least `seconds` of it.
+    /// Counts per second of processor time, over at least `seconds` of it.
     double rate_over(double seconds) {
         double counted = 0.0, elapsed = 0.0;
         do {
@@ -55,20 +55,20 @@ class Contender {
         } while (elapsed < seconds);
         return counted / elapsed;
     }
-    void take_a_turn(double seconds) { rates_.push_back(rate_over(seconds)); }
+    void run_turn(double seconds) { rates_.push_back(rate_over(seconds)); }
     const std::vector<double>& rates() const { return rates_; }
 
   protected:
     /// Not timed.
     virtual void begin_again() {}
-    /// Some events; says what they count.
+    /// Executes some events; returns what they count.
     virtual double run() = 0;
 
   private:
     std::vector<double> rates_;
 };
 
-/// Either it goes on, or it begins again and again and stops after so many swirls.
+/// Continues without end if `replayed_periods` is 0; otherwise restarts after that many periods.
 class Engine : public Contender {
   public:
     Engine(const BenchScene& scene, const InitialState& settled, const Tuning& tuning)
@@ -104,10 +104,10 @@ class Engine : public Contender {
     Simulation simulation_;
 };
 
-/// Counts whole swirls.
-class Swirling : public Contender {
+/// Counts whole periods.
+class PeriodCounter : public Contender {
   public:
-    explicit Swirling(const InitialState& settled)
+    explicit PeriodCounter(const InitialState& settled)
         : simulation_(settled), at_once_(settled.discs.size() < 10 ? 100 : 1) {}
 
   private:
@@ -117,21 +117,24 @@ class Swirling : public Contender {
     }
 
     Simulation simulation_;
-    int at_once_;  // a look at the clock takes time, too
+    int at_once_;  // periods between two readings of the clock, which cost time too
 };
 
-class Rival : public Contender {
+class Baseline : public Contender {
   public:
-    explicit Rival(std::string name) : name(std::move(name)) {}
+    explicit Baseline(std::string name) : name_(std::move(name)) {}
 
-    const std::string name;
+    const std::string& name() const { return name_; }
+
+  private:
+    std::string name_;
 };
 
 template <class Loop>
-class RivalLoop : public Rival {
+class BaselineLoop : public Baseline {
   public:
-    RivalLoop(std::string name, const BenchScene& scene, std::function<Loop()> make)
-        : Rival(std::move(name)),
+    BaselineLoop(std::string name, const BenchScene& scene, std::function<Loop()> make)
+        : Baseline(std::move(name)),
           collisions_only_(scene.kind == Kind::gas),
           periods_(scene.replayed_periods),
           batch_(scene.kind == Kind::spheres && scene.discs > 100 ? 1 : 500),
@@ -160,13 +163,13 @@ class RivalLoop : public Rival {
 
     bool collisions_only_;
     std::int64_t periods_;
-    int batch_;  // events between two looks at the clock
+    int batch_;  // events between two readings of the clock
     std::function<Loop()> make_;
     std::unique_ptr<Loop> loop_;
 };
 
-/// Of the rival's lists: so that a list has eight discs, which fill one vector. Swirled discs
-/// gather.
+/// Skin of the baseline's lists in a gas: such that a list has about eight discs, which fill one
+/// vector. In a container the discs gather, so a constant is used.
 double best_skin(const BenchScene& scene, const InitialState& settled) {
     if (scene.kind == Kind::container) return 0.75;
     double radii = 0.0;
@@ -175,39 +178,41 @@ double best_skin(const BenchScene& scene, const InitialState& settled) {
     return std::max(0.2, settled.container_radius * square_root(2.0 / discs) - radii / discs);
 }
 
-/// The one that is fastest in a trial; nobody if there is none.
-std::unique_ptr<Rival> best_rival(const BenchScene& scene, const InitialState& settled,
-                                  double seconds) {
-    std::vector<std::unique_ptr<Rival>> rivals;
-    if (!scene.has_rival) return nullptr;
+/// The baseline that is fastest in a trial; null if the scene has none.
+std::unique_ptr<Baseline> best_baseline(const BenchScene& scene, const InitialState& settled,
+                                        double seconds) {
+    std::vector<std::unique_ptr<Baseline>> baselines;
+    if (!scene.has_baseline) return nullptr;
     if (scene.kind == Kind::spheres)
-        return std::make_unique<RivalLoop<PlainSpheres>>(
-            "loop", scene, [&settled] { return PlainSpheres(settled); });
-    rivals.push_back(std::make_unique<RivalLoop<PlainLists>>(
-        "lists", scene,
-        [settled, skin = best_skin(scene, settled)] { return PlainLists(settled, skin); }));
-    if (scene.discs > 48) return std::move(rivals.front());
+        return std::make_unique<BaselineLoop<SphereBaseline>>(
+            "loop", scene, [&settled] { return SphereBaseline(settled); });
+    baselines.push_back(std::make_unique<BaselineLoop<NeighborListBaseline>>(
+        "lists", scene, [settled, skin = best_skin(scene, settled)] {
+            return NeighborListBaseline(settled, skin);
+        }));
+    if (scene.discs > 48) return std::move(baselines.front());
     for (const auto& [name, of_loop] : {std::pair{"loop, baseline", Width::baseline},
                                         {"loop, avx2", Width::avx2},
                                         {"loop, avx512", Width::avx512}})
         if (has_width(of_loop))
-            rivals.push_back(std::make_unique<RivalLoop<PlainLoop>>(
-                name, scene, [settled, width = of_loop] { return PlainLoop(settled, width); }));
+            baselines.push_back(std::make_unique<BaselineLoop<AllPairsBaseline>>(
+                name, scene,
+                [settled, width = of_loop] { return AllPairsBaseline(settled, width); }));
     std::vector<double> rates;
-    for (const auto& rival : rivals) rates.push_back(rival->rate_over(0.1 * seconds));
-    return std::move(rivals[static_cast<std::size_t>(std::max_element(rates.begin(), rates.end()) -
-                                                     rates.begin())]);
+    for (const auto& baseline : baselines) rates.push_back(baseline->rate_over(0.1 * seconds));
+    return std::move(baselines[static_cast<std::size_t>(
+        std::max_element(rates.begin(), rates.end()) - rates.begin())]);
 }
 
-/// How many events until the start of what is not swirled as discs are is forgotten: ten collisions
-/// a disc.
+/// Number of events after which a gas or a sphere scene has forgotten its initial state: ten
+/// collisions per disc in a gas.
 std::uint64_t settling(const BenchScene& scene) {
     if (scene.kind == Kind::gas) return static_cast<std::uint64_t>(5 * scene.discs);
     return static_cast<std::uint64_t>((scene.discs > 1000 ? 20 : 1000) * scene.discs);
 }
 
-/// As it is at the beginning of a swirl, where everybody's clock stands at 0: rivals have no way to
-/// save and resume.
+/// The state at the start of a period, where all clocks stand at 0: the baselines cannot resume from
+/// another state.
 InitialState settled_state(const BenchScene& scene, const BenchSettings& settings) {
     InitialState state = state_of(scene, settings.stop);
     Simulation engine(state, {}, stopped_by(settings.stop));
@@ -228,9 +233,9 @@ InitialState settled_state(const BenchScene& scene, const BenchSettings& setting
     return state;
 }
 
-/// The time of the corners of one swirl, against that of the swirl. A whole one, as the last
-/// corner, after which all clocks restart, takes as long as all others together, and the discs do
-/// not collide equally often all the way round.
+/// Share of the processor time of one period that path vertices take. A whole period is timed: the
+/// last vertex, where all clocks restart, takes as long as all others together, and the collision
+/// rate changes along the path.
 double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSettings& settings) {
     double at_vertices = 0.0;
     const double begin = now();
@@ -245,13 +250,13 @@ double vertex_share(Simulation& engine, const ContainerPath& path, const BenchSe
     return at_vertices / (now() - begin);
 }
 
-/// What a scene is compared with, and by what.
+/// Another scene of the engine, and how the two are compared.
 struct Comparison {
     std::unique_ptr<Contender> other;
-    // Of the scene itself; none: its rate counts.
+    // The scene itself in other units; null: its rate is used.
     std::unique_ptr<Contender> own;
     const char* name = "";
-    BenchTarget::Sense sense = BenchTarget::Sense::at_least;
+    BenchTarget::Bound bound = BenchTarget::Bound::at_least;
 
     std::optional<BenchTarget> found(const std::vector<double>& rates,
                                      const std::optional<double>& target) const {
@@ -260,7 +265,7 @@ struct Comparison {
         for (std::size_t turn = 0; turn < rates.size(); ++turn)
             ratios.push_back(own ? other->rates()[turn] / own->rates()[turn]
                                  : rates[turn] / other->rates()[turn]);
-        return BenchTarget{name, "", median(ratios), sense, target};
+        return BenchTarget{name, "", median(ratios), bound, target};
     }
 };
 
@@ -269,18 +274,18 @@ Comparison comparison(const BenchScene& scene, const InitialState& settled,
     BenchScene other = bench_scenes().front();
     if (scene.compared_with == ComparedWith::paper_container)
         return {std::make_unique<Engine>(other, settled_state(other, settings), tuning), nullptr,
-                "rate over that at N = 48", BenchTarget::Sense::at_least};
+                "rate / rate at N = 48", BenchTarget::Bound::at_least};
     if (scene.compared_with == ComparedWith::polygon) {
         other = scene;
         other.sides = paper_sides;
-        return {std::make_unique<Swirling>(settled_state(other, settings)),
-                std::make_unique<Swirling>(settled), "time per swirl over that on the polygon",
-                BenchTarget::Sense::at_most};
+        return {std::make_unique<PeriodCounter>(settled_state(other, settings)),
+                std::make_unique<PeriodCounter>(settled), "time per period / time on the polygon",
+                BenchTarget::Bound::at_most};
     }
     return {};
 }
 
-/// How far a simulation has come, and what its loop has done for that.
+/// Events executed so far, and the counts of the event loop.
 struct Counted {
     EventCounts events;
     LoopCounts loop;
@@ -309,17 +314,17 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
     Engine engine(scene, settled, tuning);
     const Comparison compared = comparison(scene, settled, settings, tuning);
     const double seconds = settings.seconds / turns;
-    const std::unique_ptr<Rival> rival = best_rival(scene, settled, settings.seconds);
+    const std::unique_ptr<Baseline> baseline = best_baseline(scene, settled, settings.seconds);
 
-    engine.rate_over(0.0);  // warms up, and a replay begins to count
+    engine.rate_over(0.0);  // warms up; a replay starts to count here
     const bool goes_on = scene.replayed_periods == 0;
     const Counted before = goes_on ? Counted::by(engine.simulation()) : Counted{};
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
-        engine.take_a_turn(seconds);
-        if (rival) rival->take_a_turn(seconds);
-        if (compared.other) compared.other->take_a_turn(seconds);
-        if (compared.own) compared.own->take_a_turn(seconds);
+        engine.run_turn(seconds);
+        if (baseline) baseline->run_turn(seconds);
+        if (compared.other) compared.other->run_turn(seconds);
+        if (compared.own) compared.own->run_turn(seconds);
     }
 
     BenchRow row{};
@@ -327,9 +332,9 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
     row.discs = scene.discs;
     row.counts = scene.kind == Kind::gas ? "collisions" : "events";
     row.rate = median(engine.rates());
-    if (rival) {
-        row.rival_rate = median(rival->rates());
-        row.rival = rival->name;
+    if (baseline) {
+        row.baseline_rate = median(baseline->rates());
+        row.baseline = baseline->name();
         row.ratio_target = scene.ratio_target;
     }
     row.comparison = compared.found(engine.rates(), scene.comparison_target);
@@ -339,10 +344,10 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
     return row;
 }
 
-/// Looks after every event, as the averages by event do.
-class Watched : public Contender {
+/// Samples the rotation after every event, as the averages by event do.
+class WithAverages : public Contender {
   public:
-    explicit Watched(const InitialState& settled)
+    explicit WithAverages(const InitialState& settled)
         : simulation_(settled), snapshot_(simulation_.snapshot()) {}
 
     const Simulation& simulation() const { return simulation_; }
@@ -364,27 +369,27 @@ class Watched : public Contender {
     ClusterRotation rotation_;
 };
 
-/// The paper's dish at N = 48 with averages by event, beside itself without.
+/// The paper's container at N = 48 with averages by event, compared with a run without them.
 BenchRow row_by_event(const BenchSettings& settings) {
     const BenchScene& scene = bench_scenes().front();
     const InitialState settled = settled_state(scene, settings);
     Engine alone(scene, settled, {});
-    Watched watched(settled);
+    WithAverages with_averages(settled);
     std::vector<double> ratios;
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
-        alone.take_a_turn(settings.seconds / turns);
-        watched.take_a_turn(settings.seconds / turns);
-        ratios.push_back(alone.rates().back() / watched.rates().back());
+        alone.run_turn(settings.seconds / turns);
+        with_averages.run_turn(settings.seconds / turns);
+        ratios.push_back(alone.rates().back() / with_averages.rates().back());
     }
     BenchRow row{};
-    row.scene = "dish, averages by event";
+    row.scene = "container, averages by event";
     row.discs = scene.discs;
     row.counts = "events";
-    row.rate = median(watched.rates());
-    row.comparison = BenchTarget{"time over that without", "", median(ratios),
-                                 BenchTarget::Sense::at_most, 1.15};
-    count(row, watched.simulation(), {});
+    row.rate = median(with_averages.rates());
+    row.comparison = BenchTarget{"time / time without averages", "", median(ratios),
+                                 BenchTarget::Bound::at_most, 1.15};
+    count(row, with_averages.simulation(), {});
     return row;
 }
 
@@ -395,7 +400,7 @@ std::string processor() {
     return "unknown processor";
 }
 
-/// The row of the gas that is as dense and has the same width, with so many discs.
+/// The row of the dense gas with that number of discs and the same vector width; null if none.
 const BenchRow* gas_of(const BenchResult& result, std::int64_t discs, const std::string& width) {
     for (const BenchRow& row : result.rows)
         if (row.scene == dense_gas && row.discs == discs && row.width == width) return &row;
@@ -415,17 +420,17 @@ BenchResult bench(const BenchSettings& settings) {
     for (const BenchScene& scene : bench_scenes())
         if (settings.full || !scene.only_full) chosen.push_back(scene);
     const auto pieces = static_cast<double>(chosen.size() * settings.widths.size() + 1);
-    const auto tell = [&](const std::string& what) {
+    const auto report = [&](const std::string& what) {
         check(settings.stop);
         if (settings.progress)
             settings.progress(static_cast<double>(result.rows.size()) / pieces, what);
     };
     for (const BenchScene& scene : chosen)
         for (const Width width : settings.widths) {
-            tell(fmt::format("{}, N = {}", scene.name, scene.discs));
+            report(fmt::format("{}, N = {}", scene.name, scene.discs));
             result.rows.push_back(bench_row(scene, width, settings));
         }
-    tell("averages by event");
+    report("averages by event");
     result.rows.push_back(row_by_event(settings));
     return result;
 }
@@ -434,13 +439,13 @@ std::vector<BenchTarget> targets_of_ratios(const BenchResult& result) {
     std::vector<BenchTarget> targets;
     for (const BenchRow& row : result.rows)
         if (row.ratio_target)
-            targets.push_back({fmt::format("rate over the rival's: {}", where(row)), "",
-                               *row.ratio(), BenchTarget::Sense::at_least, *row.ratio_target});
+            targets.push_back({fmt::format("rate / baseline: {}", where(row)), "", *row.ratio(),
+                               BenchTarget::Bound::at_least, *row.ratio_target});
     return targets;
 }
 
-std::vector<BenchTarget> targets_beyond_rivals(const BenchResult& result) {
-    using enum BenchTarget::Sense;
+std::vector<BenchTarget> targets_beyond_baselines(const BenchResult& result) {
+    using enum BenchTarget::Bound;
     std::vector<BenchTarget> targets;
     for (const BenchRow& row : result.rows)
         if (row.comparison) {
@@ -452,8 +457,8 @@ std::vector<BenchTarget> targets_beyond_rivals(const BenchResult& result) {
         if (large.scene != dense_gas || large.discs != 1000000 || !small) continue;
         targets.push_back({fmt::format("memory per disc: {}", where(large)), "bytes",
                            large.bytes_per_disc, at_most, 160.0});
-        targets.push_back({fmt::format("time per collision over that at 10^3: {}", where(large)),
-                           "", small->rate / large.rate, below, 3.0});
+        targets.push_back({fmt::format("time per collision / at 10^3: {}", where(large)), "",
+                           small->rate / large.rate, below, 3.0});
     }
     for (const BenchRow& row : result.rows)
         if (row.vertex_share)

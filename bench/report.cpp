@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scene_rates.hpp"
 #include "swirl/io/table.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/bench.hpp"
 
 namespace swirl {
 namespace {
@@ -20,24 +20,25 @@ std::string times(const std::optional<double>& ratio) {
 std::string verdict(const std::optional<double>& found, const std::optional<double>& target) {
     return !found || !target ? "" : *found >= *target ? "met" : "missed";
 }
-const char* words(BenchTarget::Sense sense) {
-    return sense == BenchTarget::Sense::at_least  ? "at least"
-           : sense == BenchTarget::Sense::at_most ? "at most"
+const char* words(BenchTarget::Bound bound) {
+    return bound == BenchTarget::Bound::at_least  ? "at least"
+           : bound == BenchTarget::Bound::at_most ? "at most"
                                                   : "below";
 }
 
 std::string row_line(const BenchRow& row) {
     return fmt::format(
         "{:<34}{:>8}  {:<9}{:>7}{:>10}  {:<15}{:>6}{:>5} {:<7}{:>6.0f}{:>7.3f}{:>8.3f}\n",
-        row.scene, row.discs, row.width, millions(row.rate), millions(row.rival_rate), row.rival,
-        times(row.ratio()), times(row.ratio_target), verdict(row.ratio(), row.ratio_target),
-        row.bytes_per_disc, row.invalidated, row.list_rebuilds);
+        row.scene, row.discs, row.width, millions(row.rate), millions(row.baseline_rate),
+        row.baseline, times(row.ratio()), times(row.ratio_target),
+        verdict(row.ratio(), row.ratio_target), row.bytes_per_disc, row.invalidated,
+        row.list_rebuilds);
 }
 
 std::string target_line(const BenchTarget& target) {
     std::string line = fmt::format("{:<92}{:>8}", target.name, fmt::format("{:.3g}", target.value));
     if (target.target)
-        line += fmt::format(" {:<6}{:<9}{:<6}{}", target.unit, words(target.sense),
+        line += fmt::format(" {:<6}{:<9}{:<6}{}", target.unit, words(target.bound),
                             fmt::format("{:.3g}", *target.target), target.met() ? "met" : "missed");
     return line + "\n";
 }
@@ -50,7 +51,7 @@ nlohmann::ordered_json target_json(const BenchTarget& target) {
     nlohmann::ordered_json r{{"name", target.name},
                              {"value", target.value},
                              {"unit", target.unit},
-                             {"must_be", words(target.sense)},
+                             {"must_be", words(target.bound)},
                              {"target", or_null(target.target)}};
     r["met"] =
         target.target ? nlohmann::ordered_json(target.met()) : nlohmann::ordered_json(nullptr);
@@ -64,9 +65,9 @@ nlohmann::ordered_json row_json(const BenchRow& row) {
     r["width"] = row.width;
     r["counts"] = row.counts;
     r["rate"] = row.rate;
-    r["rival"] =
-        row.rival_rate ? nlohmann::ordered_json(row.rival) : nlohmann::ordered_json(nullptr);
-    r["rival_rate"] = or_null(row.rival_rate);
+    r["baseline"] =
+        row.baseline_rate ? nlohmann::ordered_json(row.baseline) : nlohmann::ordered_json(nullptr);
+    r["baseline_rate"] = or_null(row.baseline_rate);
     r["ratio"] = or_null(row.ratio());
     r["ratio_target"] = or_null(row.ratio_target);
     r["comparison"] =
@@ -83,21 +84,23 @@ nlohmann::ordered_json row_json(const BenchRow& row) {
 
 std::string bench_report(const BenchResult& result) {
     std::string text = fmt::format(
-        "swirl {} on {}\nOne thread, processor time. Each scene beside the fastest rival in the "
-        "same run: \"loop\" looks at all pairs\nfor every event, as the paper does it; \"lists\" "
-        "has lists of neighbours and a calendar of events, as\nhard-sphere codes have them.\n\n",
+        "swirl {} on {}\nOne thread, processor time. Each scene runs next to the faster of two "
+        "baselines:\n\"loop\" searches all pairs for every event, as the paper does; \"lists\" "
+        "uses "
+        "neighbour lists\nand a calendar of events, as other hard-sphere codes do.\n\n",
         version(), result.machine);
     text += fmt::format("{:<34}{:>8}  {:<9}{:>7}{:>10}  {:<15}{:>6}{:>5} {:<7}{:>6}{:>7}{:>8}\n",
-                        "scene", "N", "width", "M/s", "rival", "", "ratio", "aim", "", "B/disc",
+                        "scene", "N", "width", "M/s", "baseline", "", "ratio", "goal", "", "B/disc",
                         "inval.", "rebuilt");
     for (const BenchRow& row : result.rows) text += row_line(row);
-    text += fmt::format("\n{:<92}{:>8} {:<6}{}\n", "besides rivals", "value", "", "aim");
-    for (const BenchTarget& target : targets_beyond_rivals(result)) text += target_line(target);
+    text += fmt::format("\n{:<92}{:>8} {:<6}{}\n", "other comparisons", "value", "", "goal");
+    for (const BenchTarget& target : targets_beyond_baselines(result)) text += target_line(target);
     text +=
-        "\nM/s: million events a second in a dish, million collisions in a gas; rival: its rate, "
-        "with the vectors\nthat suit it best; ratio: how many times as fast the engine is; B/disc: "
-        "memory; inval., rebuilt: pending\nevents that were invalidated and neighbour lists "
-        "rebuilt or cells entered, per event.\n";
+        "\nM/s: million events per second (collisions in a gas). baseline: its rate with its best "
+        "vector width.\nratio: engine / baseline. B/disc: memory of the event loop per disc. "
+        "inval.: "
+        "invalidated events per event.\nrebuilt: neighbour lists rebuilt or cells entered, per "
+        "event.\n";
     return text;
 }
 
@@ -108,7 +111,7 @@ std::string bench_json(const BenchResult& result, const std::string& command) {
     json["build"] = build_description();
     json["command"] = command;
     json["targets"] = nlohmann::ordered_json::array();
-    for (const auto& targets : {targets_of_ratios(result), targets_beyond_rivals(result)})
+    for (const auto& targets : {targets_of_ratios(result), targets_beyond_baselines(result)})
         for (const BenchTarget& target : targets) json["targets"].push_back(target_json(target));
     json["rows"] = nlohmann::ordered_json::array();
     for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row));
@@ -118,11 +121,11 @@ std::string bench_json(const BenchResult& result, const std::string& command) {
 // The columns are explained in bench/results/README.md.
 std::string bench_csv(const BenchResult& result, const std::string& command) {
     Table table({"machine", "version", "command", "scene", "discs", "width", "counts", "rate",
-                 "rival", "rival_rate", "comparison", "compared", "bytes_per_disc",
+                 "baseline", "baseline_rate", "comparison", "compared", "bytes_per_disc",
                  "invalidated_per_event", "list_rebuilds_per_event", "vertex_share"});
     for (const BenchRow& row : result.rows)
         table.add({result.machine, version(), command, row.scene, row.discs, row.width, row.counts,
-                   row.rate, row.rival, row.rival_rate.value_or(std::nan("")),
+                   row.rate, row.baseline, row.baseline_rate.value_or(std::nan("")),
                    row.comparison ? row.comparison->name : "",
                    row.comparison ? row.comparison->value : std::nan(""), row.bytes_per_disc,
                    row.invalidated, row.list_rebuilds, row.vertex_share.value_or(std::nan(""))});

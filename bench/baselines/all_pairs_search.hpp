@@ -1,9 +1,9 @@
-// Who touches first, of everybody: the search of engine/reference.hpp, as fast as a loop over
-// all pairs was made here. Discs stand in columns, eight pairs are looked at together, and √ and ÷
-// are taken only of the few that may come before the first so far: two discs at a distance with
-// c = s·s − σ² close it no sooner than straight towards each other, in c / (−2 s·v).
+// The earliest contact of all pairs: the search of engine/reference.hpp, optimised. The discs are
+// stored in columns and eight pairs are tested together. A square root and a division are computed
+// only for the few pairs that may collide before the earliest contact so far: two discs with
+// c = s·s − σ² (s: separation, σ: sum of the radii) cannot touch before c / (−2 s·v).
 //
-// Compiled once for each width of vectors (cmake/engine.cmake), like the engine's event loop.
+// Compiled once for each vector width (cmake/engine.cmake), like the engine's event loop.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace swirl {
 
-/// What contact times depend on: radii, and states that hold each at its time. Columns begin at a
-/// cache line and go on to a multiple of eight with discs that nobody meets: far away, at rest.
+/// What contact times depend on: radii, and states at each disc's own time. Columns start at a
+/// cache line and go on to a multiple of eight with discs that no_disc meets: far away, at rest.
 struct FlightColumns {
     const double *x, *y, *vx, *vy, *time, *radius;
     std::size_t size;
@@ -55,7 +55,7 @@ SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const S
             .store(times + i);
 }
 
-/// Bit k is set where disc i may meet disc begin + k before `first`.
+/// Bit k is set if disc i may touch disc begin + k before time `first`.
 SWIRL_INLINE unsigned may_come_before(const FlightColumns& discs, std::size_t i, std::size_t begin,
                                       double first) {
     const Flight<Eight> mine = eight_times(discs.flight(i)), others = eight_flights(discs, begin);
@@ -64,8 +64,8 @@ SWIRL_INLINE unsigned may_come_before(const FlightColumns& discs, std::size_t i,
     const BasicVec2<Eight> s = others.position_at(now) - mine.position_at(now);
     const Eight b = dot(s, others.velocity - mine.velocity);
     const Eight c = dot(s, s) - sum_of_radii * sum_of_radii;
-    constexpr double a_little_more = 1.0 + 1e-9;  // than rounding takes away
-    const Eight left = c + (b + b) * (Eight(a_little_more * first) - now);
+    constexpr double rounding_margin = 1.0 + 1e-9;  // larger than the rounding error
+    const Eight left = c + (b + b) * (Eight(rounding_margin * first) - now);
     alignas(64) double row[8];
     left.store(row);
     return lanes_below(row, 0x1p-1000);
@@ -102,17 +102,18 @@ SWIRL_INLINE PendingEvent find_first_of_many(const FlightColumns& discs, double 
             if (begin <= i) near &= ~0u << (i + 1 - begin);
             for (; near != 0; near &= near - 1) {
                 const std::size_t j = begin + static_cast<unsigned>(__builtin_ctz(near));
-                const PendingEvent meeting{
+                const PendingEvent contact{
                     time_of_contact(flight, discs.flight(j), discs.radius[i] + discs.radius[j]),
                     number(i), number(j)};
-                if (precedes(meeting, first)) first = meeting;
+                if (precedes(contact, first)) first = contact;
             }
         }
     }
     return first;
 }
 
-/// Or the end of the leg. Both arrays are columns, too.
+/// The earliest contact, or the end of the segment if that is earlier. `wall_times` and `times` are
+/// scratch columns.
 SWIRL_INLINE PendingEvent find_first_of_all(const FlightColumns& discs, const Segment& segment,
                                             double container_radius, double* __restrict wall_times,
                                             double* __restrict times) {
@@ -121,14 +122,16 @@ SWIRL_INLINE PendingEvent find_first_of_all(const FlightColumns& discs, const Se
                                    ? find_first_of_few(discs, wall_times, times)
                                    : find_first_of_many(discs, segment.end, wall_times);
     if (first.time < segment.end) return first;
-    const auto everybody = static_cast<std::uint32_t>(discs.size);
-    return {segment.end, everybody, everybody};
+    const auto none = static_cast<std::uint32_t>(discs.size);
+    return {segment.end, none, none};
 }
 
-using PlainSearch = PendingEvent (*)(const FlightColumns& discs, const Segment& segment,
-                                     double container_radius, double* wall_times, double* times);
-PendingEvent plain_search_baseline(const FlightColumns&, const Segment&, double, double*, double*);
-PendingEvent plain_search_avx2(const FlightColumns&, const Segment&, double, double*, double*);
-PendingEvent plain_search_avx512(const FlightColumns&, const Segment&, double, double*, double*);
+using AllPairsSearch = PendingEvent (*)(const FlightColumns& discs, const Segment& segment,
+                                        double container_radius, double* wall_times, double* times);
+PendingEvent all_pairs_search_baseline(const FlightColumns&, const Segment&, double, double*,
+                                       double*);
+PendingEvent all_pairs_search_avx2(const FlightColumns&, const Segment&, double, double*, double*);
+PendingEvent all_pairs_search_avx512(const FlightColumns&, const Segment&, double, double*,
+                                     double*);
 
 }  // namespace swirl

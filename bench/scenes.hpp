@@ -1,4 +1,4 @@
-// What `swirl bench` measures: the scenes, and how they begin.
+// The scenes that bench/run measures, and their initial states.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace swirl {
 
-/// With what else of the engine a scene is compared.
+/// Another scene of the engine with which a scene is compared.
 enum class ComparedWith { nothing, paper_container, polygon };
 
 struct BenchScene {
@@ -20,18 +20,17 @@ struct BenchScene {
     std::string name;
     Kind kind;
     std::int64_t discs;
-    double packing = 0.0;     // 0: the paper's dish
+    double packing = 0.0;     // packing fraction; 0: the paper's container
     int sides = paper_sides;  // of the path; 0 is the exact circle
     double mu_disc = 1.0;
-    double second_radius = 1.0;  // of every second disc
-    std::int64_t periods = 0;    // done before it is measured; a gas does ten collisions a disc
-    /// Begun again and again from there and left after so many swirls, as it would not stay what it
-    /// is; 0: it goes on.
+    double second_radius = 1.0;  // radius of every second disc
+    std::int64_t periods = 0;    // before the measurement; a gas executes ten collisions per disc
+    /// Restarted from there after this many periods, because the discs gather later; 0: never.
     std::int64_t replayed_periods = 0;
     std::optional<double> ratio_target = {};
     ComparedWith compared_with = ComparedWith::nothing;
     std::optional<double> comparison_target = {};
-    bool has_rival = true;
+    bool has_baseline = true;
     bool only_full = false;
 };
 

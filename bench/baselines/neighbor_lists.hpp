@@ -1,49 +1,48 @@
-// The rival of many discs in `swirl bench`: event-driven dynamics with a list of neighbours for
-// every disc and a calendar of events, as hard-sphere codes have it (Smallenburg, Eur. Phys. J. E
-// 45, 22 (2022), doi:10.1140/epje/s10189-022-00180-8; the calendar: Paul, J. Comput. Phys. 221, 615
-// (2007)), one disc after the other. As fast as such a code is made: what a prediction asks of a
-// disc is one cache line, the rest stands apart; large arrays are on huge pages; what the next
-// events need is fetched early; of the wall and the edge of its circle a √ and a ÷ are taken only
-// where they may come first.
+// The baseline for many discs: event-driven dynamics with neighbour lists and a calendar of events, as
+// in other hard-sphere codes (Smallenburg, Eur. Phys. J. E 45, 22 (2022),
+// doi:10.1140/epje/s10189-022-00180-8; the calendar: Paul, J. Comput. Phys. 221, 615 (2007)). It
+// predicts one disc after the other and is optimised: a prediction reads one cache line of each disc;
+// large arrays are on huge pages; the data of the next events are prefetched; contact times with the
+// wall and with the edge of the disc's circle are computed only where they may come first.
 //
-// A list holds whoever may be met while both discs stay within `skin` of where their lists were
-// made, their homes; who leaves that circle has its own list renewed, and nobody else's. Every disc
-// has one pending event; that a partner has collided in the meantime is found when the event is
-// due. Homes rest, in a dish that swirls, too.
+// The list of a disc holds every disc that it can touch while both stay within `skin` of their homes
+// (their positions when their lists were made). A disc that leaves this circle gets a new list; the
+// others keep theirs. Every disc has one pending event. An event whose partner has collided in the
+// meantime is recognised when it is due. Homes are at rest, also in a swirled container.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "baselines/huge_pages.hpp"
+#include "baselines/list_search.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/initial_state.hpp"
-#include "swirl/study/rival/huge_pages.hpp"
-#include "swirl/study/rival/list_search.hpp"
 
 namespace swirl {
 
-class PlainLists {
+class NeighborListBaseline {
   public:
-    /// Of discs, not of spheres.
-    PlainLists(const InitialState& initial, double skin, Width width = Width::best);
+    /// For discs only; spheres are not supported.
+    NeighborListBaseline(const InitialState& initial, double skin, Width width = Width::best);
 
     /// Executes the event that comes first.
     Event step();
 
     Disc disc(std::size_t i) const;
-    /// So far, for every event.
+    /// Number of lists renewed so far.
     std::uint64_t renewed_lists() const { return renewed_lists_; }
 
   private:
     using Number = std::uint32_t;
-    static constexpr Number nobody = 0xffffffffu;
-    static constexpr Number own_list = 0xfffffff0u;  // in the place of a partner: leaves its circle
+    static constexpr Number no_disc = 0xffffffffu;
+    static constexpr Number own_list = 0xfffffff0u;  // instead of a partner: leaves its circle
 
     struct Cold {
         double angle, spin, mass, inertia, inverse_mass, inverse_inertia;
     };
-    /// And the links of the calendar.
+    /// The pending event of a disc, with the links of the calendar.
     struct alignas(32) Pending {
         double time;
         Number partner;  // the disc itself: the wall
@@ -51,8 +50,8 @@ class PlainLists {
         Number next, previous, bin;
     };
     struct alignas(32) Home {
-        Vec2 place;
-        double since;  // at which time it was there
+        Vec2 position;
+        double since;  // time at which the disc was there
         Number next, previous;
     };
 
@@ -61,18 +60,18 @@ class PlainLists {
     void move_to(Number i, double time);
     Event end_segment();
     void begin_segment();
-    void begin_swirl();
+    void begin_period();
 
     void predict(Number i);
     void reschedule(Number i);
 
     void renew_list(Number i, double time);
-    void look_out_for_wall(Number i);
+    void update_at_wall(Number i);
     void clear_list(Number i);
-    void forget(Number i, Number j);
-    void note(Number i, Number j);
+    void remove_from_list(Number i, Number j);
+    void add_to_list(Number i, Number j);
     void widen_lists();
-    std::size_t cell_at(const Vec2& place) const;
+    std::size_t cell_at(const Vec2& position) const;
     void leave_cell(Number i);
     void enter_cell(Number i);
 
@@ -80,10 +79,10 @@ class PlainLists {
     std::size_t bin_at(double time) const;
     void leave_bin(Number i);
     void enter_bin(Number i);
-    /// Nobody, if nothing comes before the end of the leg.
+    /// `no_disc` if no event comes before the end of the segment.
     Number first_in_calendar();
     bool comes_before(Number i, Number j) const;
-    void fetch_what_comes() const;
+    void prefetch_next_events() const;
 
     ListSearch first_on_list_;
     ContainerPath path_;
@@ -101,7 +100,7 @@ class PlainLists {
     OnHugePages<Cold> cold_;
     OnHugePages<Pending> pending_;
     OnHugePages<Home> homes_of_;
-    std::size_t room_ = 16;  // of each list
+    std::size_t capacity_ = 16;  // of each list
     OnHugePages<Number> lists_;
     double half_width_, cells_per_length_;
     std::size_t cells_across_;

@@ -1,12 +1,12 @@
-// How fast the engine is here: the scenes of docs/performance.md on the user's own machine, each
-// beside a rival in the same run, as fast as it was made without what this engine is about: a loop
-// over all pairs (rival/plain_loop.hpp), or lists of neighbours and a calendar of events
-// (rival/plain_lists.hpp). Compare ratios, not rates: rates depend on the processor, on what else
-// it does, and on the weather.
+// Measures the event rate of the engine in the scenes of docs/performance.md, each next to a
+// baseline in the same run. The baselines are optimised, but lack the methods of this engine: one
+// searches all pairs (baselines/all_pairs.hpp), the other uses neighbour lists and a calendar of
+// events (baselines/neighbor_lists.hpp). Compare ratios, not rates: a rate depends on the processor
+// and on what else it executes.
 //
-// One thread, processor time. Engine, rival and, where there is one, the scene to compare with run
-// in turns of a fraction of a second; a rate is the median over the turns. Of the rivals the
-// fastest in a short trial counts. Dishes count all events, gases collisions.
+// One thread; processor time. The engine, the baseline and the scene to compare with (if any) run
+// alternately for a fraction of a second each; a rate is the median over these turns. The baseline is
+// the one that was fastest in a short trial. Containers count all events, gases count collisions.
 #pragma once
 
 #include <atomic>
@@ -28,17 +28,17 @@ struct BenchSettings {
     std::function<void(double fraction, const std::string& scene)> progress;
 };
 
-/// Something measured, and what is aimed at.
+/// A measured value and its target.
 struct BenchTarget {
-    enum class Sense { at_least, at_most, below };
-    std::string name, unit;  // unit: of value and target, "" for a ratio
+    enum class Bound { at_least, at_most, below };
+    std::string name, unit;  // unit of value and target; empty for a ratio
     double value;
-    Sense sense;
+    Bound bound;
     std::optional<double> target;
 
     bool met() const {
-        return !target || (sense == Sense::at_least  ? value >= *target
-                           : sense == Sense::at_most ? value <= *target
+        return !target || (bound == Bound::at_least  ? value >= *target
+                           : bound == Bound::at_most ? value <= *target
                                                      : value < *target);
     }
 };
@@ -47,20 +47,20 @@ struct BenchRow {
     std::string scene;
     std::int64_t discs;
     std::string width;
-    std::string counts;                // "events" or "collisions"
-    double rate;                       // of these, per second
-    std::optional<double> rival_rate;  // where there is one
-    std::string rival;
-    std::optional<double> ratio_target;     // for rate over rival_rate
+    std::string counts;                   // "events" or "collisions"
+    double rate;                          // of these, per second
+    std::optional<double> baseline_rate;  // where there is one
+    std::string baseline;
+    std::optional<double> ratio_target;     // for rate / baseline_rate
     std::optional<BenchTarget> comparison;  // with another scene of the engine
     double bytes_per_disc;                  // memory of the loop
-    // The loop's own counts, per event.
+    // Counted by the event loop, per event.
     double invalidated, list_rebuilds, path_vertices;
     std::optional<double> vertex_share;  // of the time, spent at path vertices
 
     std::optional<double> ratio() const {
-        if (!rival_rate) return {};
-        return rate / *rival_rate;
+        if (!baseline_rate) return {};
+        return rate / *baseline_rate;
     }
 };
 
@@ -72,11 +72,11 @@ struct BenchResult {
 /// Throws Interrupted when stopped.
 BenchResult bench(const BenchSettings& settings);
 
-/// All ratios to rivals that have a target.
+/// All ratios to baselines that have a target.
 std::vector<BenchTarget> targets_of_ratios(const BenchResult& result);
 /// Comparisons between scenes, memory, growth with the number of discs, path vertices: those of
 /// them that were measured.
-std::vector<BenchTarget> targets_beyond_rivals(const BenchResult& result);
+std::vector<BenchTarget> targets_beyond_baselines(const BenchResult& result);
 
 /// For people, for programs, and for bench/results/.
 std::string bench_report(const BenchResult& result);
