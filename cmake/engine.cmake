@@ -19,7 +19,7 @@ function(swirl_vector_sources variable)
   set(avx512_sources ${sources})
   list(FILTER avx2_sources INCLUDE REGEX "_avx2\\.cpp$")
   list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND SWIRL_WIDE_VECTORS)
     # The undefined-behaviour sanitizer checks the baseline loop only: the wide loops are the same
     # source, and each of them takes the compiler a minute more with it.
     set(once $<$<BOOL:${SWIRL_SANITIZE}>:-fno-sanitize=undefined>)

@@ -3,7 +3,7 @@
 namespace swirl {
 
 AllPairsSearch all_pairs_search(Width width) {
-#if defined(__x86_64__)
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     width = width_meant(width);
     if (width == Width::avx512) return all_pairs_search_avx512;
     if (width == Width::avx2) return all_pairs_search_avx2;

@@ -41,7 +41,7 @@ bool is_well_inside(const Vec2& apart, double clearance) {
 }
 
 ListSearch list_search(Width width) {
-#if defined(__x86_64__)
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     width = width_meant(width);
     if (width == Width::avx512) return list_search_avx512;
     if (width == Width::avx2) return list_search_avx2;

@@ -22,7 +22,7 @@ namespace {
 
 const EventLoops& event_loops(Width width) {
     width = width_meant(width);
-#if defined(__x86_64__)
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512) return event_loops_avx512;
     if (width == Width::avx2) return event_loops_avx2;
 #endif

@@ -5,6 +5,12 @@
 
 #include <cstdint>
 
+// Whether code for AVX2 and AVX-512 is part of this build. The sanitizer build omits it by default
+// (SWIRL_WIDE_VECTORS in cmake/options.cmake).
+#if defined(__x86_64__) && !defined(SWIRL_BASELINE_ONLY)
+#define SWIRL_HAS_WIDE_VECTORS 1
+#endif
+
 namespace swirl {
 
 /// `best` is the widest that this processor has.
@@ -17,9 +23,9 @@ inline constexpr const char* baseline_name = "sse2";
 inline constexpr const char* baseline_name = "baseline";
 #endif
 
-/// Whether this processor can run code of that width.
+/// Whether this build has code of that width and this processor can run it.
 inline bool has_width(Width width) {
-#if defined(__x86_64__)
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512)
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");

@@ -83,7 +83,7 @@ SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c
 
 const RotationKernel& kernel_for(Width width) {
     width = has_width(width) ? width_meant(width) : Width::baseline;
-#if defined(__x86_64__)
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512) return rotation_avx512::kernel;
     if (width == Width::avx2) return rotation_avx2::kernel;
 #endif
