@@ -12,7 +12,7 @@ if(SWIRL_PROGRAM)
   add_compile_options(-fPIC
     "$<$<COMPILE_LANGUAGE:CXX>:-fvisibility=hidden;-fvisibility-inlines-hidden>")
 endif()
-if(PROJECT_IS_TOP_LEVEL)
+if(SWIRL_WERROR)
   add_compile_options(-Werror)
 endif()
 if(SWIRL_SANITIZE)
