@@ -221,8 +221,7 @@ EXPORTED(change) std::uint32_t change(double time) {
 /// fully.
 EXPORTED(reverse) std::uint32_t reverse(double time) {
     const RunConfig& config = simulated->config();
-    if (config.mu_disc != 0.0 || config.mu_wall != 0.0 || config.restitution != 1.0 || config.floor)
-        return 0;
+    if (!config.conserves_energy()) return 0;
     const double clock = simulated->seen_at(time).clock;
     const ContainerPath back =
         path_from(backwards(simulated->path()), simulated->path().period - clock);

@@ -21,7 +21,7 @@ std::optional<std::string> out_of_interval(const char* name, double value, doubl
 std::optional<std::string> contact_longer_than_period(const RunConfig& c) {
     if (c.contact_duration <= c.period) return {};
     const bool is_default = c.contact_duration == RunConfig{}.contact_duration;
-    if (is_default && c.restitution == 1.0 && !c.floor) return {};
+    if (is_default && !c.uses_contact_duration()) return {};
     if (!is_default)
         return out_of_interval("--contact-duration", c.contact_duration, 0.0, c.period);
     return fmt::format(

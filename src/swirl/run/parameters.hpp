@@ -82,6 +82,12 @@ struct RunConfig {
     double omega() const { return 2.0 * pi / period; }
     /// Discs on a floor are coins.
     Shape shape() const { return body == Shape::disc && floor ? Shape::coin : body; }
+    /// Nothing dissipates energy: no friction, elastic collisions, no floor.
+    bool conserves_energy() const {
+        return mu_disc == 0.0 && mu_wall == 0.0 && restitution == 1.0 && !floor;
+    }
+    /// Whether the contact duration has an effect (physics/collision_law.hpp).
+    bool uses_contact_duration() const { return restitution != 1.0 || floor; }
 };
 
 /// From a random start, rotation and density forget their past within a few swirls when both

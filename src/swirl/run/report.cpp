@@ -16,14 +16,9 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
-/// Nothing takes energy: no contact, nor a floor.
-bool nothing_rubs(const RunConfig& c) {
-    return c.mu_disc == 0.0 && c.mu_wall == 0.0 && c.restitution == 1.0 && !c.floor;
-}
-
 /// On the polygon, whose corners give more than they take.
 bool gains_energy_for_ever(const RunConfig& c) {
-    return nothing_rubs(c) && c.amplitude > 0.0 && c.path == PathShape::polygon;
+    return c.conserves_energy() && c.amplitude > 0.0 && c.path == PathShape::polygon;
 }
 
 std::string energy_sentence(const RunResult& r) {
@@ -231,7 +226,7 @@ std::vector<std::string> warnings(const RunResult& r) {
             fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
                         r.periods, with_commas(r.events.total())));
     if (!r.has_whole_swirl() && r.config.amplitude > 0.0) all.push_back(no_swirl_sentence(r));
-    if (nothing_rubs(r.config) && r.config.amplitude > 0.0)
+    if (r.config.conserves_energy() && r.config.amplitude > 0.0)
         all.push_back(energy_sentence(r));
     else if (!steady_state_found(r).empty())
         all.push_back(not_steady_sentence(r));

@@ -109,7 +109,7 @@ double product(const SweepPlan& plan) {
 /// duration.
 std::uint64_t run_of(const ParameterTexts& texts) {
     RunConfig config = resolve(texts);
-    if (config.restitution == 1.0 && !config.floor)
+    if (!config.uses_contact_duration())
         config.contact_duration = RunConfig{}.contact_duration;
     return checksum(config_text(config));
 }
