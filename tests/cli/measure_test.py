@@ -105,40 +105,41 @@ class MeasureTest(InFolder):
         found = self.assert_like_the_exact(self.measured("--clockwise", phase=180))
         self.assertAlmostEqual(found["camera"]["fitting_phase"], 180.0, delta=3.0)
 
-    def refused(self, *words, options=(), **changed):
+    def rejected(self, *words, options=(), **changed):
         done = self.call(*options, **changed)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        # One line with the error and perhaps one with a hint.
+        self.assertRegex(done.stderr, r"\A[^\n]+\n(hint: [^\n]+\n)?\Z")
         self.assertEqual(done.stdout, "")
         for word in words:
             self.assertIn(word, done.stderr)
         return done.stderr
 
-    def test_what_was_said_wrongly_of_the_dish_is_refused_with_what_would_fit(self):
+    def test_wrong_parameters_of_the_container_are_rejected_with_a_hint(self):
         self.write({k: f for k, f in self.answer()[2].items() if k < 3 * FRAMES})
         good = {"skip": 0, "measure": "density"}
         self.assertIn("camera", self.measured(**good))
-        wrong = lambda *words, **changed: self.refused(*words, **{**good, **changed})
-        fitting = wrong("stick out", "--phase", phase=75).split("best is --phase ")[1].split(".")[0]
+        wrong = lambda *words, **changed: self.rejected(*words, **{**good, **changed})
+        fitting = wrong("protrude", "--phase", phase=75).split("best is --phase ")[1].split(".")[0]
         self.assertLess(abs(math.remainder(float(fitting), 360.0)), 4.0)
-        wrong("stick out", "--phase", phase=180)
-        wrong("stick out", "without --clockwise", options=["--clockwise"], phase=180)
-        wrong("stick out", "would let them", scale=0.9 * SCALE)
-        touch = wrong("lie in each other", "--scale", scale=2 * SCALE)
-        self.assertAlmostEqual(float(touch.split("too large; ")[1].split(" ")[0]), SCALE, delta=0.5)
-        wrong("stick out", "all the way round: --container-radius", container_radius=8)
+        wrong("protrude", "--phase", phase=180)
+        wrong("protrude", "without --clockwise", options=["--clockwise"], phase=180)
+        wrong("protrude", "they would touch", scale=0.9 * SCALE)
+        touch = wrong("overlap", "--scale", scale=2 * SCALE)
+        self.assertAlmostEqual(float(touch.split("hint: with --scale ")[1].split(" ")[0]), SCALE, delta=0.5)
+        wrong("protrude", "all the way round: --container-radius", container_radius=8)
         wrong("hardly ever come near the wall", "--container-radius 10", container_radius=10)
         wrong("hardly ever come near the wall", scale=0.5 * SCALE, container_radius=2 * RADIUS,
               amplitude=2 * AMPLITUDE)
-        wrong("stick out", "--amplitude", amplitude=0)
-        wrong("stick out", "--omega", omega=0.9 * OMEGA)
-        wrong("stick out", "it is the --centre", centre="330,280")
-        # Whoever knows better may say so.
+        wrong("protrude", "--amplitude", amplitude=0)
+        wrong("protrude", "--omega", omega=0.9 * OMEGA)
+        wrong("protrude", "it is the --centre", centre="330,280")
+        # --misfit 1 accepts everything.
         self.measured(misfit=1, phase=75, **good)
         report = swirl("measure", self.path("tracks.csv"), "--camera-fps", FPS, "--scale", SCALE,
                        "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--amplitude", AMPLITUDE,
                        "--container-radius", RADIUS, "--phase", 6)
-        self.assertIn("fit the dish better with --phase", report.stdout)
+        self.assertIn("fit the container better with --phase", report.stdout)
 
     def test_lost_frames_and_exchanged_names_are_mended(self):
         table = {k: dict(f) for k, f in self.answer()[2].items()}
@@ -185,7 +186,7 @@ class MeasureTest(InFolder):
 
     def test_a_single_frame_tells_no_rotation(self):
         self.write({0: self.answer()[2][0]})
-        self.refused("a single frame", skip=0, measure="density")
+        self.rejected("a single frame", skip=0, measure="density")
 
     def test_discs_that_are_never_the_same_tell_nothing_of_tracks(self):
         # Everybody gets a new name every ten frames, and nobody is where somebody was: every second
@@ -195,7 +196,7 @@ class MeasureTest(InFolder):
             if k < 2000 and k // 10 % 2 == 0:
                 table[k] = {disc + 100 * (k // 10): place for disc, place in frame.items()}
         self.write(table)
-        self.refused("in a row", "slip", skip=0, measure="slip")
+        self.rejected("in a row", "slip", skip=0, measure="slip")
         self.measured(skip=0, measure="density,temperature")
 
 

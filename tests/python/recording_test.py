@@ -214,11 +214,11 @@ def test_tracks_that_do_not_fit_the_dish_are_refused(table, change, said):
 
 def test_what_was_mended_is_said(table):
     noise, = swirl.Tracks(table, **SCALE).remarks
-    assert noise.startswith("Places have a noise of ")
+    assert noise.startswith("Positions have a noise of ")
     gap = table[~((table.particle == 3) & table.frame.isin([100, 101]))]
     mended, noise = swirl.Tracks(gap, **SCALE).remarks
-    assert mended == "2 positions missing for up to five frames were put back."
-    assert noise.startswith("Places have a noise of ")
+    assert mended == "2 positions missing for up to five frames were filled in."
+    assert noise.startswith("Positions have a noise of ")
 
 
 def test_a_film_tracked_here_needs_no_scale(table, tmp_path):
