@@ -18,21 +18,21 @@ std::string found(std::size_t discs, std::uint64_t stands, std::uint64_t end) {
     while (now.events < end) {
         now.events += 250;
         if (now.events <= stands) now.periods += 0.001;
-        if (watch.look(now)) return std::to_string(now.events);
+        if (watch.check(now)) return std::to_string(now.events);
     }
-    return watch.look_at_the_end(now) ? "at the end" : "never";
+    return watch.check_at_end(now) ? "at the end" : "never";
 }
 
-TEST(Collapse, ARunThatGoesOnHasNone) { EXPECT_EQ(found(48, never_stands, 1'000'000), "never"); }
+TEST(Collapse, IsNotFoundInARunThatProgresses) { EXPECT_EQ(found(48, never_stands, 1'000'000), "never"); }
 
 // Windows of 20,000 events, or of 200 for each disc; the one in which time stops has moved on.
-TEST(Collapse, IsFoundInTheFirstWindowInWhichTimeStands) {
+TEST(Collapse, IsFoundInTheFirstWindowWithoutProgress) {
     EXPECT_EQ(found(48, 0, 1'000'000), "20000");
     EXPECT_EQ(found(48, 100'000, 1'000'000), "120000");
     EXPECT_EQ(found(2000, 0, 1'000'000), "400000");
 }
 
-TEST(Collapse, IsFoundAtTheEndInTheLastHundredsOfEventsAndNotInFewer) {
+TEST(Collapse, IsFoundAtTheEndWithAtLeast500Events) {
     EXPECT_EQ(found(48, 100'000, 105'000), "at the end");
     EXPECT_EQ(found(48, 100'000, 101'000), "at the end");
     EXPECT_EQ(found(48, 100'000, 100'250), "never");
@@ -40,11 +40,11 @@ TEST(Collapse, IsFoundAtTheEndInTheLastHundredsOfEventsAndNotInFewer) {
 
 // 10⁸ events per disc and swirl: of two discs 20,000 events in a ten-thousandth of a swirl are as
 // many, and one disc more makes them too few.
-TEST(Collapse, IsAMatterOfEventsPerDiscAndSwirl) {
+TEST(Collapse, ThresholdIsEventsPerDiscAndPeriod) {
     const RunMark begin{0, 0.0}, now{20'000, 0.99e-4};
-    EXPECT_TRUE(CollapseWatch(2, begin).look(now));
-    EXPECT_FALSE(CollapseWatch(3, begin).look(now));
-    const auto collapse = CollapseWatch(2, begin).look(now);
+    EXPECT_TRUE(CollapseWatch(2, begin).check(now));
+    EXPECT_FALSE(CollapseWatch(3, begin).check(now));
+    const auto collapse = CollapseWatch(2, begin).check(now);
     EXPECT_EQ(collapse->events, 20'000u);
     EXPECT_EQ(collapse->periods, 0.99e-4);
 }

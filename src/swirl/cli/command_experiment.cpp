@@ -126,12 +126,12 @@ void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer&
     };
     const MeasuredSeries measured = measure_series(
         opened.series, measurable(measurements_of_a_video(), followed), 0.0, control);
-    if (!fits_criteria(measured.frames_per_swirl()))
+    if (!fits_criteria(measured.frames_per_period()))
         container.remarks.push_back(fmt::format(
             "There are {:.0f} pictures per swirl; the criteria for pinned discs are made for {}. "
             "The simulation is seen as often, so the two can be compared with each other, but not "
             "with the paper.",
-            measured.frames_per_swirl(), samples_per_period));
+            measured.frames_per_period(), samples_per_period));
     container.result = {{"periods", measured.periods},
                         {"rotation",
                          {{"by_time", estimate_json(measured.rotation.by_time)},

@@ -132,7 +132,7 @@ void measure_file(const MeasureCall& call) {
         with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
     text += measured_text(measured);
     text += remarks;
-    const double per_swirl = measured_series.frames_per_swirl();
+    const double per_swirl = measured_series.frames_per_period();
     const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
     });

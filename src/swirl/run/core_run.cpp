@@ -95,12 +95,12 @@ int BareRun::events_until_look() const {
 
 std::optional<std::string> BareRun::problem() {
     if (auto sentence = overlap_problem()) return sentence;
-    if (const auto found = watch_.look(mark())) return collapse_sentence(*found);
+    if (const auto found = watch_.check(mark())) return collapse_sentence(*found);
     return {};
 }
 std::optional<std::string> BareRun::problem_at_the_end() const {
     if (auto sentence = overlap_problem()) return sentence;
-    if (const auto found = watch_.look_at_the_end(mark())) return collapse_sentence(*found);
+    if (const auto found = watch_.check_at_end(mark())) return collapse_sentence(*found);
     return {};
 }
 

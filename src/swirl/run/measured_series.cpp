@@ -31,26 +31,26 @@ std::vector<std::string> measurable(const std::vector<std::string>& names, bool 
 
 MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
                               double skip, const MeasuringControl& control) {
-    if (series.frames == 0) throw Failure("There are no frames.");
+    if (series.frames == 0) throw Failure("there are no frames.");
     const Snapshot first = series.frame(0);
     Observation observation(first.container_radius, first.period, names, holds_tracks(series));
     ClusterRotation rotation(asked_width());
     MeasuredSeries measured;
-    std::int64_t swirl = first.periods;
+    std::int64_t period = first.periods;
     auto next_break = series.breaks.begin();
     for (std::uint64_t k = 0; k < series.frames; ++k) {
         if (control.stop && control.stop->load())
-            throw Interrupted("Stopped before the last frame.");
+            throw Interrupted("stopped before the last frame.");
         const Snapshot s = series.frame(k);
-        const bool others = next_break != series.breaks.end() && *next_break == k;
-        if (others) ++next_break;
+        const bool new_discs = next_break != series.breaks.end() && *next_break == k;
+        if (new_discs) ++next_break;
         if (s.time() < skip * s.period) continue;
-        if (measured.frames > 0 && s.periods != swirl) {
+        if (measured.frames > 0 && s.periods != period) {
             rotation.close_block();
             observation.close_block();
         }
-        if (others) observation.begin_tracks();
-        swirl = s.periods;
+        if (new_discs) observation.begin_tracks();
+        period = s.periods;
         measured.discs = std::max(measured.discs, s.size());
         rotation.sample_by_time(s);
         observation.sample(s);
@@ -58,7 +58,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         if (control.progress) control.progress(k + 1, series.frames);
     }
     if (measured.frames == 0)
-        throw Failure(fmt::format("Without the first {:g} swirls no frame is left.", skip));
+        throw Failure(fmt::format("no frame is left after the first {:g} periods.", skip));
     rotation.close_block();
     observation.close_block();
     observation.add_energy(series.missing_energy);
@@ -68,9 +68,9 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     return measured;
 }
 
-bool fits_criteria(double frames_per_swirl) {
-    return frames_per_swirl >= 0.8 * samples_per_period &&
-           frames_per_swirl <= 1.25 * samples_per_period;
+bool fits_criteria(double frames_per_period) {
+    return frames_per_period >= 0.8 * samples_per_period &&
+           frames_per_period <= 1.25 * samples_per_period;
 }
 
 }  // namespace swirl

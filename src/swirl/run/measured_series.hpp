@@ -1,5 +1,5 @@
-// What is measured on recorded frames: of a trajectory of ours, of a camera's tracks, of a run that
-// is seen as a camera would see it. Blocks are whole swirls, as in a run.
+// The measurements on recorded frames: of a trajectory, of a camera's tracks, or of a run sampled as
+// a camera would. Blocks are whole periods, as in a run.
 #pragma once
 
 #include <atomic>
@@ -15,13 +15,13 @@
 namespace swirl {
 
 struct MeasuredSeries {
-    RotationEstimates rotation;  // by time; nothing is known by event
+    RotationEstimates rotation;  // by time; those by event are NaN
     MeasurementReports reports;
-    std::uint64_t frames = 0;  // that count
-    std::size_t discs = 0;     // at most
+    std::uint64_t frames = 0;  // after the skipped periods
+    std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
 
-    double frames_per_swirl() const { return periods > 0.0 ? double(frames) / periods : 0.0; }
+    double frames_per_period() const { return periods > 0.0 ? double(frames) / periods : 0.0; }
 };
 
 struct MeasuringControl {
@@ -29,19 +29,19 @@ struct MeasuringControl {
     std::function<void(std::uint64_t frame, std::uint64_t frames)> progress;
 };
 
-/// Whether the same discs are seen long enough for their tracks to say anything.
+/// Whether the same discs are seen in enough frames in a row to determine which are pinned.
 bool holds_tracks(const SnapshotSeries& series);
 
-/// Those of the names that such frames can tell: nothing that is made of the collisions themselves,
-/// and, without tracks, nothing that follows a disc.
+/// The measurements among `names` that frames allow: none that needs every collision, and, without
+/// tracks, none that follows a disc.
 std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked);
 
-/// The names must be measurable(); the first `skip` swirls do not count. Throws Failure where there
-/// is no frame left, Interrupted.
+/// The names must be measurable(). The first `skip` periods do not count. Throws Failure if no frame
+/// remains, and Interrupted.
 MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
                               double skip = 0.0, const MeasuringControl& control = {});
 
-/// There are as many frames per swirl as the criteria for pinned discs are made for.
-bool fits_criteria(double frames_per_swirl);
+/// Whether the frame rate is near that for which the criteria for pinned discs were made.
+bool fits_criteria(double frames_per_period);
 
 }  // namespace swirl
