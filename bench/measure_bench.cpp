@@ -144,15 +144,15 @@ void collisions(benchmark::State& state) {
     PinnedByCollisions pinned;
     periods(state, {{},
                     [&](const Snapshot& s, const Event& event) {
-                        rates.sample(event);
-                        stress.sample(event, s);
-                        budget.sample(event, s);
-                        pinned.sample(event, s);
+                        rates.sample_event(event);
+                        stress.sample_event(event, s);
+                        budget.sample_event(event, s);
+                        pinned.sample_event(event, s);
                     },
                     [&] {
-                        rates.close_block(paper_period, 48);
-                        stress.close_block(paper_period);
-                        budget.close_block(paper_period);
+                        rates.close_event_block(paper_period, 48);
+                        stress.close_event_block(paper_period);
+                        budget.close_event_block(paper_period);
                         pinned.close_block();
                     }});
 }

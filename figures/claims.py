@@ -467,8 +467,8 @@ def pancake(folder):
 
 
 def pinned_slices(rows):
-    """Slices between the beginning and the end of a stay at the wall, clockwise (θ falling)."""
-    start, end = rows[0]["stay_begins"], rows[0]["stay_ends"]
+    """Slices between the beginning and the end of a residence at the wall, clockwise (θ falling)."""
+    start, end = rows[0]["residence_begin"], rows[0]["residence_end"]
     arc = (start - end) % 360
     return [row for row in rows if (start - row["theta"]) % 360 <= arc and row["visits"] > 0]
 
@@ -567,7 +567,7 @@ def loose_accelerate(folder):
         here = [row for row in tables.select(profile, discs=discs) if row["visits"] > LEAST_VISITS]
         pinned = pinned_slices(here)
         loose = [row for row in here if row not in pinned]
-        free = value(nearest_slice(here, here[0]["stay_ends"]), "speed")
+        free = value(nearest_slice(here, here[0]["residence_end"]), "speed")
         fastest = max(loose, key=lambda row: row["speed"])
         gains.append(above(value(fastest, "speed") - free, MATTERS * free.mean))
         told.append(f"{number(free)} where they become free and {number(value(fastest, 'speed'))} at θ = "
@@ -585,7 +585,7 @@ def in_degrees(row):
 def layers(folder):
     """The number density in the pinned region against the gap to the wall."""
     discs = tables.select(folder.table("3a"), discs=LARGE_N)
-    begin, end = discs[0]["stay_begins"], discs[0]["stay_ends"]
+    begin, end = discs[0]["residence_begin"], discs[0]["residence_end"]
     cells = [row for row in folder.table("2c") if row["map"] == "density" and row["density_error"] >= 0
              and (begin - in_degrees(row)) % 360 <= (begin - end) % 360]
 
@@ -606,13 +606,13 @@ def top_left(folder):
     """The middle of the pinned region, in the quadrant of 90° to 180°, for the discs of Figures 2b and 2c."""
     middles = []
     for row in [row for row in angles(folder) if row["discs"] in (LOW_N, LARGE_N)]:
-        begin, end = value(row, "stay_begins"), value(row, "stay_ends")
+        begin, end = value(row, "residence_begin"), value(row, "residence_end")
         ahead = Value((begin.mean - end.mean) % 360, math.hypot(begin.error, end.error), end.points)
         middles.append(Value(end.mean, 0.0, begin.points) - ahead * -0.5)
     if len(middles) < 2:
         raise ValueError("One of the two numbers was not run.")
     return parts(*(within(middle, 90.0, 180.0) for middle in middles)), (
-        "The middle between where stays at the wall begin and end is at θ = " + " and ".join(
+        "The middle between where residences at the wall begin and end is at θ = " + " and ".join(
             f"{number(middle)}° for N = {n}" for middle, n in zip(middles, (LOW_N, LARGE_N))) +
         f" (top left: 90° to 180°; 180° is left, {M_AT:.0f}° is M).")
 
@@ -637,9 +637,9 @@ def passage(folder):
 
 def slip_rises(folder):
     rows = folder.curve("4a", setting="high")
-    part, but = rising(rows, "slip_stays", least=SLIP_RISES)
-    return parts(part, above(value(rows[-1], "slip_stays"), NEARLY_ONE)), (
-        f"s of the discs on a stay at the wall: {ends(rows, 'slip_stays')}{but} (nearly 1: "
+    part, but = rising(rows, "slip_resident", least=SLIP_RISES)
+    return parts(part, above(value(rows[-1], "slip_resident"), NEARLY_ONE)), (
+        f"s of the discs resident at the wall: {ends(rows, 'slip_resident')}{but} (nearly 1: "
         f"above {NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. "
         "The 0.5 at N = 25 is of the experiment, whose friction is not known.")
 
@@ -649,7 +649,7 @@ def closer_to_one(rough, smooth):
     that both have by SLIP_APART, and at none farther from it by as much."""
     smooth = {row["discs"]: row for row in smooth}
     pairs = [(row, smooth[row["discs"]]) for row in rough if row["discs"] in smooth]
-    gains = [abs(value(b, "slip_stays") - 1) - abs(value(a, "slip_stays") - 1) for a, b in pairs]
+    gains = [abs(value(b, "slip_resident") - 1) - abs(value(a, "slip_resident") - 1) for a, b in pairs]
     mean = mean_of(gains)
     return every([above(mean, SLIP_APART)] + [above(gain, -SLIP_APART) for gain in gains]), (
         f"on average over N by {number(mean)} (asked: {SLIP_APART}); closer for certain at "
@@ -661,16 +661,16 @@ def slip_rough(folder):
     low = folder.curve("4a", setting="low")
     part, found = closer_to_one(folder.curve("4a", setting="high"), low)
     return part, (
-        f"s of the discs on a stay at the wall is closer to 1 for μ = 1 than for μ = 0.1, {found}; "
-        f"for μ = 0.1: {ends(low, 'slip_stays')}, of all pinned by the SI's criterion "
+        f"s of the discs resident at the wall is closer to 1 for μ = 1 than for μ = 0.1, {found}; "
+        f"for μ = 0.1: {ends(low, 'slip_resident')}, of all pinned by the SI's criterion "
         f"{ends(low, 'pinned_region')}.")
 
 
 def wall_spin(folder):
     rows = folder.curve("4b", setting="high")
-    part, but = rising(rows, "stay_spin", falling=True)
+    part, but = rising(rows, "resident_spin", falling=True)
     return part, (
-        f"⟨|ω|⟩/Ω of the discs on a stay at the wall: {ends(rows, 'stay_spin')}{but}; of those at the "
+        f"⟨|ω|⟩/Ω of the discs resident at the wall: {ends(rows, 'resident_spin')}{but}; of those at the "
         f"wall that are pinned by the SI's criterion: {ends(rows, 'pinned_wall_spin')}. What the "
         "paper calls the reason, frustration, can be counted (no claim of the paper's): the share of "
         f"the contacts that belong to a triangle is {ends(rows, 'triangles')}.")
@@ -690,11 +690,11 @@ def gears(folder):
     def opposed(name):
         return every([below(v, ANTIFERROMAGNETIC) for v in values(rows, name)])
     return parts(*(opposed(name) for name in
-                   ("correlation_by_impulse", "stay_correlation", "along_wall"))), (
+                   ("correlation_by_impulse", "resident_correlation", "along_wall"))), (
         "Correlation of the spins (gears have −1, independent spins 0; like an antiferromagnet: below "
         f"{number(ANTIFERROMAGNETIC)}) over all N: in disc–disc collisions, each counted with its impulse, "
-        f"{lowest_to_highest(rows, 'correlation_by_impulse')}; of a disc on a stay at the wall and any "
-        f"that it touches {lowest_to_highest(rows, 'stay_correlation')}; of neighbours along the wall, "
+        f"{lowest_to_highest(rows, 'correlation_by_impulse')}; of a disc resident at the wall and any "
+        f"that it touches {lowest_to_highest(rows, 'resident_correlation')}; of neighbours along the wall, "
         f"{lowest_to_highest(rows, 'along_wall')}. Of pairs that are pinned by the SI's criterion: "
         f"{ends(rows, 'pinned_correlation')}; of all touching pairs: {ends(rows, 'spin_correlation')}.")
 
@@ -729,13 +729,13 @@ def unwrapped(rows, name):
 
 
 def by_choice(folder):
-    """Places and shares of the stays for every choice of the wall's layer and of the least length
-    of a stay: (layer in disc radii, length in swirls): rows in order of N."""
+    """Places and shares of the residences for every choice of the wall's layer and of the least length
+    of a residence: (layer in disc radii, length in swirls): rows in order of N."""
     points = {row["discs"]: row.get("point") for row in folder.table("3a")}
     choices = {}
     for row in folder.curve("3a_sensitivity"):
         # The layer is computed from the dish's radius, and its last digit differs between N.
-        choice = (round(row["layer"], 6), round(row["least_length"], 6))
+        choice = (round(row["layer"], 6), round(row["min_length"], 6))
         choices.setdefault(choice, []).append(row | {"point": points.get(row["discs"])})
     return choices
 
@@ -746,14 +746,14 @@ def from_to(choices, found):
     layers, lengths = sorted({c[0] for c in choices}), sorted({c[1] for c in choices})
     return (f"{min(found):.0f} to {max(found):.0f}" if found else "not known"), (
         f"{len(choices)} choices of the layer ({layers[0]:g} to {layers[-1]:g} radii from the wall) "
-        f"and of the least length of a stay ({lengths[0]:.2f} to {lengths[-1]:.2f} swirls)")
+        f"and of the least length of a residence ({lengths[0]:.2f} to {lengths[-1]:.2f} swirls)")
 
 
 def pinned_grows(folder):
     rows, choices = angles(folder), by_choice(folder)
     found = [rising(c, "share")[0] for c in choices.values()]
     return agreed(found), (
-        f"Share of the discs that is on a stay at the wall: {ends(rows, 'stay_share')}; it rises for "
+        f"Share of the discs that is resident at the wall: {ends(rows, 'residence_share')}; it rises for "
         f"{count(found)} of {from_to(choices, [])[1]}. Pinned by the SI's criterion: "
         f"{ends(rows, 'share')}.")
 
@@ -775,8 +775,8 @@ def pinned_earlier(folder):
     shifts = [upstream(c, "becoming_pinned") for c in choices.values()]
     span, choice = from_to(choices, shifts)
     return agreed([above(shift, EARLIER) for shift in shifts]), (
-        f"Stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees); the place moves "
-        f"upstream by {number(upstream(rows, 'stay_begins'))}° (earlier: more than {EARLIER:.0f}°), and "
+        f"Residences at the wall begin at θ = {ends(rows, 'residence_begin')} (degrees); the place moves "
+        f"upstream by {number(upstream(rows, 'residence_begin'))}° (earlier: more than {EARLIER:.0f}°), and "
         f"by {span}° with the {choice}. By the SI's sharp turns: {ends(rows, 'becoming_pinned')}.")
 
 
@@ -790,9 +790,9 @@ def free_fixed(folder):
     same = [below(s, SAME_PLACE) for s in spreads]
     span, choice = from_to(choices, spreads)
     return agreed(same), (
-        f"Stays at the wall end at θ = {ends(rows, 'stay_ends')} (degrees; resultant length "
-        f"{resultants(rows, 'stay_ends_resultant')}): over all N the place moves by "
-        f"{number(spread(rows, 'stay_ends'))}°, and by {span}° with the {choice}. The same place "
+        f"Residences at the wall end at θ = {ends(rows, 'residence_end')} (degrees; resultant length "
+        f"{resultants(rows, 'residence_end_resultant')}): over all N the place moves by "
+        f"{number(spread(rows, 'residence_end'))}°, and by {span}° with the {choice}. The same place "
         f"(within {SAME_PLACE:.0f}°) for certain with {count(same)} of them, another for certain "
         f"with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'becoming_free')}, with "
         f"resultants {resultants(rows, 'becoming_free_resultant')}: it counts discs that fly along "
@@ -818,21 +818,21 @@ def two_places(folder, name):
 
 
 def grows(rows):
-    part, but = rising(rows, "stay_share")
-    return part, f"share that is on a stay at the wall: {ends(rows, 'stay_share')}{but}"
+    part, but = rising(rows, "residence_share")
+    return part, f"share that is resident at the wall: {ends(rows, 'residence_share')}{but}"
 
 
 def earlier(rows):
-    shift = upstream(rows, "stay_begins")
+    shift = upstream(rows, "residence_begin")
     return above(shift, EARLIER), (
-        f"stays at the wall begin at θ = {ends(rows, 'stay_begins')} (degrees): the place moves "
+        f"residences at the wall begin at θ = {ends(rows, 'residence_begin')} (degrees): the place moves "
         f"upstream by {number(shift)}° (earlier: more than {EARLIER:.0f}°)")
 
 
 def same_place(rows):
-    apart = spread(rows, "stay_ends")
+    apart = spread(rows, "residence_end")
     return below(apart, SAME_PLACE), (
-        f"stays at the wall end at θ = {ends(rows, 'stay_ends')} (degrees): over all N the place "
+        f"residences at the wall end at θ = {ends(rows, 'residence_end')} (degrees): over all N the place "
         f"moves by {number(apart)}° (the same place: within {SAME_PLACE:.0f}°)")
 
 
@@ -885,7 +885,7 @@ def oblong(folder):
         distance, speed, rate = (mean_of(values(here, name), weights).mean
                                  for name in ("distance", "speed", "varpi_m"))
         words = []
-        for name, event in (("stay_begins", "become pinned"), ("stay_ends", "become free")):
+        for name, event in (("residence_begin", "become pinned"), ("residence_end", "become free")):
             there = nearest_slice(here, here[0][name])
             away, fast = (value(there, column) for column in ("distance", "speed"))
             slower.append(above(value(there, "varpi_m"), rate))
@@ -1276,10 +1276,10 @@ def snake(folder):
     """The middle of the text's first page; the experiment has 24 spheres or more."""
     rows = [row for row in folder.table("spheres_few") if row["discs"] <= FEW]
     found = [every([within(value(row, "by_time"), 1 - NEAR_OMEGA, 1 + NEAR_OMEGA),
-                    above(value(row, "stay_share"), ALMOST_ALL)]) for row in rows]
+                    above(value(row, "residence_share"), ALMOST_ALL)]) for row in rows]
     return either(found), (
-        f"After a long warm-up, ϖ/Ω and the share of the spheres on a stay at the wall: " + "; ".join(
-            f"{number(value(row, 'by_time'))} and {number(value(row, 'stay_share'))} at N = "
+        f"After a long warm-up, ϖ/Ω and the share of the spheres resident at the wall: " + "; ".join(
+            f"{number(value(row, 'by_time'))} and {number(value(row, 'residence_share'))} at N = "
             f"{row['discs']:.0f}" for row in rows) +
         f" (μ = {PLASTIC:g}; a line that rolls with the swirl: within {NEAR_OMEGA} of 1, and more than "
         f"{ALMOST_ALL}).")
@@ -1306,24 +1306,24 @@ def of_spheres(judge_rows):
 
 
 def spin_falls(rows):
-    rows = [row for row in rows if row["stay_spin"] == row["stay_spin"]]
-    part, but = rising(rows, "stay_spin", falling=True)
-    return part, (f"|ω_z|/Ω of those on a stay at the wall {ends(rows, 'stay_spin')}{but}, of those "
+    rows = [row for row in rows if row["resident_spin"] == row["resident_spin"]]
+    part, but = rising(rows, "resident_spin", falling=True)
+    return part, (f"|ω_z|/Ω of those resident at the wall {ends(rows, 'resident_spin')}{but}, of those "
                   f"pinned there by the SI's criterion {ends(rows, 'pinned_wall_spin')}")
 
 
 def slip_from_a_half(rows):
-    part, but = rising(rows, "slip_stays", least=SLIP_RISES)
-    half = [within(value(row, "slip_stays"), 0.5 - ABOUT_A_HALF, 0.5 + ABOUT_A_HALF)
+    part, but = rising(rows, "slip_resident", least=SLIP_RISES)
+    half = [within(value(row, "slip_resident"), 0.5 - ABOUT_A_HALF, 0.5 + ABOUT_A_HALF)
             for row in rows if abs(row["discs"] - 25) <= ROUGHLY]
-    return parts(part, either(half), above(value(rows[-1], "slip_stays"), NEARLY_ONE)), (
-        f"{ends(rows, 'slip_stays')}{but}, of all pinned by the SI's criterion "
+    return parts(part, either(half), above(value(rows[-1], "slip_resident"), NEARLY_ONE)), (
+        f"{ends(rows, 'slip_resident')}{but}, of all pinned by the SI's criterion "
         f"{ends(rows, 'pinned_region')}")
 
 
 def spheres_slip(folder):
     part, told = for_some_friction(folder, "spheres_pinned", slip_from_a_half)
-    return part, (f"s of those on a stay at the wall, {told} (approximately 0.5: within "
+    return part, (f"s of those resident at the wall, {told} (approximately 0.5: within "
                   f"{ABOUT_A_HALF}; nearly 1: above {NEARLY_ONE}).")
 
 
@@ -1332,7 +1332,7 @@ def spheres_slip_rough(folder):
     smooth, rough = (folder.curve("spheres_pinned", most=math.inf, mu=mu)
                      for mu in (frictions[0], frictions[-1]))
     part, found = closer_to_one(rough, smooth)
-    return part, (f"s of those on a stay at the wall is closer to 1 for μ = {frictions[-1]:g} than "
+    return part, (f"s of those resident at the wall is closer to 1 for μ = {frictions[-1]:g} than "
                   f"for μ = {frictions[0]:g}, {found}.")
 
 

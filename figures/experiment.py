@@ -258,7 +258,7 @@ def main():
              profile(folder, "3b", profiles, "normalised", 1,
                      r"$\langle\varpi_{M,i}\rangle/\langle\varpi_{\rm wall}\rangle$"),
              against_n(folder, "4a", points,
-                       [("slip_stays", "on a stay at the wall"),
+                       [("slip_resident", "resident at the wall"),
                         ("pinned_region", "pinned, SI")],
                        "slip parameter $s$", 1),
              against_n(folder, "4b", points, [("wall_spin", "")],

@@ -5,7 +5,7 @@
 
 import style
 
-OF = (("slip_stays", "on a stay at the wall", {}),
+OF = (("slip_resident", "resident at the wall", {}),
       ("pinned_region", "pinned (SI)", {"marker": ".", "linewidth": 0.6, "linestyle": "--"}),
       ("cluster", "all discs", {"fillstyle": "none", "linestyle": ":"}))
 

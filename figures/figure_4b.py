@@ -8,13 +8,13 @@ import style
 
 PANELS = (
     (r"spin $\langle|\omega_i|\rangle/\Omega$", (
-        ("stay_spin", "on a stay at the wall", style.RED, "o", {}),
+        ("resident_spin", "resident at the wall", style.RED, "o", {}),
         ("pinned_wall_spin", "pinned (SI), at the wall", style.RED, "o",
          {"fillstyle": "none", "linestyle": "--"}),
         ("wall_spin", "all at the wall", style.BLUE, "s", {"fillstyle": "none"}))),
     ("correlation of spins", (
-        ("stay_correlation", "one on a stay", style.RED, "o", {}),
-        ("along_wall", "both on stays", style.ORANGE, "P", {}),
+        ("resident_correlation", "one resident", style.RED, "o", {}),
+        ("along_wall", "both resident", style.ORANGE, "P", {}),
         ("pinned_correlation", "both pinned (SI)", style.RED, "o",
          {"fillstyle": "none", "linestyle": "--"}),
         ("correlation_by_impulse", "collisions, by impulse", style.BLACK, "v", {}),
@@ -23,7 +23,7 @@ PANELS = (
         ("triangles", "contacts in triangles", style.GREEN, "^", {}),
         ("disc_sticking", "sticking, disc–disc", style.PINK, "D", {}),
         ("wall_sticking", "sticking, disc–wall", style.ORANGE, "P", {}),
-        ("psi6_stays", r"$\psi_6$, on stays", style.RED, "o", {}),
+        ("psi6_resident", r"$\psi_6$, resident", style.RED, "o", {}),
         ("psi6_pinned", r"$\psi_6$, pinned (SI)", style.RED, "o",
          {"fillstyle": "none", "linestyle": "--"}))),
 )

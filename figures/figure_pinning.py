@@ -1,5 +1,5 @@
 """Where in the M-frame discs become pinned and free, by the criterion of the paper's Supplementary
-Information and by stays in the layer at the wall.
+Information and by residences in the layer at the wall.
 
     /usr/bin/python3 figures/figure_pinning.py out/figure_pinning.csv
 """
@@ -7,7 +7,7 @@ Information and by stays in the layer at the wall.
 import style
 
 CRITERIA = (("the SI's criterion", style.RED, "--", ("si_pinned", "si_free")),
-            ("stays in the wall layer", style.BLUE, "-", ("stay_begins", "stay_ends")))
+            ("residences in the wall layer", style.BLUE, "-", ("residence_begin", "residence_end")))
 WHICH = ("becoming pinned", "becoming free")
 SHOWN = (28, 48)  # as in the paper's maps, or what is nearest
 

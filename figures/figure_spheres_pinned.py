@@ -8,8 +8,8 @@ import style
 
 SI = {"fillstyle": "none", "linestyle": "--", "linewidth": 0.6}
 PANELS = (
-    ("slip parameter $s$", (("slip_stays", {}), ("pinned_region", SI))),
-    (r"spin $|\omega_z|/\Omega$", (("stay_spin", {}), ("pinned_wall_spin", SI))),
+    ("slip parameter $s$", (("slip_resident", {}), ("pinned_region", SI))),
+    (r"spin $|\omega_z|/\Omega$", (("resident_spin", {}), ("pinned_wall_spin", SI))),
     ("share that rolls", (("rolling_share", {}),)),
     ("correlation of rolling", (("contact_correlation", {}),)),
 )
@@ -32,7 +32,7 @@ def main():
     marks = [panels[0][0].plot([], [], color=style.CYCLE[k], marker=style.MARKERS[k],
                                label=rf"$\mu = {mu:g}$")[0] for k, mu in enumerate(frictions)]
     marks += [panels[0][0].plot([], [], color=style.GREY, marker="o", label=words, **look)[0]
-              for words, look in (("on a stay at the wall", {}), ("pinned (SI)", SI))]
+              for words, look in (("resident at the wall", {}), ("pinned (SI)", SI))]
     style.legend_of_all(drawing, marks, [mark.get_label() for mark in marks], ncol=4)
     style.save(drawing, table)
 

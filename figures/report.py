@@ -119,24 +119,24 @@ CAPTIONS = {
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, "
           "against the angle θ; one curve for each number of discs. Dashed: −Ω, the wall's. Discs move "
           "clockwise, to smaller θ. Slices are 5° wide; the paper's slice slides around the container, and its width "
-          "is not given (figures/figure_3a.py draws slices of any width that slide by 5°). Triangles: where stays in the wall layer begin, on average, "
+          "is not given (figures/figure_3a.py draws slices of any width that slide by 5°). Triangles: where residences in the wall layer begin, on average, "
           "circles: where they end.",
     "3b": "The same, divided by the angular velocity that the wall has at this θ about the same centre "
           "of mass: 1 (dashed) is motion with the wall.",
     "pinning": "How the places at which discs become pinned (above) and free (below) are distributed over the "
                "angle θ, for few discs and for many. Red, dashed: by the criterion of the SI as it stands, a disc "
                "is pinned while it flies along the wall, however far from it, and becomes pinned where it turns "
-               "sharply. Blue: a disc is pinned on a stay in the layer at the wall, its rim within half a radius "
+               "sharply. Blue: a disc is pinned resident in the layer at the wall, its rim within half a radius "
                "of it, that lasts at least 40/511 of a swirl. Triangles: mean directions. The resultant is the "
                "length of the mean of unit vectors towards the places: 1 if all are one, 0 if they have no mean "
-               "direction. Claims on the pinned region go by the stays.",
-    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. Of the discs on a stay in the "
+               "direction. Claims on the pinned region go by the residences.",
+    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. Of the discs resident in the "
           "wall layer (full), of all that the SI's criterion calls pinned (dashed), and of the whole cluster "
           "(dotted); for a rough wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
-    "4b": "How discs at the wall are kept from spinning; full red symbols are discs on a stay in the wall layer, "
+    "4b": "How discs at the wall are kept from spinning; full red symbols are discs resident in the wall layer, "
           "open ones those that the SI's criterion calls pinned. Left: mean magnitude of the spin, in Ω; 0 is "
           "a disc that sticks to the wall. Middle: correlation of the spins of neighbours, one or both "
-          "of which are on a stay, and, weighted by impulse, of colliding discs; gears would have −1. Right: share of the contacts that close a triangle, "
+          "of which are resident, and, weighted by impulse, of colliding discs; gears would have −1. Right: share of the contacts that close a triangle, "
           "which cannot all roll, share of the collisions in which friction stops the slip altogether, and the "
           "hexatic order ψ6 of the packing.",
     "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) "
@@ -171,7 +171,7 @@ CAPTIONS = {
                            "that acts on the vertical slip of spheres that roll.",
     "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them taken away, where the "
                                  "sense of rotation is decided.",
-    "spheres_pinned": "Of spheres on a stay in the wall layer (full) and of those that the SI's criterion calls "
+    "spheres_pinned": "Of spheres resident in the wall layer (full) and of those that the SI's criterion calls "
                       "pinned (open): slip parameter s and the spin about the vertical. Below, of all spheres: the "
                       "share that rolls on the floor without slip, and the correlation of the rolling of neighbours "
                       "along the line of their centres.",
@@ -183,7 +183,7 @@ CAPTIONS = {
                      "change.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their "
                            "contacts.",
-    "spheres_few": "A few spheres after a long warm-up: ϖ, and the share of them that is on a stay at the wall. A row that "
+    "spheres_few": "A few spheres after a long warm-up: ϖ, and the share of them that is resident at the wall. A row that "
                    "rolls along the wall with the swirl has 1 for both (ϖ in units of Ω).",
     "spheres_map": "Rotation of the cluster in colour and as a number: positive rotates with the swirl, "
                    "negative against it.",
@@ -414,7 +414,7 @@ def found_pinned(folder):
     moves, _ = claims.pinned_reach_wall(folder)
     rolls, _ = claims.slip_rises(folder)
     speeds = claims.ends(claims.pinned_means(folder, "3b", "normalised"), "mean")
-    slips = claims.ends(folder.curve("4a", setting="high"), "slip_stays")
+    slips = claims.ends(folder.curve("4a", setting="high"), "slip_resident")
     told = f"angular velocity over the wall's, {speeds}; slip parameter, {slips}"
     if moves.verdict == rolls.verdict == claims.HOLDS:
         return ("With more discs those pinned at the wall come to move with it, and hardly slip on it any "

@@ -230,7 +230,7 @@ def profiles(name, quantity, level, label):
         shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > 200]
         axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
                   linestyle=":" if not_steady(shown) else "-")
-        for angle, marker in (("stay_begins", "v"), ("stay_ends", "o")):
+        for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
             here = [row for row in shown if not math.isnan(row[angle])]
             if not here:
                 continue
@@ -238,7 +238,7 @@ def profiles(name, quantity, level, label):
             axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
                       markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
     axes.plot([], [], "v", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="stays at the wall begin")
+              label="residences at the wall begin")
     axes.plot([], [], "o", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
               label="and end")
     axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)

@@ -56,7 +56,7 @@ class Container {
     /// where nothing is measured.
     bool is_pinned(std::size_t i) const {
         const PinnedLoose& found = pinned_.pinned_loose();
-        return found.knows() && found.pinned()[i] != 0;
+        return found.is_known() && found.pinned()[i] != 0;
     }
     const Simulation& simulation() const { return run_.simulation(); }
     const RunConfig& config() const { return config_; }

@@ -489,13 +489,13 @@ class OnMadeUpTables(unittest.TestCase):
 
     def test_a_step_back_of_the_spheres_is_told(self):
         spin = claims.of_spheres(claims.spin_falls)
-        judged = self.spheres_by_friction("spheres_pinned", ["stay_spin", "pinned_wall_spin"])
+        judged = self.spheres_by_friction("spheres_pinned", ["resident_spin", "pinned_wall_spin"])
         # What the SI's criterion gives beside it rises, and decides nothing.
         falling, with_step = ([(30, 0.5, 0.1), (36, 0.4, 0.2), (48, 0.2, 0.3)],
                               [(30, 0.5, 0.1), (36, 0.6, 0.2), (48, 0.2, 0.3)])
         verdict, found = judged(spin, {0.15: with_step, 0.5: falling})
         self.assertEqual(verdict, HOLDS)
-        self.assertIn("μ = 0.15: |ω_z|/Ω of those on a stay at the wall 0.5000 ± 0.0010 at N = 30, 0.2000 ± "
+        self.assertIn("μ = 0.15: |ω_z|/Ω of those resident at the wall 0.5000 ± 0.0010 at N = 30, 0.2000 ± "
                       "0.0010 at N = 48, but it rises from 0.5000 ± 0.0010 at N = 30 to 0.6000 ± 0.0010 at N = "
                       "36, of those pinned there", found)
         self.assertIn("It holds for 1 of 2 frictions", found)
@@ -542,7 +542,7 @@ class OnMadeUpTables(unittest.TestCase):
         says = "The slip parameter of pinned spheres rises with N, from"
 
         def of(smooth, rough, error=0.01):
-            self.pinned_spheres(slip_stays=(smooth, rough, error),
+            self.pinned_spheres(slip_resident=(smooth, rough, error),
                                 pinned_region=(smooth, rough, error))
             return self.judged(says)[0]
         self.assertEqual(of((0.5, 0.8, 1.0), (0.8, 0.9, 1.0)), HOLDS)
@@ -552,24 +552,24 @@ class OnMadeUpTables(unittest.TestCase):
 
     def test_rougher_spheres_slip_less(self):
         says = "It is closer to 1 for roughened spheres"
-        self.pinned_spheres(slip_stays=((0.5, 0.8, 0.95), (0.8, 0.9, 1.01), 0.005))
+        self.pinned_spheres(slip_resident=((0.5, 0.8, 0.95), (0.8, 0.9, 1.01), 0.005))
         self.assertEqual(self.judged(says)[0], HOLDS)
         # Where both are near 1 they may be alike, but not the other way round by what is seen.
-        self.pinned_spheres(slip_stays=((0.5, 0.8, 0.95), (0.8, 0.9, 0.95), 0.001))
+        self.pinned_spheres(slip_resident=((0.5, 0.8, 0.95), (0.8, 0.9, 0.95), 0.001))
         self.assertEqual(self.judged(says)[0], HOLDS)
-        self.pinned_spheres(slip_stays=((0.5, 0.8, 0.95), (0.8, 0.9, 0.95), 0.01))
+        self.pinned_spheres(slip_resident=((0.5, 0.8, 0.95), (0.8, 0.9, 0.95), 0.01))
         self.assertEqual(self.judged(says)[0], UNDECIDED)
-        self.pinned_spheres(slip_stays=((0.5, 0.8, 0.95), (0.8, 0.7, 0.99), 0.005))
+        self.pinned_spheres(slip_resident=((0.5, 0.8, 0.95), (0.8, 0.7, 0.99), 0.005))
         self.assertEqual(self.judged(says)[0], FAILS)
         # Certainly closer everywhere, by less than is seen.
-        self.pinned_spheres(slip_stays=((0.5, 0.8, 0.95), (0.51, 0.81, 0.96), 0.0005))
+        self.pinned_spheres(slip_resident=((0.5, 0.8, 0.95), (0.51, 0.81, 0.96), 0.0005))
         self.assertEqual(self.judged(says)[0], FAILS)
 
     def test_where_spheres_become_pinned_and_free(self):
         """Angles go on from 350 to 10 degrees."""
-        self.pinned_spheres(stay_begins=((170, 250, 350), (160, 240, 10), 2),
-                            stay_ends=((5, 358, 350), (70, 60, 80), 2),
-                            stay_share=((0.1, 0.2, 0.3), (0.1, 0.2, 0.15), 0.01))
+        self.pinned_spheres(residence_begin=((170, 250, 350), (160, 240, 10), 2),
+                            residence_end=((5, 358, 350), (70, 60, 80), 2),
+                            residence_share=((0.1, 0.2, 0.3), (0.1, 0.2, 0.15), 0.01))
         verdict, found = self.judged("With N spheres enter")
         self.assertEqual(verdict, HOLDS)
         self.assertIn("moves upstream by 210", found)
@@ -577,9 +577,9 @@ class OnMadeUpTables(unittest.TestCase):
         verdict, found = self.judged("The pinned region of spheres grows")
         self.assertEqual(verdict, HOLDS)
         self.assertIn("It holds for 1 of 2 frictions", found)
-        self.pinned_spheres(stay_begins=((170, 250, 150), (160, 240, 150), 2),
-                            stay_ends=((5, 358, 0), (70, 68, 72), 2),
-                            stay_share=((0.1, 0.3, 0.15), (0.3, 0.2, 0.1), 0.001))
+        self.pinned_spheres(residence_begin=((170, 250, 150), (160, 240, 150), 2),
+                            residence_end=((5, 358, 0), (70, 68, 72), 2),
+                            residence_share=((0.1, 0.3, 0.15), (0.3, 0.2, 0.1), 0.001))
         self.assertEqual(self.judged("The pinned region of spheres grows")[0], FAILS)
         self.assertEqual(self.judged("With N spheres enter")[0], FAILS)
         self.assertEqual(self.judged("Spheres leave the pinned region")[0], HOLDS)
@@ -693,7 +693,7 @@ class OnMadeUpTables(unittest.TestCase):
         """A profile at N = 24, 36, 48 whose pinned region, from 200° down to 100°, has this value;
         elsewhere it is another, that must not count."""
         self.table(table, [
-            {"discs": n, "theta": theta, "visits": 1000, "stay_begins": 200, "stay_ends": 100,
+            {"discs": n, "theta": theta, "visits": 1000, "residence_begin": 200, "residence_end": 100,
              name: v if 100 <= theta <= 200 else -5.0, f"{name}_error": error,
              "point": f"high_N{n}"}
             for n, v in zip((24, 36, 48), curve) for theta in (50, 120, 150, 180, 300)])
@@ -738,7 +738,7 @@ class OnMadeUpTables(unittest.TestCase):
 
     def slip(self, rough, smooth=(0.5, 0.6, 0.7), error=0.01):
         self.table("4a", [
-            {"setting": setting, "discs": n, "slip_stays": s, "slip_stays_error": error,
+            {"setting": setting, "discs": n, "slip_resident": s, "slip_resident_error": error,
              "pinned_region": 0.99, "pinned_region_error": error, "point": f"{setting}_N{n}"}
             for setting, curve in (("high", rough), ("low", smooth))
             for n, s in zip((24, 36, 48), curve)])
@@ -880,15 +880,15 @@ class OnMadeUpTables(unittest.TestCase):
         """For each choice of the layer one place or share at N = 24, 36, 48."""
         numbers = (24, 36, 48)
         self.table("3a", [
-            {"discs": n, "point": f"high_N{n}", "stay_begins": 200 + n, "stay_begins_error": 1,
-             "stay_ends": 120 - n, "stay_ends_error": 1, "stay_ends_resultant": 0.8,
-             "stay_share": n / 100, "stay_share_error": 0.01, "share": 0.5, "share_error": 0.01,
+            {"discs": n, "point": f"high_N{n}", "residence_begin": 200 + n, "residence_begin_error": 1,
+             "residence_end": 120 - n, "residence_end_error": 1, "residence_end_resultant": 0.8,
+             "residence_share": n / 100, "residence_share_error": 0.01, "share": 0.5, "share_error": 0.01,
              "becoming_pinned": 250, "becoming_pinned_error": 1,
              "becoming_free": 50, "becoming_free_error": 1, "becoming_free_resultant": 0.3}
             for n in numbers])
         # The last digit of the layer differs between N, as it does in the study's table.
         self.table("3a_sensitivity", [
-            {"discs": n, "layer": 1.3 + 0.2 * k + (n == 36) * 2e-16 * (1 + k), "least_length": 0.078,
+            {"discs": n, "layer": 1.3 + 0.2 * k + (n == 36) * 2e-16 * (1 + k), "min_length": 0.078,
              name: a, f"{name}_error": error}
             for k, places in enumerate(choices) for n, a in zip(numbers, places)])
 
@@ -942,8 +942,8 @@ class OnMadeUpTables(unittest.TestCase):
 
     def contacts(self, error=0.01, **columns):
         """The frustration of Figure 4b at N = 24, 36, 48."""
-        default = {"correlation_by_impulse": (-0.2, -0.2, -0.2), "stay_correlation": (0, 0, -0.2),
-                   "spin_correlation": (0, 0, 0), "stay_spin": (0.4, 0.3, 0.2),
+        default = {"correlation_by_impulse": (-0.2, -0.2, -0.2), "resident_correlation": (0, 0, -0.2),
+                   "spin_correlation": (0, 0, 0), "resident_spin": (0.4, 0.3, 0.2),
                    "triangles": (0.1, 0.2, 0.3), "psi6": (0.5, 0.5, 0.6),
                    "six": (0.4, 0.5, 0.6), "six_pinned": (0.4, 0.5, 0.6), "disc_disc_rate": (2, 4, 8),
                    # What the SI's criterion says is told and decides nothing.
@@ -957,7 +957,7 @@ class OnMadeUpTables(unittest.TestCase):
 
     def test_spins_are_those_of_an_antiferromagnet_in_all_strong_contacts_at_every_n(self):
         def judged(by_impulse, stays=(-0.3,) * 3, wall=(-0.3,) * 3, error=0.01):
-            self.contacts(correlation_by_impulse=by_impulse, stay_correlation=stays, along_wall=wall,
+            self.contacts(correlation_by_impulse=by_impulse, resident_correlation=stays, along_wall=wall,
                           error=error)
             return claims.gears(self.folder)[0]
         self.assertEqual(judged((-0.3, -0.25, -0.3)), HOLDS)
@@ -982,7 +982,7 @@ class OnMadeUpTables(unittest.TestCase):
 
     def test_the_spin_at_the_wall_falls_whatever_the_triangles_do(self):
         def judged(*spin, error=0.01):
-            self.contacts(stay_spin=spin, triangles=(0.3, 0.2, 0.1), error=error)
+            self.contacts(resident_spin=spin, triangles=(0.3, 0.2, 0.1), error=error)
             return claims.wall_spin(self.folder)
         self.assertEqual(judged(0.4, 0.3, 0.2)[0], HOLDS)
         self.assertIn("no claim of the paper's", judged(0.4, 0.3, 0.2)[1])
@@ -1032,8 +1032,8 @@ class OnMadeUpTables(unittest.TestCase):
         def judged(*places, error=0.01, slow=-0.8):
             self.table("3a", [
                 {"discs": n, "theta": t, "visits": 1000, "varpi_m": v, "varpi_m_error": error, "distance": d,
-                 "distance_error": error, "speed": u, "speed_error": error, "stay_begins": 179,
-                 "stay_ends": 92}
+                 "distance_error": error, "speed": u, "speed_error": error, "residence_begin": 179,
+                 "residence_end": 92}
                 for n, (distance, speed) in zip((28, 48), places)
                 for t, v, d, u in ((90, slow, distance, speed), (180, slow, distance, speed),
                                    (270, -1.2, 4, 2), (0, -0.5, 4, 2), (300, -1.2, 4, 2), (330, -1.2, 4, 2))])
@@ -1102,7 +1102,7 @@ class OnMadeUpTables(unittest.TestCase):
 
         def judged(coriolis, centrifugal=(390, 395, 396)):
             self.table("1b", [{"setting": "high", "discs": n, "point": f"high_N{n}",
-                               "most_centrifugal": a / unit, "most_coriolis": b / unit,
+                               "max_centrifugal": a / unit, "max_coriolis": b / unit,
                                "coriolis": 100 / unit, "coriolis_error": 1}
                               for n, a, b in zip((24, 36, 48), centrifugal, coriolis)])
             return claims.forces(self.folder)
@@ -1185,8 +1185,8 @@ class OnMadeUpTables(unittest.TestCase):
         to the loose one."""
         self.table("3a", [
             {"discs": n, "theta": theta, "visits": visits, "varpi_m": v, "varpi_m_error": error,
-             "speed": speed, "speed_error": error, "stay_begins": 182, "stay_ends": 88,
-             "stay_begins_error": 1, "stay_ends_error": 1, "steady_state": "steady", "point": f"high_N{n}"}
+             "speed": speed, "speed_error": error, "residence_begin": 182, "residence_end": 88,
+             "residence_begin_error": 1, "residence_end_error": 1, "steady_state": "steady", "point": f"high_N{n}"}
             for n, (pinned, loose) in zip((24, 48), regions)
             for thetas, (v, visits, speed) in (((90, 135, 180), pinned), ((0, 45, 225, 270), loose))
             for theta in thetas])
@@ -1222,8 +1222,8 @@ class OnMadeUpTables(unittest.TestCase):
 
     def test_the_middle_of_the_pinned_region_is_at_the_top_left_or_not(self):
         def judged(*places, error=1.0):
-            self.table("3a", [{"discs": n, "stay_begins": b, "stay_begins_error": error, "stay_ends": e,
-                               "stay_ends_error": error, "steady_state": "steady", "point": f"high_N{n}"}
+            self.table("3a", [{"discs": n, "residence_begin": b, "residence_begin_error": error, "residence_end": e,
+                               "residence_end_error": error, "steady_state": "steady", "point": f"high_N{n}"}
                               for n, (b, e) in zip((28, 48), places)])
             return claims.top_left(self.folder)
         self.assertEqual(judged((180, 100), (200, 90))[0], HOLDS)
@@ -1281,8 +1281,8 @@ class OnMadeUpTables(unittest.TestCase):
     def test_a_snake_goes_round_with_the_swirl_at_the_wall(self):
         def judged(*found, error=0.001):
             self.table("spheres_few", [
-                {"discs": n, "point": f"few_N{n}", "by_time": v, "by_time_error": error, "stay_share": share,
-                 "stay_share_error": error} for n, v, share in found])
+                {"discs": n, "point": f"few_N{n}", "by_time": v, "by_time_error": error, "residence_share": share,
+                 "residence_share_error": error} for n, v, share in found])
             return claims.snake(self.folder)[0]
         self.assertEqual(judged((3, 1.0, 0.99), (8, 0.3, 0.2)), HOLDS)
         self.assertEqual(judged((3, 1.0, 0.5), (8, 0.3, 0.99)), FAILS)

@@ -55,8 +55,8 @@ def cells(side, **more):
 
 def profile():
     for discs, theta in itertools.product((24, 36, 48), range(5, 360, 10)):
-        yield with_errors({"discs": discs, "theta": theta, "visits": 1000, "stay_begins": 200.0,
-                           "stay_ends": 90.0, "steady_state": "drifting", "wall": -1.0},
+        yield with_errors({"discs": discs, "theta": theta, "visits": 1000, "residence_begin": 200.0,
+                           "residence_end": 90.0, "steady_state": "drifting", "wall": -1.0},
                           varpi_m=-1 + 0.1 * math.sin(theta / 57), normalised=1.2)
 
 
@@ -70,15 +70,15 @@ TABLES = {
            *cells(20, map="flow", discs=48, steady_state="drifting")],
     "3a": list(profile()),
     "3b": list(profile()),
-    "4a": [with_errors(row, slip_stays=0.9, pinned_region=0.95, cluster=0.5)
+    "4a": [with_errors(row, slip_resident=0.9, pinned_region=0.95, cluster=0.5)
            for row in curves("setting", ("high", "low"), range(24, 49))],
     "pinning": [{"discs": n, "theta": 10 * k + 5, "steady_state": "drifting"} |
-                {name + end: value for name in ("si_pinned", "si_free", "stay_begins", "stay_ends")
+                {name + end: value for name in ("si_pinned", "si_free", "residence_begin", "residence_end")
                  for end, value in (("", k / 630), ("_mean", 359.0), ("_resultant", 0.9))}
                 for n in (28, 48) for k in range(36)],
-    "4b": [with_errors(row, pinned_wall_spin=0.4, stay_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
+    "4b": [with_errors(row, pinned_wall_spin=0.4, resident_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
                        triangles=0.3, disc_sticking=0.9, wall_sticking=0.9, pinned_correlation=-0.1,
-                       stay_correlation=-0.2, along_wall=0.1, correlation_by_impulse=-0.3, psi6_stays=0.7, psi6_pinned=0.6)
+                       resident_correlation=-0.2, along_wall=0.1, correlation_by_impulse=-0.3, psi6_resident=0.7, psi6_pinned=0.6)
            for row in rotation(range(24, 49))],
     "4c": curves("setting", ("high", "low"), range(24, 49)),
     "5b": curves("setting", FRICTIONS) + list(rotation(range(40, 56), low=-0.4, setting="high")),
@@ -107,7 +107,7 @@ TABLES = {
         "no-damping", "shell", "no-vertical-wall", "no-vertical-disc", "no-vertical", "no-floor")))),
     "spheres_map": [row for a in STEPS[1:8] for b in STEPS[1:6]
                     for row in rotation([36], high=a - b, mu=a, floor_friction=b)],
-    "spheres_pinned": [with_errors(row, slip_stays=0.9, pinned_region=0.9, stay_spin=0.3,
+    "spheres_pinned": [with_errors(row, slip_resident=0.9, pinned_region=0.9, resident_spin=0.3,
                                    pinned_wall_spin=0.3, rolling_share=0.7, contact_correlation=0.9)
                        for row in curves("mu", (0.15, 0.5))],
     "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),

@@ -110,10 +110,10 @@ class FirstPage(Tables):
     def test_the_pinned(self):
         def tables(last_speed, slips, error=0.001):
             self.write("3b", [{"discs": n, "theta": 180, "visits": 500, "normalised": speed,
-                               "normalised_error": error, "stay_begins": 200, "stay_ends": 100}
+                               "normalised_error": error, "residence_begin": 200, "residence_end": 100}
                               for n, speed in ((24, 0.8), (48, last_speed))])
-            self.write("4a", [{"setting": "high", "discs": n, "slip_stays": s,
-                               "slip_stays_error": error, "pinned_region": s,
+            self.write("4a", [{"setting": "high", "discs": n, "slip_resident": s,
+                               "slip_resident_error": error, "pinned_region": s,
                                "pinned_region_error": error} for n, s in zip((24, 36, 48), slips)])
         tables(0.99, (0.8, 0.9, 0.96))
         self.assertIn("come to move with it, and hardly slip on it any more (angular velocity over the "

@@ -28,7 +28,7 @@ RunConfig small_run() {
 }
 
 const std::vector<std::string>& names() {
-    static const std::vector<std::string> chosen{"radial",    "slip",  "pinned",      "stays",
+    static const std::vector<std::string> chosen{"radial",    "slip",  "pinned",      "residence",
                                                  "diffusion", "order", "frustration", "energy"};
     return chosen;
 }

@@ -11,7 +11,7 @@
 namespace swirl {
 namespace {
 
-TEST(AngularProfile, DiscsThatMoveWithTheWallHaveMinusOneEverywhere) {
+TEST(AngularProfile, IsMinusOneForDiscsThatMoveWithTheWall) {
     AngularProfile profile(36);
     for (int k = 0; k < 30; ++k) {
         Snapshot s = random_discs(40, k, k / 30.0);
@@ -30,7 +30,7 @@ TEST(AngularProfile, DiscsThatMoveWithTheWallHaveMinusOneEverywhere) {
     }
 }
 
-TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
+TEST(AngularProfile, ResolvesTheWallAboutAnOffCentreClusterAtRest) {
     // Discs at rest in the M-frame: ϖ_M,i = 0 there. The wall passes the centre of mass at
     // −Ω (d·p)/d², d = p − r_cm; for a slice at θ with the centre of mass at (0, −h).
     AngularProfile profile(4);
@@ -57,7 +57,7 @@ TEST(AngularProfile, AClusterAtRestInTheLabAndAWallSeenFromOffCentre) {
     EXPECT_TRUE(std::isnan(profile.plain(1).mean));
 }
 
-TEST(AngularProfile, NothingAndOneDiscAreNoProfile) {
+TEST(AngularProfile, IsNaNWithoutDiscsAndForOneDisc) {
     AngularProfile profile(8);
     profile.sample(empty_container());
     Snapshot s = empty_container();
@@ -72,14 +72,14 @@ Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
     Snapshot s = empty_container(0.2);
     const MFrame f = m_frame(s);
     for (const auto& [place, velocity] : discs)
-        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity));
+        add_disc(s, f.lab_position(place), s.container_velocity + f.rotate_back(velocity));
     return s;
 }
 
 // Two discs that move alike turn at the rate 0 about their centre of mass (½, 0), so at −Ω in the
 // M-frame, where their speed is that of the frame's turning, Ω·½·|(5, 0)|. The wall at (±R, 0) has
 // the velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓ ½).
-TEST(AngularProfile, TheWallPassesACentreOfMassThatMoves) {
+TEST(AngularProfile, UsesTheVelocityOfTheCentreOfMass) {
     AngularProfile profile(2);
     profile.sample(discs_at({{{3.0, 1e-9}, {0.5, 0.2}}, {{-2.0, -1e-9}, {0.5, 0.2}}}));
     profile.close_block();
@@ -94,7 +94,7 @@ TEST(AngularProfile, TheWallPassesACentreOfMassThatMoves) {
     }
 }
 
-TEST(AngularProfile, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
+TEST(AngularProfile, OmitsADiscWithinItsRadiusOfTheCentreOfMass) {
     AngularProfile profile(1);
     profile.sample(discs_at({{{4.0, 0.0}, {0.0, 0.0}},
                              {{-4.0, 0.0}, {0.0, 0.0}},
@@ -105,7 +105,7 @@ TEST(AngularProfile, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
     EXPECT_NEAR(profile.plain(0).mean, -1.0, 1e-12);
 }
 
-TEST(AngularProfile, TheErrorOfTheNormalisedProfileHasNoSign) {
+TEST(AngularProfile, NormalisedErrorIsPositive) {
     AngularProfile profile(1);
     for (const double speed : {0.1, 0.3, 0.2}) {
         profile.sample(discs_at({{{4.0, 0.0}, {0.0, speed}}, {{-4.0, 0.0}, {0.0, -speed}}}));

@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-TEST(CellAverages, AgreeWithTheBlocksOfStatistics) {
+TEST(CellAverages, AgreeWithBlockAverages) {
     CellMeans<1> means(3);
     CellRates rates(3);
     BlockSeries mean_blocks, rate_blocks;
@@ -40,7 +40,7 @@ TEST(CellAverages, AgreeWithTheBlocksOfStatistics) {
     EXPECT_NEAR(rates.estimate(1).error, uncorrelated(rate_blocks), 1e-12);
 }
 
-TEST(CellAverages, ACellNeverVisitedHasNoMeanButARate) {
+TEST(CellAverages, UnvisitedCellHasNaNMeanAndZeroRate) {
     CellMeans<2> means(2);
     CellRates rates(2);
     means.add(0, {1.0, 2.0});
@@ -54,7 +54,7 @@ TEST(CellAverages, ACellNeverVisitedHasNoMeanButARate) {
     EXPECT_TRUE(std::isnan(CellRates(1).estimate(0).mean));
 }
 
-TEST(CellAverages, MergedAreOneLongRun) {
+TEST(CellAverages, MergedEqualsOneLongRun) {
     CellMeans<1> whole(4), first(4), second(4);
     CellRates all(4), one(4), two(4);
     Noise noise(5);
@@ -86,7 +86,7 @@ TEST(CellAverages, MergedAreOneLongRun) {
     }
 }
 
-TEST(CellAverages, AnErrorHasNoSign) {
+TEST(CellAverages, ScaledErrorIsPositive) {
     const Estimate e = scaled({.mean = 2.0, .error = 0.5}, -3.0);
     EXPECT_EQ(e.mean, -6.0);
     EXPECT_EQ(e.error, 1.5);

@@ -15,7 +15,7 @@ Snapshot resting_at(const std::vector<Vec2>& places, double u = 0.0) {
     return s;
 }
 
-TEST(ClusterCentre, ACentreLeftOfMLags) {
+TEST(ClusterCentre, CentreLeftOfMHasASmallerTheta) {
     for (const double u : {0.0, 0.3, 0.8}) {
         ClusterCentre centre(1);
         // At 240°: 30° clockwise of M.
@@ -29,7 +29,7 @@ TEST(ClusterCentre, ACentreLeftOfMLags) {
     }
 }
 
-TEST(ClusterCentre, ElongationIsThatOfTheAxes) {
+TEST(ClusterCentre, ElongationIsTheRatioOfTheAxes) {
     ClusterCentre centre(1);
     // Mean squares 9/2 and 1/2: three times as long as wide, however it lies.
     const Vec2 along = unit_circle(0.1), across = perpendicular(along);
@@ -42,7 +42,7 @@ TEST(ClusterCentre, ElongationIsThatOfTheAxes) {
     EXPECT_TRUE(std::isnan(line.elongation().mean));
 }
 
-TEST(ClusterCentre, ForcesOnADiscAtMAndOnOneThatTheWallDrags) {
+TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     Snapshot s = resting_at({{0.0, -7.6}});
     const double omega = 2.0 * pi / s.period;
     ClusterCentre at_M(1);
@@ -59,7 +59,7 @@ TEST(ClusterCentre, ForcesOnADiscAtMAndOnOneThatTheWallDrags) {
     EXPECT_NEAR(with_wall.coriolis().mean, 2.0 * omega * omega * 5.0, 1e-9);
 }
 
-TEST(ClusterCentre, NothingSeenIsNotKnown) {
+TEST(ClusterCentre, IsNaNWithoutSamples) {
     ClusterCentre centre(1);
     centre.sample(empty_container());
     centre.close_block();
@@ -67,7 +67,7 @@ TEST(ClusterCentre, NothingSeenIsNotKnown) {
     EXPECT_TRUE(std::isnan(centre.direction().angle().mean));
 }
 
-TEST(ClusterCentre, MergedIsTheSameAsOneAfterTheOther) {
+TEST(ClusterCentre, MergedEqualsOneLongRun) {
     ClusterCentre a(1), b(1), both(1);
     for (int k = 0; k < 6; ++k) {
         const Snapshot s = random_discs(12, std::uint64_t(k), 0.1 * k);

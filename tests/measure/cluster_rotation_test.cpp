@@ -82,7 +82,7 @@ Snapshot pushed_spheres(std::size_t n, std::uint64_t seed) {
     return s;
 }
 
-TEST(ClusterRotation, SpheresAreSeenWhereTheirParabolasTakeThem) {
+TEST(ClusterRotation, UsesTheAccelerationOfSpheres) {
     for (std::size_t n = 2; n <= 60; ++n) {
         const Snapshot s = pushed_spheres(n, n);
         const RotationSample expected = by_definition(s), sample = cluster_rotation(s);
@@ -96,7 +96,7 @@ TEST(ClusterRotation, SpheresAreSeenWhereTheirParabolasTakeThem) {
     }
 }
 
-TEST(ClusterRotation, EveryWidthGivesTheSameBits) {
+TEST(ClusterRotation, IsBitwiseEqualForEveryWidth) {
     for (std::size_t n = 2; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));
         const RotationSample base = cluster_rotation(s, Width::baseline);
@@ -109,7 +109,7 @@ TEST(ClusterRotation, EveryWidthGivesTheSameBits) {
     }
 }
 
-TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
+TEST(ClusterRotation, IsNaNWithoutTwoDiscsAtDifferentPoints) {
     Snapshot s = empty_container();
     EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
     EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
@@ -123,7 +123,7 @@ TEST(ClusterRotation, OneDiscOrNoneOrAllOnOnePointIsNotANumber) {
     }
 }
 
-TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
+TEST(ClusterRotation, IndividualMeanOmitsADiscOnTheCentreOfMass) {
     for (const int others : {6, 8, 12, 46}) {
         for (int place = 0; place <= others; ++place) {
             Snapshot s = empty_container();
@@ -144,7 +144,7 @@ TEST(ClusterRotation, ADiscOnTheCentreOfMassIsLeftOutOfTheIndividualMean) {
 
 // The same with a disc there that moves through the centre of mass: about the ring's rate in the
 // mean, as Σ r = 0 on a ring, but r × v/r² of that disc would be 10¹⁵.
-TEST(ClusterRotation, ADiscThatPassesTheCentreOfMassIsLeftOutWhereverItStandsInTheList) {
+TEST(ClusterRotation, OmitsADiscOnTheCentreOfMassAtAnyIndex) {
     constexpr int others = 46;
     for (int place = 0; place <= others; ++place) {
         Snapshot s = empty_container();
@@ -158,7 +158,7 @@ TEST(ClusterRotation, ADiscThatPassesTheCentreOfMassIsLeftOutWhereverItStandsInT
     }
 }
 
-TEST(ClusterRotation, ALookInTimeAndTheFirstLookAfterAnEventSeeTheSame) {
+TEST(ClusterRotation, SampleByTimeEqualsFirstSampleAfterAnEvent) {
     for (std::size_t n = 0; n <= 60; ++n) {
         const Snapshot s = held_earlier(random_discs(n, n));
         ClusterRotation rotation;
@@ -183,7 +183,7 @@ Event push(Snapshot& s, std::size_t i, const Vec2& normal, double along, double 
     return {0, s.clock, EventKind::disc_wall, k, k, normal, {along, across, false}, 0.0};
 }
 
-TEST(ClusterRotation, TheCentreOfMassIsFollowedFromPushToPush) {
+TEST(ClusterRotation, FollowsTheCentreOfMassThroughWallImpulses) {
     for (std::size_t n = 2; n <= 60; ++n) {
         Snapshot s = held_earlier(random_discs(n, 300 + n));
         Noise noise(n);
@@ -202,7 +202,7 @@ TEST(ClusterRotation, TheCentreOfMassIsFollowedFromPushToPush) {
     }
 }
 
-TEST(ClusterRotation, EveryWidthFollowsWithTheSameBits) {
+TEST(ClusterRotation, FollowingIsBitwiseEqualForEveryWidth) {
     for (const std::size_t n : {5u, 8u, 13u, 48u, 55u}) {
         Snapshot s = held_earlier(random_discs(n, n));
         ClusterRotation best, baseline(Width::baseline), avx2(Width::avx2);
@@ -220,7 +220,7 @@ TEST(ClusterRotation, EveryWidthFollowsWithTheSameBits) {
     }
 }
 
-TEST(ClusterRotation, WhereDiscsComeOrGoTheCentreOfMassIsFoundAnew) {
+TEST(ClusterRotation, SumsTheCentreOfMassAgainIfTheNumberOfDiscsChanges) {
     ClusterRotation rotation;
     for (const std::size_t n : {48u, 12u, 3u, 30u}) {
         const Snapshot s = random_discs(n, n);
@@ -228,14 +228,14 @@ TEST(ClusterRotation, WhereDiscsComeOrGoTheCentreOfMassIsFoundAnew) {
     }
 }
 
-TEST(ClusterRotation, AStateThatIsNotANumberShows) {
+TEST(ClusterRotation, IsNaNForANaNState) {
     Snapshot s = random_discs(20, 4);
     s.vx[3] = not_available;
     EXPECT_TRUE(std::isnan(cluster_rotation(s).individual));
     EXPECT_TRUE(std::isnan(cluster_rotation(s).rigid));
 }
 
-TEST(ClusterRotation, MeansAreInUnitsOfOmegaAndEventsAndTimeAreKeptApart) {
+TEST(ClusterRotation, MeansByEventAndByTimeAreSeparateAndInUnitsOfOmega) {
     ClusterRotation rotation;
     for (int block = 0; block < 4; ++block) {
         rotation.sample(rigid_cluster(9, omega, 1), anything);
@@ -252,7 +252,7 @@ TEST(ClusterRotation, MeansAreInUnitsOfOmegaAndEventsAndTimeAreKeptApart) {
     EXPECT_NEAR(e.by_event.error, 0.0, 1e-12);
 }
 
-TEST(ClusterRotation, WithoutALookThereIsNoMean) {
+TEST(ClusterRotation, HasNoMeanWithoutSamples) {
     ClusterRotation rotation;
     EXPECT_TRUE(std::isnan(rotation.estimates().by_event.mean));
     rotation.close_block();
@@ -260,7 +260,7 @@ TEST(ClusterRotation, WithoutALookThereIsNoMean) {
     EXPECT_TRUE(std::isnan(rotation.estimates().rigid_by_time.mean));
 }
 
-TEST(ClusterRotation, WhatIsNotClosedDoesNotCount) {
+TEST(ClusterRotation, OpenBlockDoesNotCount) {
     ClusterRotation rotation;
     rotation.sample(rigid_cluster(9, omega, 1), anything);
     rotation.close_block();
@@ -268,7 +268,7 @@ TEST(ClusterRotation, WhatIsNotClosedDoesNotCount) {
     EXPECT_NEAR(rotation.estimates().by_event.mean, 1.0, 1e-12);
 }
 
-TEST(ClusterRotation, MergedRunsAreOneLongRun) {
+TEST(ClusterRotation, MergedEqualsOneLongRun) {
     ClusterRotation whole, first, second;
     for (int block = 0; block < 10; ++block) {
         for (int event = 0; event < 20 + block; ++event) {

@@ -12,10 +12,10 @@ Event event_of(EventKind kind) { return {0, 0.0, kind, 0, 1, {1.0, 0.0}, {1.0, 0
 TEST(CollisionRates, CountPerDiscAndTime) {
     CollisionRates rates;
     for (int block = 0; block < 3; ++block) {
-        for (int k = 0; k < 30; ++k) rates.sample(event_of(EventKind::disc_disc));
-        for (int k = 0; k < 20; ++k) rates.sample(event_of(EventKind::disc_wall));
-        for (int k = 0; k < 30; ++k) rates.sample(event_of(EventKind::path_vertex));
-        rates.close_block(4.0, 5);
+        for (int k = 0; k < 30; ++k) rates.sample_event(event_of(EventKind::disc_disc));
+        for (int k = 0; k < 20; ++k) rates.sample_event(event_of(EventKind::disc_wall));
+        for (int k = 0; k < 30; ++k) rates.sample_event(event_of(EventKind::path_vertex));
+        rates.close_event_block(4.0, 5);
     }
     EXPECT_DOUBLE_EQ(rates.disc_disc().mean, 60.0 / 20.0);
     EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 20.0 / 20.0);
@@ -24,11 +24,11 @@ TEST(CollisionRates, CountPerDiscAndTime) {
 }
 
 // Rates of 1 and 3 per unit time: 2 ± 1. The mean free time is 1/2, and d(1/x) = dx/x².
-TEST(CollisionRates, TheErrorOfTheMeanFreeTimeIsThatOfTheRateOverItsSquare) {
+TEST(CollisionRates, ErrorOfTheMeanFreeTimeFollowsFromTheRate) {
     CollisionRates rates;
     for (const int hits : {1, 3}) {
-        for (int k = 0; k < hits; ++k) rates.sample(event_of(EventKind::disc_wall));
-        rates.close_block(1.0, 1);
+        for (int k = 0; k < hits; ++k) rates.sample_event(event_of(EventKind::disc_wall));
+        rates.close_event_block(1.0, 1);
     }
     EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 2.0);
     EXPECT_DOUBLE_EQ(rates.disc_wall().error, 1.0);
@@ -36,27 +36,27 @@ TEST(CollisionRates, TheErrorOfTheMeanFreeTimeIsThatOfTheRateOverItsSquare) {
     EXPECT_DOUBLE_EQ(rates.mean_free_time().error, 0.25);
 }
 
-TEST(CollisionRates, WithoutTimeDiscsOrCollisions) {
+TEST(CollisionRates, AreNaNWithoutTimeOrDiscsAndZeroWithoutCollisions) {
     CollisionRates rates;
     EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
-    rates.sample(event_of(EventKind::disc_disc));
-    rates.close_block(4.0, 0);
+    rates.sample_event(event_of(EventKind::disc_disc));
+    rates.close_event_block(4.0, 0);
     EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
     CollisionRates quiet;
-    quiet.close_block(4.0, 5);
+    quiet.close_event_block(4.0, 5);
     EXPECT_EQ(quiet.disc_disc().mean, 0.0);
     EXPECT_TRUE(std::isinf(quiet.mean_free_time().mean));
 }
 
-TEST(CollisionRates, MergedRunsAreOneLongRun) {
+TEST(CollisionRates, MergedEqualsOneLongRun) {
     CollisionRates whole, first, second;
     for (int block = 0; block < 10; ++block) {
         for (int k = 0; k < 5 + block % 3; ++k) {
-            whole.sample(event_of(EventKind::disc_disc));
-            (block < 4 ? first : second).sample(event_of(EventKind::disc_disc));
+            whole.sample_event(event_of(EventKind::disc_disc));
+            (block < 4 ? first : second).sample_event(event_of(EventKind::disc_disc));
         }
-        whole.close_block(2.0, 3);
-        (block < 4 ? first : second).close_block(2.0, 3);
+        whole.close_event_block(2.0, 3);
+        (block < 4 ? first : second).close_event_block(2.0, 3);
     }
     first.merge(second);
     EXPECT_DOUBLE_EQ(first.disc_disc().mean, whole.disc_disc().mean);

@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-TEST(DishFit, TheGapIsThatOfTheDiscNearestToTheWall) {
+TEST(ContainerFit, WallGapIsThatOfTheOutermostDisc) {
     Snapshot s = empty_container(0.2);
     EXPECT_EQ(wall_gap(s), paper_container_radius);
     add_disc(s, s.container_centre + Vec2{0.0, 3.0}, {});
@@ -20,7 +20,7 @@ TEST(DishFit, TheGapIsThatOfTheDiscNearestToTheWall) {
     EXPECT_NEAR(wall_gap(s), paper_container_radius - 10.0, 1e-14);
 }
 
-TEST(DishFit, TheClosestPairIsFoundAmongAll) {
+TEST(ContainerFit, ClosestPairEqualsThatOfAllPairs) {
     EXPECT_EQ(closest_pair(empty_container()), never);
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         Snapshot s = random_discs(40, seed);
@@ -50,7 +50,7 @@ FittingPhase seen(double degrees, double sense) {
     return fit;
 }
 
-TEST(DishFit, ThePhaseIsFoundWhereDiscsTouchTheWall) {
+TEST(ContainerFit, PhaseIsFoundIfDiscsTouchTheWall) {
     for (const double degrees : {0.0, 47.0, 301.0}) {
         const FittingPhase fit = seen(degrees, 1.0);
         EXPECT_NEAR(fit.best().phase * 180.0 / pi, degrees, 1e-9);
@@ -63,7 +63,7 @@ TEST(DishFit, ThePhaseIsFoundWhereDiscsTouchTheWall) {
     EXPECT_LT(reverse.best(true).protrusion, 1e-20);
 }
 
-TEST(DishFit, WhereDiscsLeaveRoomTheMiddleOfThePhasesThatFitIsTold) {
+TEST(ContainerFit, PhaseIsTheMiddleOfThoseThatFit) {
     FittingPhase fit;
     Snapshot s = empty_container();
     add_disc(s, paper_amplitude * unit_circle(90.0 / 360.0) + 7.5 * unit_circle(0.25), {});

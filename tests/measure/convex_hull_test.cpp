@@ -22,7 +22,7 @@ TEST(ConvexHull, OfFewPointsAndPointsOnALine) {
     EXPECT_EQ(perimeter(convex_hull(line)), 6.0);
 }
 
-TEST(ConvexHull, EnclosesEveryPointAndTurnsOneWay) {
+TEST(ConvexHull, EnclosesEveryPointAndIsConvex) {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         Noise noise(seed);
         std::vector<Vec2> points;

@@ -53,20 +53,20 @@ TEST(DensityMap, ADiscIsInItsCellAndTheSumIsTheNumberOfDiscs) {
     EXPECT_NEAR(one.grid().centre_of(cell).y, -5.0, 0.5 * one.grid().cell_width());
 }
 
-TEST(DensityMap, EdgesAndNonsenseHaveTheirPlace) {
+TEST(DensityMap, EdgesBelongToACellAndNaNToNone) {
     const SquareGrid grid{4, 2.0};
     EXPECT_EQ(grid.cell_at(-2.0, -2.0), 0u);
     EXPECT_EQ(grid.cell_at(1.999, 1.999), 15u);
-    EXPECT_EQ(grid.cell_at(2.0, 0.0), SquareGrid::nowhere);
-    EXPECT_EQ(grid.cell_at(not_available, 0.0), SquareGrid::nowhere);
-    EXPECT_EQ(grid.cell_at(1e300, 0.0), SquareGrid::nowhere);
+    EXPECT_EQ(grid.cell_at(2.0, 0.0), SquareGrid::outside);
+    EXPECT_EQ(grid.cell_at(not_available, 0.0), SquareGrid::outside);
+    EXPECT_EQ(grid.cell_at(1e300, 0.0), SquareGrid::outside);
     const double x[] = {-2.0, 1.999, 2.0, not_available, 1e300, -1e300, 0.0};
     const double y[] = {-2.0, 1.999, 0.0, 0.0, 0.0, 0.0, not_available};
     std::int32_t cells[7];
     grid.locate(7, x, y, cells);
     for (int k = 0; k < 7; ++k) {
         const std::size_t cell = grid.cell_at(x[k], y[k]);
-        EXPECT_EQ(cells[k], cell == SquareGrid::nowhere ? 16 : static_cast<int>(cell)) << k;
+        EXPECT_EQ(cells[k], cell == SquareGrid::outside ? 16 : static_cast<int>(cell)) << k;
     }
     DensityMap map(R);
     EXPECT_TRUE(std::isnan(map.density(0).mean));

@@ -17,7 +17,7 @@ Snapshot container_at(int sample) {
     return s;
 }
 
-TEST(Diffusion, OfUniformMotionGrowsWithTheSquareOfTheLag) {
+TEST(Diffusion, GrowsWithTheSquareOfTheLagForUniformMotion) {
     Diffusion diffusion(5);
     const double step = paper_period / per_period;
     for (int k = 0; k < 40; ++k) {
@@ -31,13 +31,13 @@ TEST(Diffusion, OfUniformMotionGrowsWithTheSquareOfTheLag) {
         const double t = step * (1 << k);
         EXPECT_NEAR(diffusion.lag(k), t, 1e-12);
         EXPECT_NEAR(diffusion.square_displacement(k).mean, 0.0025 * t * t, 1e-12);
-        EXPECT_NEAR(diffusion.mean_turn(k).mean, 0.5 * t, 1e-12);
-        EXPECT_NEAR(diffusion.turn_variance(k).mean, 0.0, 1e-10);
+        EXPECT_NEAR(diffusion.mean_rotation(k).mean, 0.5 * t, 1e-12);
+        EXPECT_NEAR(diffusion.rotation_variance(k).mean, 0.0, 1e-10);
     }
     EXPECT_EQ(diffusion.breaks(), 0.0);
 }
 
-TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
+TEST(Diffusion, GrowsWithTheLagForARandomWalk) {
     Diffusion diffusion(4);
     Noise noise(6);
     std::vector<Vec2> p(40);
@@ -57,12 +57,12 @@ TEST(Diffusion, OfARandomWalkGrowsWithTheLag) {
         // Steps uniform in (−1, 1): variance 1/3 per coordinate. 160 000 steps: 0.5 %, five times
         // that for the longest lag, whose displacements overlap.
         EXPECT_NEAR(diffusion.square_displacement(k).mean / (1 << k), 2.0 / 3.0, 0.02);
-        EXPECT_NEAR(diffusion.turn_variance(k).mean / (1 << k), 1.0 / 3.0, 0.01);
-        EXPECT_NEAR(diffusion.mean_turn(k).mean / (1 << k), 0.1, 0.01);
+        EXPECT_NEAR(diffusion.rotation_variance(k).mean / (1 << k), 1.0 / 3.0, 0.01);
+        EXPECT_NEAR(diffusion.mean_rotation(k).mean / (1 << k), 0.1, 0.01);
     }
 }
 
-TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
+TEST(Diffusion, OverlappingDisplacementsCountAsOneSample) {
     // The scatter over many walks against the error that each states, for a lag of four periods
     // (one sample each): √L is an upper bound for what overlapping does (√(2L/3) for a free walk).
     double stated = 0.0, sum = 0.0, squares = 0.0;
@@ -90,7 +90,7 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOne) {
     EXPECT_LT(stated, 1.5 * scatter);
 }
 
-TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
+TEST(Diffusion, IsZeroForADiscCarriedByTheContainerAndNaNWithoutAngles) {
     Diffusion diffusion(3);
     for (int k = 0; k < 20; ++k) {
         Snapshot s = container_at(k);
@@ -100,10 +100,10 @@ TEST(Diffusion, ACarriedDiscDoesNotMoveAndUnknownAnglesAreStated) {
     }
     diffusion.close_block();
     EXPECT_NEAR(diffusion.square_displacement(2).mean, 0.0, 1e-28);
-    EXPECT_TRUE(std::isnan(diffusion.mean_turn(0).mean));
+    EXPECT_TRUE(std::isnan(diffusion.mean_rotation(0).mean));
 }
 
-TEST(Diffusion, UnsortedOrUnevenTimesBeginAnew) {
+TEST(Diffusion, UnsortedOrUnevenTimesRestart) {
     Diffusion diffusion(3);
     const auto sample_at = [&](int k) {
         Snapshot s = container_at(k);

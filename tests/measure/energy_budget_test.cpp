@@ -69,7 +69,7 @@ TEST(EnergyBudget, ClosesForEveryCollision) {
             }
 }
 
-TEST(EnergyBudget, GoldenCollisionLosesWhatPhysicsSays) {
+TEST(EnergyBudget, ReferenceCollisionLosesTheDocumentedEnergy) {
     // Discs at (0,0) and (0,2), v = (0,1) and (0.5,−1), μ = 1: loses 0.0568181… = 5/88.
     Snapshot s = empty_container();
     add_disc(s, {0.0, 0.0}, {0.0, 1.0});
@@ -85,15 +85,15 @@ TEST(EnergyBudget, GoldenCollisionLosesWhatPhysicsSays) {
     EXPECT_NEAR(e.inelastic_loss, 0.0, 1e-16);
 }
 
-TEST(EnergyBudget, PowersAreEnergyPerTimeAndTotalsGoOn) {
+TEST(EnergyBudget, PowersArePerTimeAndTotalsAccumulate) {
     EnergyBudget budget;
     double work = 0.0, change = 0.0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const Case c = collide_at_random(seed, true, Surface{1.0, 0.9, 0.0});
-        budget.sample(c.event, c.after);
+        budget.sample_event(c.event, c.after);
         work += energy_change(c.event, c.after).work;
         change += c.change;
-        budget.close_block(2.0);
+        budget.close_event_block(2.0);
     }
     EXPECT_NEAR(budget.wall_power().mean, work / 20.0, 1e-15);
     EXPECT_NEAR(budget.accounted(), change, 1e-13);
@@ -107,16 +107,16 @@ TEST(EnergyBudget, PowersAreEnergyPerTimeAndTotalsGoOn) {
     EXPECT_NEAR(twice.total_work(), 2.0 * work, 1e-13);
 }
 
-TEST(EnergyBudget, APathVertexCostsNothing) {
+TEST(EnergyBudget, PathVertexChangesNothing) {
     EnergyBudget budget;
-    budget.sample({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {1.0, 1.0, false}, 0.0},
+    budget.sample_event({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {1.0, 1.0, false}, 0.0},
                   random_discs(2, 1));
     EXPECT_EQ(budget.accounted(), 0.0);
 }
 
 // The kick goes along the normal as it is, also where that is no unit vector by rounding; here it
 // is too long by a thousandth, so that an error of the budget shows.
-TEST(EnergyBudget, ClosesForANormalThatIsNoUnitVector) {
+TEST(EnergyBudget, ClosesForANormalOfAnotherLengthThanOne) {
     const Vec2 n{1.001, 0.0};
     constexpr double J = 0.9;
     Snapshot s = empty_container();

@@ -38,7 +38,7 @@ TEST(FlowMap, RigidRotationAboutCGivesOmegaTimesThePosition) {
         for (std::size_t cell = 0; cell < map.grid().cells(); ++cell) {
             const Vec2 p = map.grid().centre_of(cell);
             add_disc(s, f.lab_position(p),
-                     s.container_velocity + f.turn_back(rate * perpendicular(p)));
+                     s.container_velocity + f.rotate_back(rate * perpendicular(p)));
         }
         map.sample(s);
         map.close_block();

@@ -19,13 +19,13 @@ Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2
         const Vec2 p = grid.centre_of(c);
         const Vec2 flow = 0.4 * perpendicular(p);
         add_disc(s, f.lab_position(p),
-                 s.container_velocity + f.turn_back(flow + sign * Vec2{0.3, 0.4}), 1.0 + 2.0 * sign,
+                 s.container_velocity + f.rotate_back(flow + sign * Vec2{0.3, 0.4}), 1.0 + 2.0 * sign,
                  1.0, mass);
     }
     return s;
 }
 
-TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
+TEST(GranularTemperature, SubtractsTheMeanFlow) {
     GranularTemperature temperature(R, 5, 1);
     for (int k = 0; k < 10; ++k) {
         temperature.sample(jiggling(temperature.grid(), k / 10.0, 1.0));
@@ -40,11 +40,11 @@ TEST(GranularTemperature, IsWhatIsLeftWithoutTheMeanFlow) {
 
 // Two discs with the velocities ±2 in one cell, six with ±4 in another: temperatures of ½ 2² = 2
 // and ½ 4² = 8. Each disc counts the same, so the average is (2·2 + 6·8)/8.
-TEST(GranularTemperature, ACellCountsWithTheDiscsFoundInIt) {
+TEST(GranularTemperature, WeightsCellsWithTheirVisits) {
     Snapshot s = empty_container(0.3);
     const MFrame f = m_frame(s);
     const auto add = [&](const Vec2& place, double speed) {
-        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back({speed, 0.0}));
+        add_disc(s, f.lab_position(place), s.container_velocity + f.rotate_back({speed, 0.0}));
     };
     for (const double sign : {1.0, -1.0}) add({-3.0, -3.0}, 2.0 * sign);
     for (int k = 0; k < 3; ++k)
@@ -57,7 +57,7 @@ TEST(GranularTemperature, ACellCountsWithTheDiscsFoundInIt) {
     EXPECT_NEAR(temperature.granular().mean, 6.5, 1e-14);
 }
 
-TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
+TEST(GranularTemperature, IsZeroForARigidFlowAndNaNWithoutDiscs) {
     GranularTemperature temperature(R, 5, 1);
     EXPECT_TRUE(std::isnan(temperature.granular().mean));
     EXPECT_TRUE(std::isnan(temperature.of_the_spin().mean));
@@ -70,7 +70,7 @@ TEST(GranularTemperature, OfARigidFlowIsZeroAndOfNothingIsNotANumber) {
     EXPECT_NEAR(temperature.granular().mean, 0.0, 1e-13);
 }
 
-TEST(GranularTemperature, MissingSpinsAreStated) {
+TEST(GranularTemperature, IsNaNForMissingSpins) {
     GranularTemperature temperature(R, 5, 1);
     Snapshot s = random_discs(5, 1);
     s.spin[2] = not_available;
@@ -80,7 +80,7 @@ TEST(GranularTemperature, MissingSpinsAreStated) {
     EXPECT_FALSE(std::isnan(temperature.granular().mean));
 }
 
-TEST(GranularTemperature, EnergyThatTheVelocitiesMissIsAdded) {
+TEST(GranularTemperature, AddsTheEnergyMissingInSmoothedVelocities) {
     GranularTemperature temperature(R, 5, 1);
     for (const double sign : {1.0, -1.0})
         temperature.sample(jiggling(temperature.grid(), 0.1, sign));

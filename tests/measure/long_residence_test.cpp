@@ -31,8 +31,8 @@ std::vector<int> found(int count, const std::function<bool(int)>& at_wall) {
     int asked = 0;
     for (int k = 0; k < count; ++k) {
         residences.sample(at_sample(k, at_wall(k)));
-        for (; asked <= k && residences.knows(at_sample(asked, true).time); ++asked)
-            if (residences.pinned(0, at_sample(asked, true).time)) result.push_back(asked);
+        for (; asked <= k && residences.is_known(at_sample(asked, true).time); ++asked)
+            if (residences.resident(0, at_sample(asked, true).time)) result.push_back(asked);
     }
     return result;
 }
@@ -43,14 +43,14 @@ std::vector<int> from_to(int from, int to) {
     return all;
 }
 
-TEST(LongStays, AllOfALongStayCountsFromItsFirstSampleToItsLast) {
+TEST(LongResidences, CountFromTheFirstSampleToTheLast) {
     EXPECT_EQ(found(300, [](int k) { return k >= 50 && k <= 120; }), from_to(50, 120));
     // Exactly long enough, and one sample too short.
     EXPECT_EQ(found(300, [](int k) { return k >= 50 && k <= 90; }), from_to(50, 90));
     EXPECT_EQ(found(300, [](int k) { return k >= 50 && k <= 89; }), std::vector<int>{});
 }
 
-TEST(LongStays, OneAfterTheOtherAndShortOnesBetween) {
+TEST(LongResidences, ShortOnesBetweenDoNotCount) {
     const auto at_wall = [](int k) {
         return (k >= 10 && k <= 60) || (k >= 63 && k <= 70) || (k >= 72 && k <= 130) || k == 140;
     };
@@ -59,7 +59,7 @@ TEST(LongStays, OneAfterTheOtherAndShortOnesBetween) {
     EXPECT_EQ(found(300, at_wall), expected);
 }
 
-TEST(LongStays, TheShareIsThatOfTheMeasurementOfStays) {
+TEST(LongResidences, ShareEqualsThatOfWallResidences) {
     const auto at_wall = [](int k) { return (k / 37) % 3 == 0 || (k / 61) % 4 == 1; };
     WallResidences residences;
     for (int k = 0; k < 3000; ++k) residences.sample(at_sample(k, at_wall(k)));
@@ -68,19 +68,19 @@ TEST(LongStays, TheShareIsThatOfTheMeasurementOfStays) {
     EXPECT_NEAR(residences.share().mean * 3000, double(found(3000, at_wall).size()), 41.0);
 }
 
-TEST(LongStays, OtherDiscsOrTimesThatFallBackBeginAnew) {
+TEST(LongResidences, OtherDiscsOrDescendingTimesRestart) {
     for (const int how : {0, 1, 2}) {
         LongResidences residences;
         for (int k = 0; k < 60; ++k) residences.sample(at_sample(k, true));
         const double before = at_sample(10, true).time;
-        EXPECT_TRUE(residences.knows(before));
-        EXPECT_TRUE(residences.pinned(0, before));
-        if (how == 0) residences.begin_anew();
+        EXPECT_TRUE(residences.is_known(before));
+        EXPECT_TRUE(residences.resident(0, before));
+        if (how == 0) residences.begin_tracks();
         residences.sample(how == 1 ? at_sample(60, true, 2) : at_sample(how == 2 ? 5 : 60, true));
         // It never will be known: nobody waits for it.
-        EXPECT_TRUE(residences.knows(before)) << how;
-        EXPECT_FALSE(residences.pinned(0, before)) << how;
-        EXPECT_FALSE(residences.pinned(7, at_sample(60, true).time));
+        EXPECT_TRUE(residences.is_known(before)) << how;
+        EXPECT_FALSE(residences.resident(0, before)) << how;
+        EXPECT_FALSE(residences.resident(7, at_sample(60, true).time));
     }
 }
 

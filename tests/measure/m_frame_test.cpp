@@ -42,7 +42,7 @@ TEST(MFrame, TheSwirlCentreIsAboveAndMIsAtTheBottom) {
     }
 }
 
-TEST(MFrame, ThereAndBackIsTheIdentity) {
+TEST(MFrame, ForwardAndBackIsTheIdentity) {
     for (int k = 0; k < 12; ++k) {
         const Snapshot s = held_earlier(random_discs(20, k, k / 12.0));
         const MFrame f = m_frame(s);
@@ -71,7 +71,7 @@ TEST(MFrame, ADiscCarriedByTheContainerMovesLikeItsWall) {
     EXPECT_NEAR(cross(p, v), -omega * 25.0, 1e-13);  // clockwise
 }
 
-TEST(MFrame, ADiscAtRestThereStaysWhereItIs) {
+TEST(MFrame, DiscAtRestInItKeepsItsPosition) {
     // Two instants of a disc that is fixed in the turning frame.
     for (const double u : {0.1, 0.6}) {
         Snapshot s = empty_container(u);
@@ -88,7 +88,7 @@ TEST(MFrame, ADiscAtRestThereStaysWhereItIs) {
     }
 }
 
-TEST(MFrame, RotationThereIsRotationInTheLabLessOmega) {
+TEST(MFrame, RotationIsThatInTheLabMinusOmega) {
     for (int k = 0; k < 20; ++k) {
         Snapshot s = random_discs(30, 7 + k, k / 20.0);
         Noise noise(k);
@@ -109,7 +109,7 @@ TEST(MFrame, AStillContainerTurnsWithTheClock) {
     EXPECT_NEAR(m_frame(s).down.y, 1.0, 1e-15);
 }
 
-TEST(MFrameView, HoldsWhatTheFrameSays) {
+TEST(MFrameView, EqualsTheFrameDiscByDisc) {
     const Snapshot s = held_earlier(random_discs(13, 3, 0.4));
     const MFrame f = m_frame(s);
     const MFrameView view(s);
@@ -128,7 +128,7 @@ TEST(MFrameView, HoldsWhatTheFrameSays) {
     EXPECT_NEAR(mean, cluster_rotation(s).individual, 1e-12);
 }
 
-TEST(MFrameView, OfNothingAndOfOneDisc) {
+TEST(MFrameView, WorksWithoutDiscsAndForOneDisc) {
     Snapshot s = empty_container();
     EXPECT_EQ(MFrameView(s).size(), 0u);
     add_disc(s, {1.0, 2.0}, {0.0, 0.0});
@@ -141,7 +141,7 @@ TEST(MFrameView, TheCentreOfMassIsWeightedWithTheMasses) {
     Snapshot s = empty_container(0.4);
     const MFrame f = m_frame(s);
     const auto add = [&](const Vec2& place, const Vec2& velocity, double mass) {
-        add_disc(s, f.lab_position(place), s.container_velocity + f.turn_back(velocity), 0.0, 1.0,
+        add_disc(s, f.lab_position(place), s.container_velocity + f.rotate_back(velocity), 0.0, 1.0,
                  mass);
     };
     add({1.0, 0.0}, {0.5, -1.0}, 1.0);

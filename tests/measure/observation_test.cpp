@@ -44,7 +44,7 @@ Observation observation_of(std::vector<std::string> names) {
     return Observation(s.container_radius, s.period, std::move(names));
 }
 
-TEST(Observation, WhatAMeasurementNeedsFollowsFromItsFunctions) {
+TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
     std::set<std::string> pinned, tracks, cells, events;
     for (const MeasurementKind& kind : measurement_kinds()) {
         if (kind.needs_pinned) pinned.emplace(kind.name);
@@ -59,7 +59,7 @@ TEST(Observation, WhatAMeasurementNeedsFollowsFromItsFunctions) {
     EXPECT_EQ(events, (Names{"collisions", "wall", "energy"}));
 }
 
-TEST(Observation, EverySampleOfAFrameCountsAndEventsAreThinned) {
+TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {
     Observation observation = observation_of({"density"});
     observe(observation, 2, 50);
     Event event{};
@@ -79,7 +79,7 @@ TEST(Observation, EverySampleOfAFrameCountsAndEventsAreThinned) {
     EXPECT_GT(by_event(), 0.0);
 }
 
-TEST(Observation, ReportsComeInTheOrderOfTheNamesAndUnknownNamesArePassedOver) {
+TEST(Observation, ReportsInTheOrderOfTheNamesAndIgnoresUnknownNames) {
     const Observation observation = observation_of({"slip", "nothing", "density"});
     EXPECT_THAT(observation.names(), testing::ElementsAre("slip", "density"));
     const auto reports = observation.report();
@@ -88,7 +88,7 @@ TEST(Observation, ReportsComeInTheOrderOfTheNamesAndUnknownNamesArePassedOver) {
     EXPECT_EQ(reports[1].report.tables.front().rows(), 10000u);
 }
 
-TEST(Observation, RowsAndColumnsHaveNamesUnitsAndDescriptionsBeforeAnythingIsSeen) {
+TEST(Observation, RowsAndColumnsAreCompleteWithoutSamples) {
     for (const auto& [name, report] : observation_of(everything()).report()) {
         EXPECT_FALSE(report.rows.empty() && report.tables.empty()) << name;
         for (const ReportRow& row : report.rows) {
@@ -105,7 +105,7 @@ TEST(Observation, RowsAndColumnsHaveNamesUnitsAndDescriptionsBeforeAnythingIsSee
     }
 }
 
-TEST(Observation, MergedHasTheSumOfTheBlocks) {
+TEST(Observation, MergedHasTheBlocksOfBoth) {
     Observation whole = observation_of(everything()), first = observation_of(everything()),
                 second = observation_of(everything());
     observe(whole, 5, 120);
@@ -134,7 +134,7 @@ std::vector<double> numbers_in(const Report& report) {
 }
 
 // What is made for the others it does not need.
-TEST(Observation, AMeasurementAloneReportsWhatItReportsAmongAll) {
+TEST(Observation, AMeasurementReportsTheSameAloneAndAmongAll) {
     for (const bool same_discs : {true, false}) {
         const Snapshot s = random_discs(12, 7);
         Observation all(s.container_radius, s.period, everything(), same_discs);
@@ -151,7 +151,7 @@ TEST(Observation, AMeasurementAloneReportsWhatItReportsAmongAll) {
     }
 }
 
-TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {
+TEST(Observation, WithoutTracksCellsAreThoseOfThePresentFrame) {
     const Snapshot s = random_discs(12, 7);
     Observation observation(s.container_radius, s.period, {"packing"}, false);
     observe(observation, 2, 100);
@@ -164,7 +164,7 @@ TEST(Observation, WithoutTheSameDiscsNobodyIsFollowedAndTheCellsAreThoseOfNow) {
 
 // Twelve discs, of which one is another from the middle on: what the tracks say is that of two
 // shorter recordings.
-TEST(Observation, OtherDiscsBeginNewTracks) {
+TEST(Observation, NewDiscsBeginNewTracks) {
     const auto moving = [](double time, double begin) {
         Snapshot s = empty_container();
         for (int i = 0; i < 12; ++i)
@@ -190,7 +190,7 @@ TEST(Observation, OtherDiscsBeginNewTracks) {
     }
 }
 
-TEST(SampleTimes, AreEquallySpacedAndTheEndOfAPeriodBelongsToTheNext) {
+TEST(SampleTimes, AreEquallySpacedAndThePeriodIsHalfOpen) {
     const ContainerPath path = polygon_path(1.0, 2.0, 6);
     SampleTimes times(4, 2.0);
     Snapshot s;
@@ -204,7 +204,7 @@ TEST(SampleTimes, AreEquallySpacedAndTheEndOfAPeriodBelongsToTheNext) {
     EXPECT_EQ(s.clock, 0.0);
 }
 
-TEST(SampleTimes, AnIntervalGoesOnThroughThePeriods) {
+TEST(SampleTimes, IntervalContinuesAcrossPeriods) {
     const ContainerPath path = polygon_path(1.0, 2.0, 6);
     SampleTimes times(0, 2.0, 1.5);
     Snapshot s;

@@ -68,7 +68,7 @@ TEST(PinnedLoose, ADiscThatMovesAgainstTheWallOrAcrossIsLoose) {
     EXPECT_EQ(pinning.pinned().at(1), 0);
 }
 
-TEST(PinnedLoose, TheCycleGivesItsAngles) {
+TEST(PinnedLoose, FindsTheAnglesOfAKnownCycle) {
     PinnedLoose pinning;
     for (int k = 0; k < 20 * frames; ++k) {
         pinning.sample(frame_of(k, 1, [](std::size_t, int t) { return cycle(t); }));
@@ -80,12 +80,12 @@ TEST(PinnedLoose, TheCycleGivesItsAngles) {
     // The only sharp turn of the cycle.
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 240.0 * degree, 2.0 * degree);
     // It comes to 240° from below: all turns are in the slices beside it.
-    EXPECT_EQ(pinning.pinned_places().share(23) + pinning.pinned_places().share(24), 1.0);
-    EXPECT_GT(pinning.free_places().share(4) + pinning.free_places().share(5), 0.99);
+    EXPECT_EQ(pinning.pinned_positions().share(23) + pinning.pinned_positions().share(24), 1.0);
+    EXPECT_GT(pinning.free_positions().share(4) + pinning.free_positions().share(5), 0.99);
     EXPECT_EQ(pinning.breaks(), 0.0);
 }
 
-TEST(PinnedLoose, TheRunningFitIsTheFitAddedUpAfresh) {
+TEST(PinnedLoose, RunningFitEqualsTheFitFromScratch) {
     // A long track: pinned or not must not depend on how long ago the track began.
     const auto path = [](std::size_t i, int t) {
         return (3.0 + 0.5 * static_cast<double>(i)) *
@@ -102,7 +102,7 @@ TEST(PinnedLoose, TheRunningFitIsTheFitAddedUpAfresh) {
     }
 }
 
-TEST(PinnedLoose, AMomentaryWobbleIsNotBecomingFree) {
+TEST(PinnedLoose, BriefDeviationIsNotBecomingFree) {
     // Along the wall, with a short kink: the fit leaves the azimuthal direction for a few frames
     // only.
     const auto wobble = [](std::size_t, int t) {
@@ -122,7 +122,7 @@ TEST(PinnedLoose, AMomentaryWobbleIsNotBecomingFree) {
     EXPECT_EQ(pinning.becoming_free().count(), 0.0);
 }
 
-TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
+TEST(PinnedLoose, UnevenTimesBreakTheTracks) {
     PinnedLoose pinning;
     const auto circle = [](std::size_t, int t) {
         return 6.0 * unit_circle(1.0 - static_cast<double>(t) / 511);
@@ -136,11 +136,11 @@ TEST(PinnedLoose, TimesThatDoNotAscendEvenlyBreakTheTrack) {
     pinning.sample(frame_of(25, 1, circle));  // frames missing
     EXPECT_EQ(pinning.breaks(), 2.0);
     for (int k = 26; k < 50; ++k) pinning.sample(frame_of(k, 1, circle));
-    EXPECT_TRUE(pinning.knows());
-    pinning.begin_anew();  // one disc again, but another
+    EXPECT_TRUE(pinning.is_known());
+    pinning.begin_tracks();  // one disc again, but another
     pinning.sample(frame_of(50, 1, circle));
     EXPECT_EQ(pinning.breaks(), 3.0);
-    EXPECT_FALSE(pinning.knows());
+    EXPECT_FALSE(pinning.is_known());
     EXPECT_EQ(pinning.pinned().at(0), 0);
     pinning.sample(frame_of(51, 3, circle));  // other discs
     EXPECT_EQ(pinning.pinned().size(), 3u);
@@ -171,7 +171,7 @@ Event collision_at(EventKind kind, std::uint32_t i, std::uint32_t j) {
     return {0, 0.0, kind, i, j, {1.0, 0.0}, {1.0, 0.0, false}, 0.0};
 }
 
-TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
+TEST(PinnedByCollisions, LongestFlightOfAPeriodCounts) {
     PinnedByCollisions pinning;
     const auto at = [&](double u, double theta) {
         Snapshot s = empty_container(u);
@@ -180,13 +180,13 @@ TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
         return s;
     };
     const auto hit = [&](double u, double theta) {
-        pinning.sample(collision_at(EventKind::disc_wall, 0, 0), at(u, theta));
+        pinning.sample_event(collision_at(EventKind::disc_wall, 0, 0), at(u, theta));
     };
     hit(0.10, 0.30);  // the first has no flight before it
     hit(0.12, 0.28);
     hit(0.16, 0.25);
     hit(0.30, 0.70);  // 0.14 T in the air, from 0.25 to 0.70 turns: the longest
-    pinning.sample(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
+    pinning.sample_event(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
     hit(0.34, 0.65);
     pinning.close_block();
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
@@ -196,19 +196,19 @@ TEST(PinnedByCollisions, TheLongestFlightOfASwirlCounts) {
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
 }
 
-TEST(PinnedByCollisions, BothPartnersCollideAndFlightsCrossTheEndOfTheSwirl) {
+TEST(PinnedByCollisions, BothPartnersCountAndFlightsContinueAcrossPeriods) {
     PinnedByCollisions pinning;
     Snapshot s = empty_container(0.95);
     const MFrame f = m_frame(s);
     add_disc(s, f.lab_position({1.0, 0.0}), {0.0, 0.0});
     add_disc(s, f.lab_position({3.0, 0.0}), {0.0, 0.0});
-    pinning.sample(collision_at(EventKind::disc_disc, 0, 1), s);
+    pinning.sample_event(collision_at(EventKind::disc_disc, 0, 1), s);
     Snapshot t = empty_container(0.05);
     t.periods = 1;
     const MFrame g = m_frame(t);
     add_disc(t, g.lab_position({0.0, 1.0}), {0.0, 0.0});
     add_disc(t, g.lab_position({0.0, 3.0}), {0.0, 0.0});
-    pinning.sample(collision_at(EventKind::disc_disc, 0, 1), t);
+    pinning.sample_event(collision_at(EventKind::disc_disc, 0, 1), t);
     pinning.close_block();
     EXPECT_EQ(pinning.becoming_pinned().count(), 2.0);
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.5 * pi, 1e-14);

@@ -31,7 +31,7 @@ TEST(RadialDensity, UniformPointsAreFlat) {
     EXPECT_NEAR(sum, 400.0, 1e-10);
 }
 
-TEST(RadialDensity, NothingSeenIsNotANumberAndNobodyThereIsZero) {
+TEST(RadialDensity, IsNaNWithoutSamplesAndZeroInAnEmptyRing) {
     RadialDensity density(8.6);
     EXPECT_TRUE(std::isnan(density.density(0).mean));
     density.sample(empty_container());

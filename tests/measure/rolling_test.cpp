@@ -42,7 +42,7 @@ TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
 
 // Side by side over the floor: alike, and no rubbing along the contact. One behind the other: the
 // contact rubs with both speeds. Towards each other: it does not rub at all.
-TEST(Rolling, CorrelationsAreThoseOfTwo) {
+TEST(Rolling, CorrelationsOfAPairAreExact) {
     const auto pair = [](const Vec2& a, const Vec2& b) {
         Snapshot s = empty_container();
         const Vec2 u = s.container_velocity, C = s.container_centre;
@@ -63,7 +63,7 @@ TEST(Rolling, CorrelationsAreThoseOfTwo) {
 // A rolling sphere meets the wall head-on: nothing slips but vertically, and with as much friction
 // as it takes 2/7 of its spin are left. What it had more, ½ I ω² (1 − 4/49), is lost, the part that
 // lifted it with it.
-TEST(Rolling, VerticalRubbingAtTheWallTakesTheEnergyOfTheSpin) {
+TEST(Rolling, VerticalFrictionAtTheWallDissipatesTheEnergyOfTheSpin) {
     Snapshot s = empty_container();
     const Vec2 n{1.0, 0.0};
     add_sphere(s, s.container_centre + (s.container_radius - 1.0) * n, {0.8, 0.0}, {0.0, 0.8});
@@ -73,15 +73,15 @@ TEST(Rolling, VerticalRubbingAtTheWallTakesTheEnergyOfTheSpin) {
     s.set_floor_motion(0, ball.rolling_spin, {0.0, 0.0});
     Rolling r;
     r.sample_in_lab(s);
-    r.sample({0, s.clock, EventKind::disc_wall, 0, 0, n, J, 0.0}, s);
-    r.close_block(2.0, 1);
+    r.sample_event({0, s.clock, EventKind::disc_wall, 0, 0, n, J, 0.0}, s);
+    r.close_event_block(2.0, 1);
     EXPECT_NEAR(r.vertical_power_at_wall().mean, 0.5 * 0.4 * 0.64 * (45.0 / 49.0) / 2.0, 1e-15);
     EXPECT_DOUBLE_EQ(r.vertical_share_at_wall().mean, 1.0);
     EXPECT_NEAR(r.vertical_friction_at_wall().mean, std::abs(J.vertical) / J.normal, 1e-15);
     EXPECT_TRUE(std::isnan(r.vertical_share().mean));
 }
 
-TEST(Rolling, OfDiscsNothingIsKnown) {
+TEST(Rolling, IsNaNForDiscs) {
     const Rolling r = seen(random_discs(9, 1));
     EXPECT_TRUE(std::isnan(r.rolling_share().mean));
     EXPECT_TRUE(std::isnan(r.vertical_power().mean));

@@ -24,7 +24,7 @@ Snapshot rim(double u, double grip, int discs = 23) {
     return s;
 }
 
-TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
+TEST(Slip, IsOneForARimThatMovesWithTheWall) {
     Slip slip(1);
     const std::vector<std::uint8_t> everybody(23, 1);
     for (int k = 0; k < 10; ++k) {
@@ -41,7 +41,7 @@ TEST(Slip, ARimThatMovesWithTheWallHasSOfOne) {
     EXPECT_NEAR(slip.pancake().mean, 1.0 - 1.0 / s, 1e-13);
 }
 
-TEST(Slip, HalfTheSpeedOfTheWallIsHalfAndRestIsNothing) {
+TEST(Slip, IsTheSpeedRelativeToTheWall) {
     for (const double grip : {0.0, 0.5}) {
         Slip half(1), whole(1);
         half.sample(rim(0.1, grip));
@@ -98,7 +98,7 @@ TEST(Slip, OnlyPinnedDiscsCountForThePinnedRegion) {
 
 // Two discs half a radius from the centre of mass, one on each side, turn about it 40 times as fast
 // as the rim: they do not count. Two at one and a half radii do.
-TEST(Slip, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
+TEST(Slip, OmitsADiscWithinItsRadiusOfTheCentreOfMass) {
     for (const double distance : {0.5, 1.5}) {
         Snapshot s = rim(0.3, 1.0);
         const MFrame f = m_frame(s);
@@ -116,9 +116,9 @@ TEST(Slip, ADiscNearerToTheCentreOfMassThanItsRadiusDoesNotCount) {
     }
 }
 
-// A disc in the wall layer counts from the first sample of a stay on, once the stay has lasted long
+// A disc in the wall layer counts from the first sample of a residence on, once the stay has lasted long
 // enough; one that flies along far inside never does, whatever the SI's criterion says of it.
-TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
+TEST(Slip, ResidentRegionHasOnlyResidentDiscs) {
     constexpr int samples = 511;
     for (const bool long_enough : {true, false}) {
         Slip slip(1), rims(1);
@@ -141,9 +141,9 @@ TEST(Slip, OfStaysOnlyDiscsThatStayAtTheWallCount) {
         // Four discs at rest inside, as far on the one side as on the other, leave the rim's ϖ as
         // it is.
         if (long_enough) {
-            EXPECT_NEAR(slip.on_residences().mean, rims.cluster().mean, 1e-9);
+            EXPECT_NEAR(slip.resident().mean, rims.cluster().mean, 1e-9);
         } else {
-            EXPECT_TRUE(std::isnan(slip.on_residences().mean));
+            EXPECT_TRUE(std::isnan(slip.resident().mean));
         }
         EXPECT_LT(slip.pinned_region().mean, 0.9 * rims.cluster().mean);
     }
@@ -155,7 +155,7 @@ TEST(Slip, ThePancakeRollsLikeTheMinimalModel) {
     EXPECT_EQ(pancake_rotation(10.0, 10.0), 0.0);
 }
 
-TEST(Slip, NobodyAndOneDiscAndNonsense) {
+TEST(Slip, IsNaNWithoutDiscsForOneDiscAndForNaN) {
     Slip slip(1);
     slip.sample(empty_container());
     slip.close_block();
@@ -172,7 +172,7 @@ TEST(Slip, NobodyAndOneDiscAndNonsense) {
     EXPECT_NEAR(slip.cluster_perimeter().mean, 2.0 * pi, 1e-15);
 }
 
-TEST(Slip, LooksAtEvery64thLookOnly) {
+TEST(Slip, UsesEvery64thSample) {
     Slip slip;
     for (int k = 0; k < 128; ++k) slip.sample(rim(0.1, k % 64 == 0 ? 1.0 : 0.3));
     slip.close_block();

@@ -42,7 +42,7 @@ TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
     EXPECT_NEAR(frustration.coordination().mean, 24.0 / 9.0, 1e-15);
 }
 
-TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
+TEST(SpinFrustration, IsOneForARigidlyRotatingTriangularBody) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(hexagon(0.3));
     frustration.close_block();
@@ -51,7 +51,7 @@ TEST(SpinFrustration, ABodyThatTurnsAsAWholeHasOneAndAllTriangles) {
     EXPECT_NEAR(frustration.coordination().mean, 24.0 / 7.0, 1e-15);
 }
 
-TEST(SpinFrustration, IndependentSpinsHaveNone) {
+TEST(SpinFrustration, IsZeroForIndependentSpins) {
     SpinFrustration frustration(0.1, 1);
     Noise noise(4);
     for (int k = 0; k < 400; ++k) {
@@ -81,7 +81,7 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
 TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     SpinFrustration frustration(0.1, 1);
     const auto collide = [&](EventKind kind, bool sticks) {
-        frustration.sample(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0}, gears());
+        frustration.sample_event(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0}, gears());
     };
     collide(EventKind::disc_disc, true);
     collide(EventKind::disc_disc, true);
@@ -94,7 +94,7 @@ TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     EXPECT_EQ(frustration.wall_sticking().mean, 1.0);
 }
 
-TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
+TEST(SpinFrustration, IsNaNForMissingSpinsAndWithoutDiscs) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(empty_container());
     frustration.close_block();
@@ -108,14 +108,14 @@ TEST(SpinFrustration, MissingSpinsAreStatedAndNothingIsNothing) {
     EXPECT_EQ(frustration.triangles().mean, 1.0);
 }
 
-TEST(SpinFrustration, LooksAtEvery64thLookOnly) {
+TEST(SpinFrustration, UsesEvery64thSample) {
     SpinFrustration frustration;
     for (int k = 0; k < 128; ++k) frustration.sample(k % 64 == 0 ? gears() : hexagon(0.3));
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
 }
 
-TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
+TEST(TouchingPairs, EqualThoseOfAnExhaustiveSearch) {
     TouchingPairs touching;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         Snapshot s = random_discs(50, seed, 0.05 * static_cast<double>(seed));
@@ -138,19 +138,19 @@ TEST(TouchingPairs, AreThoseThatAllPairsFinds) {
 }
 
 // Two hard hits of gears and one soft one of discs that spin alike: (−2·2 + 1·1)/(2·2 + 1·1).
-TEST(SpinFrustration, StrongContactsCountWithTheirImpulse) {
+TEST(SpinFrustration, CollisionsAreWeightedWithTheirImpulse) {
     SpinFrustration frustration;
     Snapshot pair = empty_container();
     add_disc(pair, {0.0, 0.0}, {}, 0.5);
     add_disc(pair, {2.0, 0.0}, {}, -0.5);
     Event hit{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {2.0, 0.0, false}, 0.0};
-    frustration.sample(hit, pair);
-    frustration.sample(hit, pair);
+    frustration.sample_event(hit, pair);
+    frustration.sample_event(hit, pair);
     pair.spin[1] = 0.5;
     hit.impulse.normal = 1.0;
-    frustration.sample(hit, pair);
+    frustration.sample_event(hit, pair);
     hit.kind = EventKind::disc_wall;  // the wall does not spin
-    frustration.sample(hit, pair);
+    frustration.sample_event(hit, pair);
     frustration.close_block();
     EXPECT_NEAR(frustration.correlation_by_impulse().mean, -0.6, 1e-12);
 }
@@ -171,7 +171,7 @@ Snapshot along_the_wall(int k) {
     return s;
 }
 
-TEST(SpinFrustration, OfDiscsOnAStayItIsKnownWhenTheStayHasLastedLongEnough) {
+TEST(SpinFrustration, ResidentSpinIsKnownAfterTheMinimumLength) {
     SpinFrustration frustration(0.1, 1);
     LongResidences residences;
     for (int k = 0; k < 45; ++k) {
@@ -179,16 +179,16 @@ TEST(SpinFrustration, OfDiscsOnAStayItIsKnownWhenTheStayHasLastedLongEnough) {
         frustration.sample(along_the_wall(k));
         frustration.sample_residences(residences);
         frustration.close_block();
-        EXPECT_EQ(std::isnan(frustration.residence_spin().mean), k < 40) << k;
+        EXPECT_EQ(std::isnan(frustration.resident_spin().mean), k < 40) << k;
     }
-    EXPECT_NEAR(frustration.residence_spin().mean, 0.5, 1e-12);
+    EXPECT_NEAR(frustration.resident_spin().mean, 0.5, 1e-12);
     // The fourth, which spins like its neighbour, is on no stay.
     EXPECT_NEAR(frustration.along_wall().mean, -1.0, 1e-12);
-    EXPECT_NEAR(frustration.residence_correlation().mean, -1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(frustration.resident_correlation().mean, -1.0 / 3.0, 1e-12);
     EXPECT_NEAR(frustration.correlation().mean, -1.0 / 3.0, 1e-12);
 }
 
-TEST(SpinFrustration, PairsOfPinnedDiscsAreToldApart) {
+TEST(SpinFrustration, PairsOfPinnedDiscsAreSeparate) {
     SpinFrustration frustration(0.1, 1);
     Snapshot chain = empty_container();
     add_disc(chain, {0.0, 0.0}, {}, 0.5);

@@ -34,7 +34,7 @@ std::size_t centre_of(const MFrameView& view) {
     return best;
 }
 
-TEST(Voronoi, CellsFillTheDish) {
+TEST(Voronoi, CellsFillTheContainer) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Snapshot s = random_discs(1 + seed, seed, 0.02 * static_cast<double>(seed));
         if (seed % 2 == 0) {
@@ -94,7 +94,7 @@ TEST(Voronoi, NeighboursAreMutual) {
         }
 }
 
-TEST(Voronoi, OneDiscHasTheWholeDishAndNothingHasNothing) {
+TEST(Voronoi, OneDiscHasTheWholeContainer) {
     Voronoi cells;
     cells.find(empty_container());
     EXPECT_EQ(cells.size(), 0u);
@@ -110,7 +110,7 @@ TEST(Voronoi, OneDiscHasTheWholeDishAndNothingHasNothing) {
     EXPECT_EQ(cells.area(2), 0.0);
 }
 
-TEST(HexaticOrder, OfAPerfectHexagonIsOne) {
+TEST(HexaticOrder, IsOneForAPerfectHexagon) {
     const Snapshot s = lattice(1);
     const MFrameView view(s);
     Voronoi cells;
@@ -120,7 +120,7 @@ TEST(HexaticOrder, OfAPerfectHexagonIsOne) {
     EXPECT_NEAR(hexatic_order(view, cells, centre), 1.0, 1e-14);
 }
 
-TEST(HexaticOrder, OfASquareLatticeIsZero) {
+TEST(HexaticOrder, IsZeroForASquareLattice) {
     Snapshot s = empty_container(0.4);
     for (int row = -2; row <= 2; ++row)
         for (int column = -2; column <= 2; ++column)
@@ -180,7 +180,7 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
     EXPECT_EQ(share(lattice(2), pinned).second, 1.0);
 }
 
-TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
+TEST(LocalPacking, IsPiOverRootTwelveForTheTriangularLattice) {
     const Snapshot s = lattice(2);
     const MFrameView view(s);
     Voronoi cells;
@@ -195,7 +195,7 @@ TEST(LocalPacking, OfTheTriangularLatticeIsPiOverRootTwelve) {
     EXPECT_LT(packing.all().mean, pi / std::sqrt(12.0));
 }
 
-TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
+TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
     // The outer ring of a lattice touches the wall; it stays there, and only the first sample has
     // cells.
     HexaticOrder order;
@@ -225,12 +225,12 @@ TEST(LocalStructure, OfDiscsOnAStayIsThatOfTheMomentWhenItWasSeen) {
         psi6 += hexatic_order(first, cells, i) / 6.0;
         phi += pi / cells.area(i) / 6.0;
     }
-    EXPECT_NEAR(order.on_residences().mean, psi6, 1e-14);
-    EXPECT_NEAR(packing.on_residences().mean, phi, 1e-14);
+    EXPECT_NEAR(order.resident().mean, psi6, 1e-14);
+    EXPECT_NEAR(packing.resident().mean, phi, 1e-14);
     EXPECT_GT(std::abs(packing.all().mean - phi), 1e-3);
 }
 
-TEST(LocalStructure, OfNothingIsNotANumberAndMergedRunsAreOneLongRun) {
+TEST(LocalStructure, IsNaNWithoutDiscsAndMergedEqualsOneLongRun) {
     HexaticOrder order, first, second;
     LocalPacking packing, one, two;
     EXPECT_TRUE(std::isnan(order.all().mean));

@@ -25,7 +25,7 @@ Vec2 rounds(int k, double from = 240.0, double to = 120.0) {
     return (at_wall ? 7.55 : 4.0) * unit_circle(theta / 360.0);
 }
 
-TEST(WallStays, AStayBeginsWhereTheDiscComesAndEndsWhereItLeaves) {
+TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
     WallResidences residences;
     for (int k = 0; k < 10 * samples; ++k) {
         residences.sample(at_sample(k, {rounds(k)}));
@@ -41,7 +41,7 @@ TEST(WallStays, AStayBeginsWhereTheDiscComesAndEndsWhereItLeaves) {
     EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
 }
 
-TEST(WallStays, AShortTouchIsNoStay) {
+TEST(WallResidences, ShortOnesDoNotCount) {
     WallResidences residences;
     // 20° are 28 samples: enough for the least of the thresholds, not for the standard.
     for (int k = 0; k < 3 * samples; ++k)
@@ -54,7 +54,7 @@ TEST(WallStays, AShortTouchIsNoStay) {
 }
 
 // The least length is 40 steps: from the first to the last of 41 samples.
-TEST(WallStays, AStayOfExactlyTheLeastLengthCountsAndAShorterOneDoesNot) {
+TEST(WallResidences, MinimumLengthIsInclusive) {
     for (const int length : {41, 40}) {
         WallResidences residences;
         for (int k = 0; k < 200; ++k) {
@@ -69,7 +69,7 @@ TEST(WallStays, AStayOfExactlyTheLeastLengthCountsAndAShorterOneDoesNot) {
 }
 
 // What the SI's criterion takes for pinned: along the wall, but far from it.
-TEST(WallStays, ADiscThatFliesAlongTheWallFarFromItIsNotPinned) {
+TEST(WallResidences, DiscFarFromTheWallIsNotPinned) {
     WallResidences residences;
     for (int k = 0; k < 2 * samples; ++k)
         residences.sample(at_sample(k, {7.0 * unit_circle(1.0 - double(k % samples) / samples)}));
@@ -78,7 +78,7 @@ TEST(WallStays, ADiscThatFliesAlongTheWallFarFromItIsNotPinned) {
     EXPECT_NEAR(residences.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
 }
 
-TEST(WallStays, AStayUnderWayAtTheBeginningHasNoKnownBeginning) {
+TEST(WallResidences, OneThatBeganBeforeTheFirstSampleHasNoBeginning) {
     WallResidences residences;
     for (int k = 0; k < 200; ++k)
         residences.sample(at_sample(k, {(k < 100 ? 7.6 : 3.0) * unit_circle(0.25)}));
@@ -88,7 +88,7 @@ TEST(WallStays, AStayUnderWayAtTheBeginningHasNoKnownBeginning) {
     EXPECT_NEAR(residences.share().mean, 0.5, 1e-12);
 }
 
-TEST(WallStays, AChangeOfTheNumberOfDiscsBeginsAnew) {
+TEST(WallResidences, ChangeOfTheNumberOfDiscsRestarts) {
     WallResidences residences;
     for (int k = 0; k < 30; ++k) residences.sample(at_sample(k, {{0.0, 7.6}}));
     for (int k = 30; k < 60; ++k) residences.sample(at_sample(k, {{0.0, 7.6}, {0.0, 0.0}}));
@@ -97,7 +97,7 @@ TEST(WallStays, AChangeOfTheNumberOfDiscsBeginsAnew) {
     EXPECT_EQ(residences.becoming_free().count(), 0.0);  // 30 samples each time
 }
 
-TEST(WallStays, MergedIsTheSameAsOneAfterTheOther) {
+TEST(WallResidences, MergedEqualsOneLongRun) {
     WallResidences a, b, both;
     for (int k = 0; k < 4 * samples; ++k) {
         WallResidences& one = k < 2 * samples ? a : b;

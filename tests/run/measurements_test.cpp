@@ -34,7 +34,7 @@ double sum(const nlohmann::ordered_json& column) {
     return total;
 }
 
-TEST(Measurements, NotABitOfTheRunChanges) {
+TEST(Measurements, DoNotChangeTheRun) {
     const RunResult alone = run(short_run());
     const MeasuredRun measured = measured_run(short_run(), everything());
     EXPECT_EQ(measured.run.state_hash, alone.state_hash);
@@ -50,7 +50,7 @@ TEST(Measurements, DensityTimesAreaIsTheNumberOfDiscs) {
     EXPECT_NEAR(sum(density["by_event"]) * area, 30.0, 1e-9);
 }
 
-TEST(Measurements, LooksAreMadeOnlyAfterTheWarmUpAnd511TimesAPeriod) {
+TEST(Measurements, Take511SamplesPerPeriodAfterTheWarmUp) {
     const auto flow = measured_run(short_run(), {"flow"}).measured["flow"];
     EXPECT_EQ(sum(flow["visits"]), 30.0 * 511.0 * 25.0);
 }
@@ -95,7 +95,7 @@ TEST(Measurements, TheEnergyBudgetOfARunClosesToRoundOff) {
     EXPECT_LT(energy["unaccounted_share"].get<double>(), 1e-11);
 }
 
-TEST(Measurements, TheWallIsPressedWhereTheDiscsAreAndDraggedAtMostByFriction) {
+TEST(Measurements, WallStressObeysCoulombsLaw) {
     RunConfig config = short_run();
     config.mu_wall = 0.3;
     const auto wall = measured_run(config, {"wall"}).measured["wall"];
@@ -113,7 +113,7 @@ TEST(Measurements, TheWallIsPressedWhereTheDiscsAreAndDraggedAtMostByFriction) {
     EXPECT_GT(pressure, 0.0);
 }
 
-TEST(Measurements, OrderAndPackingLieBetweenNothingAndTheClosestPacking) {
+TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {
     const auto measured = measured_run(short_run(), {"order", "packing"}).measured;
     // The mean over discs of π/(area) is at least π over the mean area, by Jensen's inequality.
     const double over_the_container = 30.0 / (paper_container_radius * paper_container_radius);
@@ -125,7 +125,7 @@ TEST(Measurements, OrderAndPackingLieBetweenNothingAndTheClosestPacking) {
     EXPECT_GT(mean_of(measured["packing"]["all"]), over_the_container);
 }
 
-TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
+TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
     const auto table = measured_run(short_run(), {"diffusion"}).measured["diffusion"];
     // 64 of 73 parts of a swirl; of 25 swirls, lags of 1, 2, 4, 8, 16.
     ASSERT_EQ(table["lag"].size(), 12u);
@@ -139,9 +139,9 @@ TEST(Measurements, DiffusionHasLagsBelowASwirlAndOfWholeSwirls) {
         EXPECT_LT(square.get<double>(), 4.0 * 7.6 * 7.6);
 }
 
-TEST(Measurements, EverythingThatLooksAtSnapshotsCanBeAskedFor) {
+TEST(Measurements, ListOfAllHasEveryMeasurement) {
     EXPECT_THAT(everything(),
-                ElementsAre("density", "flow", "profile", "pinned", "stays", "centre", "slip",
+                ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
                             "frustration", "radial", "temperature", "order", "packing",
                             "collisions", "wall", "diffusion", "energy", "rolling"));
 }
@@ -157,7 +157,7 @@ TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
                 1.0 / (paper_container_radius * paper_container_radius), 1e-12);
 }
 
-TEST(Measurements, FramesWithoutEventsSayNothingOfCollisions) {
+TEST(Measurements, FramesWithoutEventsGiveNoCollisionRates) {
     Observation observation = observation_of(short_run(), everything());
     for (int period = 0; period < 3; ++period) observation.close_block();
     for (const auto& [name, report] : observation.report())
@@ -165,12 +165,12 @@ TEST(Measurements, FramesWithoutEventsSayNothingOfCollisions) {
             EXPECT_TRUE(std::isnan(row.estimate.mean)) << name << "." << row.name;
 }
 
-TEST(Measurements, ListIsReadInOrderAndWithoutDoubles) {
+TEST(Measurements, ListKeepsTheOrderAndDropsDuplicates) {
     EXPECT_THAT(read_measurement_list("flow,density,flow"), ElementsAre("flow", "density"));
     EXPECT_EQ(everything().size(), measurement_kinds().size());
 }
 
-TEST(Measurements, UnknownNameIsRefusedWithThoseThereAre) {
+TEST(Measurements, UnknownNameIsRejectedWithTheListOfNames) {
     for (const char* list : {"flow,dennsity", "", "flow,", "all,flow"}) {
         try {
             read_measurement_list(list);

@@ -71,7 +71,7 @@ void expect_same(double merged, double whole, const std::string& what) {
 
 class MergedObservation : public testing::TestWithParam<Part> {};
 
-TEST_P(MergedObservation, HasEveryNumberOfTheObservationOfBothDishes) {
+TEST_P(MergedObservation, EqualsOneObservationOfBothContainers) {
     const Part part = GetParam();
     const auto observation = [&] {
         const RunConfig config = container(part, 1);

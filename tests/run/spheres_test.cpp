@@ -149,9 +149,9 @@ void expect_the_floor_takes_what_sliding_costs(const RunConfig& config) {
                         (std::sqrt(dot(a, a)) + std::sqrt(dot(b, b)));
             }
         simulation.refresh(s, event);
-        budget.sample(event, s.up_to_date());
+        budget.sample_event(event, s.up_to_date());
     }
-    budget.close_block(1.0);
+    budget.close_event_block(1.0);
     // 20,000 events, each to the rounding of energies of order 10.
     EXPECT_NEAR(budget.floor_friction_power().mean, heat, 1e-9 * heat);
     EXPECT_GT(heat, 1.0);

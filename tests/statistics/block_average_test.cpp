@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/snapshots.hpp"
+#include "swirl/statistics/student.hpp"
 
 namespace swirl {
 namespace {
@@ -22,7 +23,7 @@ TEST(Statistics, MeanAndErrorOfThreeBlocksByHand) {
     EXPECT_DOUBLE_EQ(e.error, std::sqrt(14.0 / 2.0 / 3.0));
 }
 
-TEST(Statistics, EverySampleCountsTheSameHoweverManyFellIntoABlock) {
+TEST(Statistics, EverySampleHasTheSameWeight) {
     BlockSeries series;
     series.add(10.0, 1.0);
     series.add(0.0, 9.0);
@@ -31,7 +32,7 @@ TEST(Statistics, EverySampleCountsTheSameHoweverManyFellIntoABlock) {
     EXPECT_DOUBLE_EQ(series.estimate().error, std::sqrt(3.24));
 }
 
-TEST(Statistics, EmptyAndSingleAndNaNAreStated) {
+TEST(Statistics, IsNaNWithoutBlocksOrErrorOfOneOrForNaN) {
     BlockSeries series;
     EXPECT_TRUE(std::isnan(series.estimate().mean));
     EXPECT_TRUE(std::isnan(series.estimate().error));
@@ -72,7 +73,7 @@ TEST(Statistics, CorrelatedBlocksCountForLess) {
 
 // Γ_k = γ_2k + γ_2k+1, and 10 γ_k = 22, 4, 1, 0, −1, 4, …: Γ = 2.6, 0.1, 0.3, and below zero after
 // that. A later Γ counts no more than an earlier one, so τ = 2 (2.6 + 0.1 + 0.1)/2.2 − 1 = 17/11.
-TEST(Statistics, NoPairOfCorrelationsCountsMoreThanThePairBefore) {
+TEST(Statistics, SumOfCorrelationPairsIsMonotone) {
     BlockSeries series;
     for (const double value : {6.0, 7.0, 6.0, 6.0, 3.0, 6.0, 6.0, 3.0, 4.0, 3.0})
         series.add(value, 1.0);
@@ -84,7 +85,7 @@ TEST(Statistics, NoPairOfCorrelationsCountsMoreThanThePairBefore) {
     EXPECT_NEAR(e.error, std::sqrt(17.0 / 11.0 * 10.0 / 9.0 * 22.0) / 10.0, 1e-15);
 }
 
-TEST(Statistics, ErrorsCoverTheTruthAsOftenAsTheySay) {
+TEST(Statistics, ErrorsHaveTheirNominalCoverage) {
     const double a = 0.5;
     int within = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -116,7 +117,7 @@ TEST(Statistics, MergedRunsHaveTheMeanOfOneLongRun) {
     EXPECT_NEAR(first.estimate().error, whole.estimate().error, 0.1 * whole.estimate().error);
 }
 
-TEST(Statistics, MergingIntoNothingIsACopyAndAddingGoesOnInOnesOwnRun) {
+TEST(Statistics, MergingIntoAnEmptySeriesCopiesAndAddingContinuesTheOwnRun) {
     BlockSeries a, b;
     b.add(1.0, 1.0);
     b.add(3.0, 1.0);
@@ -142,7 +143,7 @@ TEST(Statistics, VeryLongRunsAreCoarsenedWithoutChangingTheMean) {
     EXPECT_DOUBLE_EQ(series.mean(), sum / 10240.0);
 }
 
-TEST(Statistics, QuantilesOfStudentAreThoseOfTheTables) {
+TEST(Statistics, StudentQuantilesAgreeWithTables) {
     // Two-sided 5 %: t = 2.228 for 10 degrees of freedom, 2.042 for 30 (normal: 1.960).
     EXPECT_NEAR(student_quantile(1.960, 10.0), 2.228, 0.004);
     EXPECT_NEAR(student_quantile(1.960, 30.0), 2.042, 0.001);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double degree = pi / 180.0;
 
-TEST(CircularMean, OfAnglesAroundZeroIsZero) {
+TEST(CircularMean, AnglesAroundZeroAverageToZero) {
     CircularMean mean;
     mean.add(3.0 * unit_circle(350.0 / 360.0));
     mean.add(unit_circle(10.0 / 360.0));
@@ -23,7 +23,7 @@ TEST(CircularMean, OfAnglesAroundZeroIsZero) {
     EXPECT_TRUE(std::isnan(mean.angle().error));
 }
 
-TEST(CircularMean, OfNarrowAnglesIsTheOrdinaryMeanWithTheOrdinaryError) {
+TEST(CircularMean, EqualsTheOrdinaryMeanForNarrowAngles) {
     CircularMean mean;
     BlockSeries plain;
     Noise noise(3);
@@ -44,7 +44,7 @@ TEST(CircularMean, OfNarrowAnglesIsTheOrdinaryMeanWithTheOrdinaryError) {
     EXPECT_NEAR(mean.angle().error, error, 1e-4 * error);
 }
 
-TEST(CircularMean, OfNothingOrOfOppositesIsNotANumber) {
+TEST(CircularMean, IsNaNWithoutAnglesAndForOpposites) {
     CircularMean mean;
     EXPECT_TRUE(std::isnan(mean.angle().mean));
     EXPECT_TRUE(std::isnan(mean.concentration()));
@@ -55,7 +55,7 @@ TEST(CircularMean, OfNothingOrOfOppositesIsNotANumber) {
     EXPECT_EQ(mean.concentration(), 0.0);
 }
 
-TEST(CircularMean, MergedRunsAreOneLongRun) {
+TEST(CircularMean, MergedEqualsOneLongRun) {
     CircularMean whole, first, second;
     Noise noise(8);
     for (int block = 0; block < 20; ++block) {

@@ -16,7 +16,7 @@ Estimate run_of(double mean, double error, double samples = 1e9) {
     return {.mean = mean, .error = error, .effective_samples = samples, .blocks = 100};
 }
 
-TEST(SeveralRuns, StudentsQuantilesAreThoseOfTheTables) {
+TEST(Ensemble, StudentQuantilesAgreeWithTables) {
     EXPECT_NEAR(student_95(1.0), 12.706, 1e-3);
     EXPECT_NEAR(student_95(2.0), 4.303, 1e-3);
     EXPECT_NEAR(student_95(7.0), 2.365, 1e-3);
@@ -34,14 +34,14 @@ TEST(SeveralRuns, StudentsQuantilesAreThoseOfTheTables) {
 
 // One-sided 0.99865: 23.6 for 7 degrees of freedom, 10.3 for one, where the approximation is 6 %
 // off.
-TEST(SeveralRuns, TooMuchScatterIsBeyondThreeDeviations) {
+TEST(Ensemble, ChiSquareThresholdIsThreeStandardDeviations) {
     EXPECT_FALSE(beyond_chance(23.0, 7.0));
     EXPECT_TRUE(beyond_chance(24.5, 7.0));
     EXPECT_FALSE(beyond_chance(9.5, 1.0));
     EXPECT_TRUE(beyond_chance(11.5, 1.0));
 }
 
-TEST(SeveralRuns, OneRunKeepsItsOwnError) {
+TEST(Ensemble, OneRunKeepsItsOwnError) {
     const std::vector<Estimate> one{run_of(2.0, 0.5)};
     const Ensemble all = ensemble(one);
     EXPECT_EQ(all.estimate.mean, 2.0);
@@ -50,7 +50,7 @@ TEST(SeveralRuns, OneRunKeepsItsOwnError) {
     EXPECT_FALSE(all.disagree);
 }
 
-TEST(SeveralRuns, RunsThatAgreeHaveTheErrorOfTheirBlocks) {
+TEST(Ensemble, RunsThatAgreeHaveTheErrorOfTheirBlocks) {
     const std::vector<Estimate> runs{run_of(1.0, 0.2), run_of(1.1, 0.2), run_of(0.9, 0.2),
                                      run_of(1.0, 0.2)};
     const Ensemble all = ensemble(runs);
@@ -61,7 +61,7 @@ TEST(SeveralRuns, RunsThatAgreeHaveTheErrorOfTheirBlocks) {
 }
 
 // By hand: mean 2, Σ(m − 2)² = 4, V_b = 4/3 · ½ /16 · … = Σ/(n(n − 1)) = 4/12.
-TEST(SeveralRuns, RunsThatDisagreeHaveTheErrorBetweenThem) {
+TEST(Ensemble, RunsThatDisagreeHaveTheErrorBetweenThem) {
     const std::vector<Estimate> runs{run_of(1.0, 0.01), run_of(3.0, 0.01), run_of(1.0, 0.01),
                                      run_of(3.0, 0.01)};
     const Ensemble all = ensemble(runs);
@@ -72,7 +72,7 @@ TEST(SeveralRuns, RunsThatDisagreeHaveTheErrorBetweenThem) {
     EXPECT_NEAR(all.scatter, std::sqrt(4.0 / 0.0001 / 3.0), 1e-6);
 }
 
-TEST(SeveralRuns, WeightsAreLengths) {
+TEST(Ensemble, WeightsAreLengths) {
     const std::vector<Estimate> runs{run_of(0.0, 0.4), run_of(0.4, 0.2)};
     const std::vector<double> lengths{1.0, 3.0};
     const Ensemble all = ensemble(runs, lengths);
@@ -84,7 +84,7 @@ TEST(SeveralRuns, WeightsAreLengths) {
     EXPECT_NEAR(all.estimate.error, std::sqrt(0.0325), 1e-6);
 }
 
-TEST(SeveralRuns, WhatIsNotKnownIsLeftOut) {
+TEST(Ensemble, RunsWithoutAMeanAreOmitted) {
     const std::vector<Estimate> runs{run_of(not_available, not_available), run_of(1.0, 0.1)};
     EXPECT_EQ(ensemble(runs).estimate.mean, 1.0);
     EXPECT_EQ(ensemble(runs).runs, 1u);
@@ -96,7 +96,7 @@ TEST(SeveralRuns, WhatIsNotKnownIsLeftOut) {
     EXPECT_FALSE(all.disagree);
 }
 
-TEST(SeveralRuns, DirectionsPassThroughZero) {
+TEST(Ensemble, DirectionsPassThroughZero) {
     const std::vector<Estimate> runs{run_of(350.0, 2.0), run_of(10.0, 2.0),
                                      run_of(not_available, 1.0), run_of(357.0, 2.0)};
     const Ensemble all = several_directions(runs);
@@ -105,7 +105,7 @@ TEST(SeveralRuns, DirectionsPassThroughZero) {
     EXPECT_TRUE(std::isnan(several_directions({}).estimate.mean));
 }
 
-TEST(SeveralRuns, ExactRunsThatAgreeAreExact) {
+TEST(Ensemble, ExactRunsThatAgreeAreExact) {
     const std::vector<Estimate> runs{run_of(1.0, 0.0), run_of(1.0, 0.0)};
     EXPECT_EQ(ensemble(runs).estimate.error, 0.0);
     EXPECT_FALSE(ensemble(runs).disagree);
@@ -114,7 +114,7 @@ TEST(SeveralRuns, ExactRunsThatAgreeAreExact) {
 // How often the 95 % interval holds the truth, over 4000 repetitions: a binomial deviate with a
 // standard deviation of 0.35 %. The maximum of two estimates is on the safe side, so what is asked
 // is not less than 93.5 %, also where blocks understate the error.
-TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
+TEST(Ensemble, IntervalHasNominalCoverageIfSeedsAgree) {
     Random random(17);
     for (const int seeds : {2, 3, 8})
         for (const double understated : {1.0, 2.0, 5.0}) {
@@ -136,7 +136,7 @@ TEST(SeveralRuns, NinetyFivePercentHoldTheTruth) {
 
 // Two runs disagree, and a third is too uncertain to say: what its blocks say is not forgotten.
 // V_w = (2 · 0.01² + 10²)/9.
-TEST(SeveralRuns, TheErrorIsNotBelowThatOfTheBlocksWhereSeedsDisagree) {
+TEST(Ensemble, ErrorIsAtLeastThatOfTheBlocksIfSeedsDisagree) {
     const std::vector<Estimate> runs{run_of(0.0, 0.01), run_of(1.0, 0.01), run_of(0.5, 10.0)};
     const Ensemble all = ensemble(runs);
     EXPECT_TRUE(all.disagree);
@@ -170,7 +170,7 @@ Shares shares_of(const std::vector<double>& lengths, double between, bool with_e
 
 // A long run draws the mean to itself, so its distance from the mean says little of its error. The
 // standard deviation of a share is 0.35 %.
-TEST(SeveralRuns, SeedsOfUnequalLengthsHoldTheTruthAsOften) {
+TEST(Ensemble, CoverageHoldsForUnequalLengths) {
     Random random(18);
     for (const std::vector<double>& lengths : std::vector<std::vector<double>>{
              {295, 8}, {295, 295, 8}, {100, 50, 20}, {400, 100, 100}, {400, 400, 400, 100, 100}}) {
@@ -183,7 +183,7 @@ TEST(SeveralRuns, SeedsOfUnequalLengthsHoldTheTruthAsOften) {
 }
 
 // What the header says of few seeds whose differences are of the size of their errors.
-TEST(SeveralRuns, FewSeedsHoldTheTruthAsOftenAsIsSaid) {
+TEST(Ensemble, CoverageOfFewSeedsIsAsDocumented) {
     struct Said {
         std::size_t seeds;
         double held, beyond_three;
@@ -204,7 +204,7 @@ TEST(SeveralRuns, FewSeedsHoldTheTruthAsOftenAsIsSaid) {
 }
 
 // Whichever comes first: a direction is the nearest of those that differ by whole turns.
-TEST(SeveralRuns, DirectionsOnBothSidesOfZeroHaveZeroBetweenThem) {
+TEST(Ensemble, DirectionsOnBothSidesOfZeroAverageToZero) {
     for (const auto& [first, second] : {std::pair{10.0, 350.0}, std::pair{350.0, 10.0}}) {
         const std::vector<Estimate> runs{run_of(first, 20.0), run_of(second, 20.0)};
         const double mean = several_directions(runs).estimate.mean;

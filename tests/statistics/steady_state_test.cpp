@@ -37,7 +37,7 @@ int count(Verdict verdict, std::size_t blocks, double a, const Shape& shape) {
     return found;
 }
 
-TEST(SteadyStateSearch, SteadySeriesAreSteady) {
+TEST(SteadyState, SteadySeriesAreSteady) {
     const auto nothing = [](std::size_t) { return 0.0; };
     // Measured: below 0.1 % with 100 effective samples, so that 200 series have one at most.
     EXPECT_GE(count(Verdict::steady, 200, 0.0, nothing), 199);
@@ -50,7 +50,7 @@ TEST(SteadyStateSearch, SteadySeriesAreSteady) {
 // A jump by three standard deviations of the blocks, or 16 errors of the difference where one part
 // has a tenth of the run. The old test cut the blocks before the jump off, though the average
 // rested on them.
-TEST(SteadyStateSearch, AJumpDoesNotHideItself) {
+TEST(SteadyState, AJumpDoesNotHideItself) {
     for (const std::size_t at : {100u, 300u, 500u, 900u}) {
         const auto jump = [at](std::size_t b) { return b < at ? 3.0 : 0.0; };
         EXPECT_GE(count(Verdict::jumping, 1000, 0.5, jump), 195) << at;
@@ -65,14 +65,14 @@ TEST(SteadyStateSearch, AJumpDoesNotHideItself) {
 }
 
 // From a noisy state to a quiet one, as five discs with little friction do.
-TEST(SteadyStateSearch, AJumpOfTheNoiseHidesNoJumpOfTheMean) {
+TEST(SteadyState, ChangeOfTheNoiseDoesNotHideAJump) {
     std::vector<double> blocks = correlated_noise(1500, 0.5, 3);
     for (std::size_t b = 0; b < blocks.size(); ++b)
         blocks[b] = b < 430 ? 0.7 + 0.15 * blocks[b] : 1.0 + 0.01 * blocks[b];
     EXPECT_EQ(find_steady_state(blocks).verdict, Verdict::jumping);
 }
 
-TEST(SteadyStateSearch, WhatChangesGraduallyDrifts) {
+TEST(SteadyState, GradualChangeIsADrift) {
     const auto line = [](std::size_t b) { return 0.004 * double(b); };
     EXPECT_GE(count(Verdict::drifting, 1000, 0.5, line), 195);
     // A beginning that ends slowly would enlarge its own error.
@@ -80,7 +80,7 @@ TEST(SteadyStateSearch, WhatChangesGraduallyDrifts) {
     EXPECT_GE(count(Verdict::drifting, 300, 0.0, saturation), 195);
 }
 
-TEST(SteadyStateSearch, TwoStatesAreSeenIfTheyLast) {
+TEST(SteadyState, TwoStatesAreFoundIfTheyLast) {
     const auto switches = [](std::size_t b) { return b / 60 % 2 == 0 ? 0.0 : 5.0; };
     EXPECT_GE(count(Verdict::switching, 1000, 0.3, switches), 195);
     std::vector<double> blocks = correlated_noise(1000, 0.3, 8);
@@ -128,7 +128,7 @@ TEST(BeginningIsForgotten, OnlyAfterATransientHasEnded) {
     EXPECT_LE(late, 2);  // a run ends the search after half of itself
 }
 
-TEST(BeginningIsForgotten, AtOnceWhereThereIsNothingToForget) {
+TEST(BeginningIsForgotten, AtOnceWithoutATransient) {
     int waited = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         Noise noise(seed);
@@ -140,22 +140,22 @@ TEST(BeginningIsForgotten, AtOnceWhereThereIsNothingToForget) {
     EXPECT_LE(waited, 30);  // a false alarm costs ten swirls more
 }
 
-TEST(WithoutTrend, AStraightLineLeavesNothing) {
+TEST(WithoutTrend, StraightLineHasNoResiduals) {
     std::vector<double> line;
     for (int i = 0; i < 20; ++i) line.push_back(3.0 - 0.5 * i);
     for (const double rest : without_trend(line)) EXPECT_NEAR(rest, 0.0, 1e-14);
     EXPECT_EQ(without_trend(std::vector<double>{7.0}), std::vector<double>{0.0});
 }
 
-TEST(WithoutTrend, OfNothingIsNothing) { EXPECT_TRUE(without_trend({}).empty()); }
+TEST(WithoutTrend, EmptySeriesStaysEmpty) { EXPECT_TRUE(without_trend({}).empty()); }
 
-TEST(SteadyStateSearch, WhatIsNotKnownIsNotJudged) {
+TEST(SteadyState, NaNBlocksHaveNoVerdict) {
     const std::vector<double> unknown(100, not_available);
     EXPECT_EQ(find_steady_state(unknown).verdict, Verdict::too_short);
     EXPECT_FALSE(beginning_is_forgotten(unknown));
 }
 
-TEST(SteadyStateSearch, AShortSeriesSaysNothing) {
+TEST(SteadyState, ShortSeriesHasNoVerdict) {
     EXPECT_EQ(find_steady_state({}).verdict, Verdict::too_short);
     const std::vector<double> few(49, 1.0);
     EXPECT_EQ(find_steady_state(few).verdict, Verdict::too_short);

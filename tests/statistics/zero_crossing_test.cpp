@@ -68,7 +68,7 @@ TEST(Crossing, DoesNotDependOnTheRangeOfTheTable) {
     }
 }
 
-TEST(Crossing, ItsIntervalHoldsTheZeroOfItsTableAndStaysInTheBracket) {
+TEST(Crossing, IntervalContainsTheZeroAndLiesInTheBracket) {
     Noise noise(7);
     for (int k = 0; k < 20000; ++k) {
         // Certain signs at both ends, none to three undetermined points between.
@@ -143,7 +143,7 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
 
 // 4000 tables: the standard deviation of a share of 0.95 is 0.0034. The hull of an interval with
 // gaps is wider, and a false sign of three errors loses some: 0.94 to 0.985 everywhere.
-TEST(Crossing, CoversTheZeroAsOftenAsItSays) {
+TEST(Crossing, IntervalHasNominalCoverage) {
     for (const double zero : {-0.4, -0.2, 0.0, 0.3})
         for (const double bend : {0.0, 0.0004, -0.0004})
             for (const double error : {0.0003, 0.001, 0.003}) {
@@ -155,7 +155,7 @@ TEST(Crossing, CoversTheZeroAsOftenAsItSays) {
 
 // Errors from three runs are uncertain by themselves; their factor of Student makes the interval of
 // each point exact, and that of two points wider than it need be.
-TEST(Crossing, CoversTheZeroWhereErrorsAreThoseBetweenThreeRuns) {
+TEST(Crossing, CoverageHoldsForErrorsFromThreeRuns) {
     for (const double zero : {-0.2, 0.0, 0.3}) {
         EXPECT_GT(coverage(zero, 0.0004, 0.0003, 3), 0.94) << zero;
         EXPECT_GT(coverage(zero, 0.0004, 0.0003, 8), 0.94) << zero;
@@ -163,7 +163,7 @@ TEST(Crossing, CoversTheZeroWhereErrorsAreThoseBetweenThreeRuns) {
 }
 
 // The middle of 40 and 48 had been given as 44 ± 2.3.
-TEST(Crossing, OfACoarseTableIsABracket) {
+TEST(Crossing, CoarseTableGivesABracket) {
     const std::vector<RotationPoint> coarse{
         {24, 0.05, 0.001}, {36, 0.01, 0.001}, {40, -0.01, 0.001}, {48, -0.04, 0.001}};
     const Crossing c = find_crossing(coarse);
@@ -204,7 +204,7 @@ TEST(Crossing, ACurveHasOneSignOnlyIfEveryPointCertainlyHas) {
     EXPECT_EQ(find_crossing(points).verdict, Crossing::Verdict::crosses);
 }
 
-TEST(Crossing, UndeterminedPointsInTheBracketTakePartInIt) {
+TEST(Crossing, UndeterminedPointsInTheBracketCount) {
     const std::vector<RotationPoint> points{
         {35, 0.010, 0.001}, {36, 0.001, 0.001}, {37, -0.001, 0.001}, {38, -0.010, 0.001}};
     const Crossing c = find_crossing(points);
@@ -229,7 +229,7 @@ TEST(Crossing, ExactPointsHaveAnExactZero) {
     EXPECT_NEAR(c.upper, 30.75, 1e-7);
 }
 
-TEST(Crossing, AFluctuationFarAwayDoesNotMoveIt) {
+TEST(Crossing, DistantFluctuationDoesNotMoveIt) {
     std::vector<RotationPoint> points = line(36.0, -0.01, 0.002);
     points[12].mean = 0.001;
     const Crossing before = find_crossing(points);
@@ -240,7 +240,7 @@ TEST(Crossing, AFluctuationFarAwayDoesNotMoveIt) {
     EXPECT_TRUE(c.undetermined_after().empty());
 }
 
-TEST(Crossing, NonsenseIsLeftOut) {
+TEST(Crossing, InvalidPointsAreOmitted) {
     EXPECT_EQ(find_crossing({}).verdict, Crossing::Verdict::undecided);
     std::vector<RotationPoint> points = line(36.4, -0.01, 0.001);
     points.push_back({30.0, not_available, 0.1});
@@ -288,7 +288,7 @@ TEST(SignChanges, AnUndeterminedHumpBeyondNcIsListed) {
     EXPECT_TRUE(more.undetermined_after().empty());
 }
 
-TEST(SignChanges, WhatIsNotCertainIsNone) {
+TEST(SignChanges, UncertainChangesDoNotCount) {
     EXPECT_TRUE(find_crossing(
                     std::vector<RotationPoint>{{20, 0.1, 0.01}, {30, -0.02, 0.01}, {40, 0.1, 0.01}})
                     .changes.empty());

@@ -7,10 +7,10 @@
 namespace swirl {
 namespace {
 
-/// ϖ_M,i, the wall's rate where it is nearest, and the slice, of every disc.
+/// ϖ_M,i, the rate of the wall's nearest point, and the slice, of every disc.
 ///
-/// Relative to the container the wall does not move, so with respect to the centre of mass it has
-/// the velocity −u_cm; the turning of the frame takes Ω off, exactly as for ϖ_i.
+/// Relative to the container the wall does not move, so relative to the centre of mass it has the
+/// velocity −u_cm. The rotation of the frame subtracts Ω, exactly as for ϖ_i.
 SWIRL_WIDE void rates_of(std::size_t n, double R, double omega, double slices,
                          const CentreOfMass& centre_of_mass, const double* __restrict x,
                          const double* __restrict y, const double* __restrict ux,

@@ -1,24 +1,24 @@
-// How fast the discs turn about the cluster's centre of mass, against where they are: the paper's
-// Fig. 3.
+// The angular velocity of the discs about the cluster's centre of mass as a function of θ: the
+// paper's Fig. 3.
 //
 //   plain (3a)       ⟨ϖ_M,i⟩ over the discs found in a slice of θ, ϖ_M,i = ϖ_i − Ω, in units of Ω
-//   of the wall      ⟨ϖ_wall(θ_i)⟩ over the same discs: at θ the wall's point p = R (cos θ, sin θ)
-//                    passes the centre of mass at the rate
+//   of the wall      ⟨ϖ_wall(θ_i)⟩ over the same discs, in units of Ω. At θ the wall's point
+//                    p = R (cos θ, sin θ) passes the centre of mass at the rate
 //                    (p − r_cm) × (v_wall − v_cm) / |p − r_cm|², everything in the M-frame,
-//                    v_wall = −Ω ẑ × p; in units of Ω
+//                    v_wall = −Ω ẑ × p
 //   normalised (3b)  the first divided by the second: 1 where the discs move with the wall
-//   distance, speed  of the same discs from the centre of mass, and relative to it in the frame
-//                    that turns with Ω: where the cluster is long, ϖ_M falls though the speed does
-//                    not (caption of Fig. 3a)
+//   distance, speed  of the same discs: their distance from the centre of mass and their speed
+//                    relative to it, in the frame that rotates with Ω. Where the cluster is long,
+//                    ϖ_M falls though the speed does not (caption of Fig. 3a)
 //
 // A cluster that moves rigidly with the wall has −1, −1 and 1 in every slice. The paper normalises
 // because the centre of mass is not at C, so even the wall passes it at a rate that depends on θ.
 //
-// Units: Ω. Slices are equal, the first begins at θ = 0 (m_frame.hpp: +x; M is at 3π/2).
-// Normalisation: every disc found in a slice counts the same at every sample. Error from blocks of
-// periods. Limits: a slice never visited: NaN. A disc nearer to the centre of mass than its own
-// radius is left out: ϖ_i is a speed divided by that distance, and without the cut-off its variance
-// has no bound, so that a single disc may make the mean of a slice.
+// Units: Ω. Slices are equal; the first begins at θ = 0 (m_frame.hpp: +x; M is at 3π/2).
+// Normalisation: every disc found in a slice counts the same at every sample. Errors: from blocks
+// of periods. Limits: a slice never visited: NaN. A disc closer to the centre of mass than its own
+// radius is omitted: ϖ_i is a speed divided by that distance. Without the cut-off its variance has
+// no bound, and a single disc could determine the mean of a slice.
 #pragma once
 
 #include <cstddef>

@@ -1,20 +1,20 @@
 // Averages over the cells of a map or the bins of a profile, with errors from blocks of periods.
 //
-//   CellMeans   what an average visitor of the cell carries: m = Σ s_b / Σ w_b, with the sum s_b
-//               and the number of visits w_b of block b, both of that cell
-//   CellRates   how much there is of it per sample: m = Σ s_b / Σ w_b, with w_b the samples of
-//   block b,
-//               common to all cells
+//   CellMeans   the average over the visitors of the cell: m = Σ s_b / Σ w_b, with the sum s_b and
+//               the number of visits w_b of block b, both of that cell
+//   CellRates   the amount in the cell per sample: m = Σ s_b / Σ w_b, with w_b the samples of block
+//               b, common to all cells
 //
 // Both are ratios of sums over n blocks. What scatters is s_b − m w_b, so
 //
 //     error² = n/(n−1) · (Σ s_b² − 2m Σ s_b w_b + m² Σ w_b²) / (Σ w_b)²
 //
-// which needs five sums per cell, however long the run. Unlike statistics.hpp the blocks are taken
-// for independent: a cell forgets within a period, and 10⁴ cells cannot each keep their history.
+// which needs five sums per cell, however long the run. Unlike block_average.hpp this takes the
+// blocks for independent: a cell forgets within a period, and 10⁴ cells cannot each store their
+// history.
 //
-// Limits: a cell never visited has no mean (NaN); CellRates: 0, once there was a sample. Fewer than
-// two blocks: the error is NaN. What has not been closed does not count.
+// Limits: a cell never visited has no mean (NaN); in CellRates it is 0 if there was a sample. With
+// fewer than two blocks the error is NaN. The open block does not count.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace swirl {
 
-/// The five sums, of one quantity in one cell.
+/// The five sums of one quantity in one cell.
 struct RatioSums {
     double s = 0.0, w = 0.0, ss = 0.0, sw = 0.0, ww = 0.0;
 
@@ -131,15 +131,14 @@ class CellRates {
     std::size_t blocks() const { return blocks_; }
 
     void add(std::size_t cell, double amount = 1.0) { open_[cell] += amount; }
-    /// Counts a sample; or adds the time that has passed, when the amounts are per time.
+    /// Counts a sample; if the amounts are per time, adds the time that has passed.
     void add_weight(double weight = 1.0) { weight_ += weight; }
 
     void close_block() {
         ++blocks_;
         w_ += weight_;
         ww_ += weight_ * weight_;
-        // All cells, visited or not: in columns this is quicker than keeping a list of those that
-        // were.
+        // All cells, visited or not: as columns this is faster than a list of the visited ones.
         double *const open = open_.data(), *const s = s_.data(), *const ss = ss_.data(),
                       *const sw = sw_.data();
         for (std::size_t c = 0; c < open_.size(); ++c) {
@@ -170,10 +169,7 @@ class CellRates {
     template <class Visitor>
     void fields(Visitor&& visit) {
         for (auto* column : {&open_, &s_, &ss_, &sw_}) visit(std::span(*column));
-        visit(weight_);
-        visit(w_);
-        visit(ww_);
-        visit(blocks_);
+        visit(weight_, w_, ww_, blocks_);
     }
 
   private:
@@ -181,12 +177,5 @@ class CellRates {
     double weight_ = 0.0, w_ = 0.0, ww_ = 0.0;
     std::size_t blocks_ = 0;
 };
-
-/// Estimates times a factor: other units, or a normalisation.
-inline Estimate scaled(Estimate e, double factor) {
-    e.mean *= factor;
-    e.error *= std::abs(factor);
-    return e;
-}
 
 }  // namespace swirl

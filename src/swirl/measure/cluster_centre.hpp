@@ -2,26 +2,26 @@
 // (paper, main text: the centrifugal force pushes the discs towards M, the Coriolis force to the
 // left of it; the oblong shape of the cluster).
 //
-//   x, y          of the centre of mass; M is at (0, −R), so x < 0 is left of it
+//   x, y          the centre of mass; M is at (0, −R), so x < 0 is left of it
 //   distance      of the centre of mass from C
-//   theta         direction of the centre of mass about C; M is at 270°, a smaller θ is clockwise
-//                 of it: by 270° − θ the cluster lags behind the swirl
+//   theta         direction of the centre of mass about C; M is at 270°. A smaller θ is clockwise
+//                 of M: the cluster lags behind the swirl by 270° − θ
 //   left          share of the discs with x < 0
 //   elongation    √(λ₁/λ₂) of the discs' mean square distances along and across the longest axis
-//                 through the centre of mass: 1 if it is round
-//   centrifugal   Ω² |p − S| of a disc of mass 1, mean and highest; S is (0, A)
-//   coriolis      2 Ω |v|, v in the M-frame, mean and highest
+//                 through the centre of mass: 1 for a round cluster
+//   centrifugal   Ω² |p − S| for a disc of mass 1, mean and maximum; S is (0, A)
+//   coriolis      2 Ω |v|, v in the M-frame, mean and maximum
 //
-// Only every 8th sample is used. Units: r, ° and v²/r for the forces. Error from blocks of periods;
-// the highest has none. Limits: a centre of mass at C has no direction; fewer than three discs, or
-// discs in a line, have no elongation.
+// By default only every 8th sample is used. Units: r, ° and v²/r for the forces. Errors: from
+// blocks of periods; the maxima have none. Limits: a centre of mass at C has no direction; fewer
+// than three discs, or discs in a line, have no elongation.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <tuple>
 
-#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/statistics/block_average.hpp"
@@ -29,8 +29,13 @@
 
 namespace swirl {
 
-class ClusterCentre {
+class ClusterCentre : public BlockAverages<ClusterCentre> {
   public:
+    static auto averages(auto& s) {
+        return std::tie(s.x_, s.y_, s.distance_, s.left_, s.elongation_, s.centrifugal_,
+                        s.coriolis_, s.direction_);
+    }
+
     explicit ClusterCentre(int every = 8) : every_(every) {}
 
     void sample(const MFrameView& view) {
@@ -60,13 +65,9 @@ class ClusterCentre {
         }
         left_.add(left / n);
         const double mean = 0.5 * (xx + yy);
-        const double apart = square_root(0.25 * (xx - yy) * (xx - yy) + xy * xy);
-        if (view.size() > 2 && mean - apart > 1e-9 * mean)
-            elongation_.add(square_root((mean + apart) / (mean - apart)));
-    }
-    void close_block() {
-        for (BlockMean* mean : means()) mean->close_block();
-        direction_.close_block();
+        const double difference = square_root(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+        if (view.size() > 2 && mean - difference > in_a_line * mean)
+            elongation_.add(square_root((mean + difference) / (mean - difference)));
     }
 
     Estimate x() const { return x_.estimate(); }
@@ -80,61 +81,39 @@ class ClusterCentre {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"x", "r", "of the centre of mass in the M-frame; left of M is negative",
-                        x()});
-        visit(ReportRow{"y", "r", "of the centre of mass in the M-frame; M is at −R", y()});
-        visit(ReportRow{"distance", "r", "of the centre of mass from C", distance()});
-        visit(ReportRow{"theta",
-                        "°",
-                        "direction of the centre of mass; it lags by 270° less this",
-                        scaled(direction_.angle(), degrees_per_radian),
-                        {{"concentration", "1", direction_.concentration()},
-                         {"count", "1", direction_.count()}}});
+        visit(ReportRow{"x", "r", "centre of mass in the M-frame; left of M is negative", x()});
+        visit(ReportRow{"y", "r", "centre of mass in the M-frame; M is at −R", y()});
+        visit(ReportRow{"distance", "r", "distance of the centre of mass from C", distance()});
+        visit(direction_row("theta", "direction of the centre of mass; it lags by 270° − θ",
+                            direction_));
         visit(ReportRow{"left", "1", "share of the discs left of the line from C to M", left()});
-        visit(
-            ReportRow{"elongation", "1", "how much longer than wide the cluster is", elongation()});
+        visit(ReportRow{"elongation", "1", "ratio of the cluster's length to its width",
+                        elongation()});
         visit(ReportRow{"centrifugal", "v²/r", "centrifugal force on a disc, per mass",
                         centrifugal()});
         visit(ReportRow{"coriolis", "v²/r", "Coriolis force on a disc, per mass", coriolis()});
-        visit(ReportRow{"most_centrifugal",
-                        "v²/r",
-                        "the highest centrifugal force",
-                        {.mean = samples_ > 0 ? max_centrifugal_ : not_available},
-                        {},
-                        false});
-        visit(ReportRow{"most_coriolis",
-                        "v²/r",
-                        "the highest Coriolis force",
-                        {.mean = samples_ > 0 ? max_coriolis_ : not_available},
-                        {},
-                        false});
+        const auto maximum = [&](const char* name, const char* description, double value) {
+            const Estimate e{.mean = samples_ > 0 ? value : not_available};
+            visit(ReportRow{name, "v²/r", description, e, {}, false});
+        };
+        maximum("max_centrifugal", "maximum centrifugal force", max_centrifugal_);
+        maximum("max_coriolis", "maximum Coriolis force", max_coriolis_);
     }
     void merge(const ClusterCentre& other) {
-        x_.merge(other.x_);
-        y_.merge(other.y_);
-        distance_.merge(other.distance_);
-        left_.merge(other.left_);
-        elongation_.merge(other.elongation_);
-        centrifugal_.merge(other.centrifugal_);
-        coriolis_.merge(other.coriolis_);
-        direction_.merge(other.direction_);
+        BlockAverages::merge(other);
         samples_ += other.samples_;
         max_centrifugal_ = std::max(max_centrifugal_, other.max_centrifugal_);
         max_coriolis_ = std::max(max_coriolis_, other.max_coriolis_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(samples_);
-        visit(max_centrifugal_);
-        visit(max_coriolis_);
-        for (BlockMean* mean : means()) visit(*mean);
-        visit(direction_);
+        visit(samples_, max_centrifugal_, max_coriolis_);
+        this->visit_averages(visit);
     }
 
   private:
-    std::array<BlockMean*, 7> means() {
-        return {&x_, &y_, &distance_, &left_, &elongation_, &centrifugal_, &coriolis_};
-    }
+    // Relative size of λ₂ below which the discs count as lying in a line: far above rounding.
+    static constexpr double in_a_line = 1e-9;
 
     int every_;
     std::int64_t samples_ = 0;

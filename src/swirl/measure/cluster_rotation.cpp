@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
-// One disc after the other: for fewer than eight, and where somebody sits on the centre of mass and
-// is left out.
+// One disc after the other: for fewer than eight discs, and if a disc on the centre of mass must be
+// omitted.
 RotationCentre centre_one_by_one(const Snapshot& s) {
     double mass = 0.0;
     Vec2 r{0.0, 0.0}, v{0.0, 0.0};
@@ -55,13 +55,14 @@ RotationCentre centre_of(const Snapshot& s, const RotationKernel& kernel) {
                          s.mass.data(), static_cast<std::ptrdiff_t>(s.size()), s.clock);
 }
 
-/// What the wall does to the centre of mass.
-void push(RotationCentre& c, const Event& event) {
+/// The change of the centre of mass by an impulse of the wall.
+void apply_wall_impulse(RotationCentre& c, const Event& event) {
     c.position = c.position + (event.clock - c.held_at) * c.velocity;
     c.held_at = event.clock;
     const Vec2 tangent{event.normal.y, -event.normal.x};
-    const Vec2 kick = event.impulse.normal * event.normal + event.impulse.tangential * tangent;
-    c.velocity = c.velocity - Vec2{kick.x / c.mass, kick.y / c.mass};
+    const Vec2 impulse_on_wall =
+        event.impulse.normal * event.normal + event.impulse.tangential * tangent;
+    c.velocity = c.velocity - Vec2{impulse_on_wall.x / c.mass, impulse_on_wall.y / c.mass};
 }
 
 SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c,
@@ -74,7 +75,7 @@ SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c
                                                       closest_square, {s.ax.data(), s.ay.data()})
                             : kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
                                            s.held_at.data(), c, s.clock, closest_square);
-        // If not: somebody on the centre of mass, or something that is no number itself.
+        // Otherwise a disc is on the centre of mass, or a state is NaN.
         const bool is_number = rates[0] - rates[0] == 0.0;
         if (is_number) return {rates[0], rates[1]};
     }
@@ -101,7 +102,7 @@ void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event
     if (event.kind == EventKind::path_vertex)
         centre_ = centre_of(snapshot, *kernel_);
     else
-        push(centre_, event);
+        apply_wall_impulse(centre_, event);
 }
 
 RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
@@ -137,13 +138,6 @@ void ClusterRotation::close_block() {
 RotationEstimates ClusterRotation::estimates() const {
     return {individual_by_event_.estimate(), individual_by_time_.estimate(),
             rigid_by_event_.estimate(), rigid_by_time_.estimate()};
-}
-
-void ClusterRotation::merge(const ClusterRotation& other) {
-    individual_by_event_.merge(other.individual_by_event_);
-    individual_by_time_.merge(other.individual_by_time_);
-    rigid_by_event_.merge(other.rigid_by_event_);
-    rigid_by_time_.merge(other.rigid_by_time_);
 }
 
 }  // namespace swirl

@@ -1,37 +1,39 @@
-// How fast the cluster turns about its own centre of mass. Lab frame; positive is rotation (the
-// sense of the swirl), negative is counterrotation.
+// How fast the cluster rotates about its own centre of mass. Lab frame; positive is rotation (in
+// the direction of the swirl), negative is counterrotation.
 //
 //   individual   ϖ = (1/N) Σ_i ϖ_i,   ϖ_i = (r_i − r_cm) × (v_i − v_cm) / |r_i − r_cm|²
 //                the paper's (main text, definition of ϖ, in the limit of frames infinitely close)
 //   rigid        ϖ = Σ_i (r_i − r_cm) × (v_i − v_cm) / Σ_i |r_i − r_cm|²
-//                the rotation of the rigid body that fits the velocities best. It weighs a disc
-//                with its distance squared, so those near the centre, which make the individual
-//                estimator noisy (its variance diverges, logarithmically, at |r_i − r_cm| → 0),
-//                count little.
+//                the rotation of the rigid body that fits the velocities best. It weights a disc
+//                with its distance squared, so discs near the centre count little. They make the
+//                individual estimator noisy: its variance diverges, logarithmically, at
+//                |r_i − r_cm| → 0
 //
-// r_cm is weighted with the masses; the sums over discs are not. Both are averaged twice:
-//   by event     one sample after every event, as the paper's Figure 5b (SI, "Simulation
-//                parameters"): busy moments weigh more than quiet ones. In a large dish one after
-//                every so many (events_per_rotation_sample)
-//   by time      samples at equal time steps: what a camera sees
+// r_cm is weighted with the masses; the sums over discs are not. Both are averaged in two ways:
 //
-// Units: results in units of Ω = 2π/T. Errors from blocks of whole periods (statistics.hpp).
+//   by event     one sample after every event, as in the paper's Figure 5b (SI, "Simulation
+//                parameters"): busy moments weigh more than quiet ones. In a large container there
+//                is one sample per several events (events_per_rotation_sample)
+//   by time      samples at equal time steps, as a camera takes them
+//
+// Units: results in units of Ω = 2π/T. Errors: from blocks of whole periods (block_average.hpp).
 // Limits: a disc on the centre of mass (closer than 2⁻⁴⁰ container radii) has no angular velocity
-// about it and is left out of the individual mean; if no disc is left (one disc, all discs on one
+// about it and is omitted from the individual mean. If no disc is left (one disc, all discs at one
 // point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
 //
-// A sample after every event must cost less than the event. The centre of mass is therefore not
-// summed up each time: discs that collide push each other, so only the wall changes its velocity,
-// by −J/M, and between two such pushes it moves uniformly. What rounding makes of that is forgotten
-// at every path vertex, where it is summed up anew. (Spheres on a floor are pushed by it all the
-// time; their centre of mass is summed up for every sample.) Eight discs are treated side by side,
-// always with eight partial sums added up in the same order, so the bits of the result do not
-// depend on the width of the processor's vectors.
+// A sample after every event must cost less than the event. So the centre of mass is not summed up
+// for every sample. Colliding discs push each other, so only the wall changes the velocity of the
+// centre of mass, by −J/M; between two such impulses it moves uniformly. At every path vertex it is
+// summed up again, which removes the accumulated rounding. (A floor accelerates spheres all the
+// time; there the centre of mass is summed up for every sample.) Eight discs are processed in
+// parallel, always with eight partial sums added in the same order. So the result does not depend on
+// the vector width of the processor.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 #include "swirl/math/cpu_width.hpp"
 #include "swirl/measure/cluster_rotation_kernel.hpp"
@@ -47,33 +49,32 @@ struct RotationSample {
     double individual, rigid;
 };
 
-/// Both estimators for one snapshot.
-/// Every width gives the same bits.
+/// Both estimators for one snapshot; bitwise the same for every width.
 RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::best);
 
-/// Samples of the averages by time per swirl. Not a multiple of the paper's 30 sides, so that the
-/// corners of the path are met at different phases.
+/// Samples per period of the averages by time. Not a multiple of the paper's 30 sides, so that
+/// samples fall on different phases of a side.
 inline constexpr int rotation_samples = 64;
 
-/// A sample looks at all discs, an event at about eight. In a dish larger than any of the paper's
-/// one after every event would take most of the run: 9 of 10 parts of it with 2,000 discs. Samples
-/// from event to event differ by what two discs do; one after every so many has the same mean, and
-/// costs as much per event as 64 discs do.
+/// A sample reads all discs, an event about eight. In a container larger than any of the paper's, one
+/// sample after every event would dominate the run: 9/10 of its time with 2,000 discs. Consecutive
+/// samples differ by the change of two discs. One sample per several events has the same mean, and
+/// costs as much per event as reading 64 discs.
 constexpr std::uint64_t events_per_rotation_sample(std::size_t discs) {
-    constexpr std::size_t always_sampled = 128, looked_at_per_event = 64;
-    return discs <= always_sampled ? 1 : (discs + looked_at_per_event - 1) / looked_at_per_event;
+    constexpr std::size_t always_sampled = 128, read_per_event = 64;
+    return discs <= always_sampled ? 1 : (discs + read_per_event - 1) / read_per_event;
 }
 
 /// The rotation rates of a run, in the order of its report.
 struct RotationRate {
-    const char *name, *words;
+    const char *name, *description;
 };
 inline constexpr std::array<RotationRate, 4> rotation_rates{
     {{"by_event", "mean over the discs, by event"},
      {"by_time", "mean over the discs, by time"},
      {"rigid_by_event", "rigid body, by event"},
      {"rigid_by_time", "rigid body, by time"}}};
-/// What a search for N_c goes by: the mean over the discs, by time.
+/// Index of the rate that a search for N_c uses: the mean over the discs, by time.
 inline constexpr std::size_t default_rate = 1;
 
 /// In units of Ω.
@@ -89,15 +90,20 @@ struct RotationEstimates {
     void report(Visitor&& visit) const {
         visit(ReportRow{"by_event", "Ω", "rotation ϖ, averaged over events", by_event});
         visit(ReportRow{"by_time", "Ω", "rotation ϖ, averaged over time", by_time});
-        visit(ReportRow{"rigid_by_event", "Ω", "of the fitted rigid body, over events",
+        visit(ReportRow{"rigid_by_event", "Ω", "rotation of the fitted rigid body, over events",
                         rigid_by_event});
-        visit(
-            ReportRow{"rigid_by_time", "Ω", "of the fitted rigid body, over time", rigid_by_time});
+        visit(ReportRow{"rigid_by_time", "Ω", "rotation of the fitted rigid body, over time",
+                        rigid_by_time});
     }
 };
 
-class ClusterRotation {
+class ClusterRotation : public MergedAverages<ClusterRotation> {
   public:
+    static auto averages(auto& s) {
+        return std::tie(s.individual_by_event_, s.individual_by_time_, s.rigid_by_event_,
+                        s.rigid_by_time_);
+    }
+
     explicit ClusterRotation(Width width = Width::best);
 
     /// Call after every event, with the snapshot brought up to date.
@@ -105,40 +111,32 @@ class ClusterRotation {
         if (event.kind != EventKind::disc_disc && !snapshot.on_floor)
             follow_centre(snapshot, event);
     }
-    /// One sample of the average by event, after an event that was followed. Whoever is in a hurry
-    /// takes it just before the snapshot is brought up to date for the next event: a wide load
-    /// right behind narrow stores to the same place waits for them.
+    /// One sample of the average by event, after an event passed to follow(). It is fastest just
+    /// before the snapshot is updated for the next event: a wide load waits for narrow stores to the
+    /// same address that came shortly before.
     RotationSample sample(const Snapshot& snapshot);
     RotationSample sample(const Snapshot& snapshot, const Event& event) {
         follow(snapshot, event);
         return sample(snapshot);
     }
-    /// One sample of the average by time: call at equal time steps.
+    /// One sample of the average by time; call it at equal time steps.
     RotationSample sample_by_time(const Snapshot& snapshot);
 
-    /// Call at the end of every period. What was seen since the last call becomes a block; what
-    /// has not been closed does not count.
+    /// Call at the end of every period. The samples since the last call become a block; an open block
+    /// does not count.
     void close_block();
 
     RotationEstimates estimates() const;
-    /// Blocks in units of Ω: for the search for a steady state, and as a time series.
+    /// Blocks in units of Ω, for the test of the steady state and as time series.
     const BlockSeries& by_event() const { return individual_by_event_; }
     const BlockSeries& by_time() const { return individual_by_time_; }
     const BlockSeries& rigid_by_event() const { return rigid_by_event_; }
     const BlockSeries& rigid_by_time() const { return rigid_by_time_; }
 
-    /// Adds the closed blocks of an independent run.
-    void merge(const ClusterRotation& other);
-
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(centre_);
-        visit(event_);
-        visit(time_);
-        visit(individual_by_event_);
-        visit(individual_by_time_);
-        visit(rigid_by_event_);
-        visit(rigid_by_time_);
+        visit(centre_, event_, time_);
+        this->visit_averages(visit);
     }
 
   private:
@@ -154,17 +152,14 @@ class ClusterRotation {
         void close_into(BlockSeries& individual_series, BlockSeries& rigid_series);
         template <class Visitor>
         void fields(Visitor&& visit) {
-            visit(individual);
-            visit(rigid);
-            visit(samples);
-            visit(period);
+            visit(individual, rigid, samples, period);
         }
     };
 
     void follow_centre(const Snapshot& snapshot, const Event& event);
 
-    const RotationKernel* kernel_;  // for this processor's vectors
-    RotationCentre centre_{};       // as the wall left it, or the last vertex of the path
+    const RotationKernel* kernel_;  // for this processor's vector width
+    RotationCentre centre_{};       // after the last impulse of the wall, or path vertex
     OpenBlock event_, time_;
     BlockSeries individual_by_event_, individual_by_time_, rigid_by_event_, rigid_by_time_;
 };

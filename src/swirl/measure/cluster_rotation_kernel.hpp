@@ -1,10 +1,11 @@
 // The inner loop of cluster_rotation.hpp, compiled once for each width of vector registers
-// (cmake/measure.cmake). Whatever the width, eight discs are treated side by side in the same
-// operations, exactly rounded and never fused, and the eight partial sums are added in the same
-// order; so all widths give the same bits.
+// (cmake/engine.cmake). For every width, eight discs are processed in parallel by the same operations,
+// exactly rounded and never fused, and the eight partial sums are added in the same order. So all
+// widths give bitwise the same result.
 //
-// Only plain pointers in and doubles out: an inline function of the standard library, compiled here
-// for a wide register, could be the copy that the linker keeps for everybody.
+// The interface has only plain pointers and doubles. An inline function of the standard library,
+// compiled here for a wide register, could be the copy that the linker keeps for the whole program,
+// and crash processors without that register.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@
 
 namespace swirl {
 
-/// The centre of mass of so many discs, kept as a disc is (snapshot.hpp).
+/// The centre of mass of `discs` discs, stored like a disc (snapshot.hpp): its state at `held_at`.
 struct RotationCentre {
     std::ptrdiff_t discs;
     double held_at, mass;
@@ -36,30 +37,31 @@ struct RotationCentre {
 typedef double RotationRates __attribute__((vector_size(16)));
 
 /// The accelerations of spheres on a floor.
-struct RotationPush {
+struct RotationAcceleration {
     const double *ax, *ay;
 };
 
-/// One width of the kernel, for eight discs or more. The columns of the snapshot one by one, as
-/// they stay in registers then.
+/// The kernel for one vector width and at least eight discs. The columns of the snapshot are separate
+/// arguments, since then they stay in registers.
 struct RotationKernel {
     /// The centre of mass at `clock`.
     RotationCentre (*centre)(const double* x, const double* y, const double* vx, const double* vy,
                              const double* held_at, const double* mass, std::ptrdiff_t size,
                              double clock);
-    /// The rotation about it. NaN for `individual` if r² ≤ `closest_square` for somebody.
+    /// The rotation about it. `individual` is NaN if r² ≤ `closest_square` for a disc.
     RotationRates (*rates)(const double* x, const double* y, const double* vx, const double* vy,
                            const double* held_at, const RotationCentre& centre, double clock,
                            double closest_square);
-    /// The same of spheres, which may be accelerated.
+    /// The same for spheres, which may be accelerated.
     RotationCentre (*centre_of_spheres)(const double* x, const double* y, const double* vx,
                                         const double* vy, const double* held_at, const double* mass,
                                         std::ptrdiff_t size, double clock,
-                                        const RotationPush& push);
+                                        const RotationAcceleration& acceleration);
     RotationRates (*rates_of_spheres)(const double* x, const double* y, const double* vx,
                                       const double* vy, const double* held_at,
                                       const RotationCentre& centre, double clock,
-                                      double closest_square, const RotationPush& push);
+                                      double closest_square,
+                                      const RotationAcceleration& acceleration);
 };
 namespace rotation_baseline {
 extern const RotationKernel kernel;
@@ -129,8 +131,8 @@ SWIRL_INLINE Eight where_above(const Eight& square, double limit, const Eight& v
     return e;
 }
 
-// Lanes k and k + 4 are put together, then of these four 0 and 1, 2 and 3, then the two that are
-// left: ((0 + 4) + (1 + 5)) + ((2 + 6) + (3 + 7)), whatever the register.
+// Adds lanes k and k + 4, then of these four 0 and 1, 2 and 3, then the remaining two:
+// ((0 + 4) + (1 + 5)) + ((2 + 6) + (3 + 7)), for every register width.
 #if SWIRL_ROTATION_REGISTER == 16
 SWIRL_INLINE Double2 sums_of_two(const Double2& a, const Double2& b) {
     return __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
@@ -166,13 +168,13 @@ struct Discs {
     Eight x, y, vx, vy;
 };
 
-/// Of discs: nothing.
-struct NoPush {
-    SWIRL_INLINE void on(Discs&, const Eight&, std::ptrdiff_t) const {}
+/// Discs have no acceleration.
+struct NoAcceleration {
+    SWIRL_INLINE void apply(Discs&, const Eight&, std::ptrdiff_t) const {}
 };
-/// As Snapshot::position() and velocity() have it.
-struct Push : RotationPush {
-    SWIRL_INLINE void on(Discs& d, const Eight& elapsed, std::ptrdiff_t first) const {
+/// As in Snapshot::position() and velocity().
+struct Acceleration : RotationAcceleration {
+    SWIRL_INLINE void apply(Discs& d, const Eight& elapsed, std::ptrdiff_t first) const {
         const Eight x = Eight::load(ax + first), y = Eight::load(ay + first);
         const Eight half_square = Eight::all(0.5) * elapsed * elapsed;
         d.x = d.x + half_square * x;
@@ -182,14 +184,14 @@ struct Push : RotationPush {
     }
 };
 
-template <class Pushed>
-SWIRL_INLINE Discs discs(const Columns& c, const Pushed& push, const Eight& clock,
+template <class Accelerated>
+SWIRL_INLINE Discs discs(const Columns& c, const Accelerated& acceleration, const Eight& clock,
                          std::ptrdiff_t first) {
     const Eight elapsed = clock - Eight::load(c.held_at + first);
     const Eight vx = Eight::load(c.vx + first), vy = Eight::load(c.vy + first);
     Discs d{Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
             vy};
-    push.on(d, elapsed, first);
+    acceleration.apply(d, elapsed, first);
     return d;
 }
 
@@ -205,7 +207,7 @@ struct Moments {
     }
 };
 
-/// A disc as seen from the centre of mass: r × v and r².
+/// A disc relative to the centre of mass: l = r × v and q = r².
 struct Arm {
     Eight l, q;
 };
@@ -226,10 +228,11 @@ struct Centre {
     }
 };
 
-struct Turning {
+/// The partial sums over discs, and the smallest r².
+struct RateSums {
     Eight individual, angular, square, minimum;
 
-    SWIRL_INLINE explicit Turning(const Arm& a)
+    SWIRL_INLINE explicit RateSums(const Arm& a)
         : individual(a.l / a.q), angular(a.l), square(a.q), minimum(a.q) {}
     SWIRL_INLINE void add(const Arm& a) {
         individual = individual + a.l / a.q;
@@ -237,14 +240,14 @@ struct Turning {
         square = square + a.q;
         minimum = smaller_of(a.q, minimum);
     }
-    /// With one division for both.
+    /// Adds two discs per lane with a single division.
     SWIRL_INLINE void add(const Arm& a, const Arm& b) {
         individual = individual + (a.l * b.q + b.l * a.q) / (a.q * b.q);
         angular = (angular + a.l) + b.l;
         square = (square + a.q) + b.q;
         minimum = smaller_of(b.q, smaller_of(a.q, minimum));
     }
-    /// Where a lane counts (1) or has counted before (0).
+    /// `counts` is 1 for a lane that counts and 0 for one that was added before.
     SWIRL_INLINE void add(const Arm& a, const Eight& counts) {
         const Eight l = a.l * counts;
         individual = individual + l / a.q;
@@ -257,8 +260,8 @@ struct Turning {
 // Lane k of `last_lanes + left` is 1 for the last `left` of eight lanes.
 constexpr double last_lanes[2 * lanes] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
-/// What is left over of a number of discs that is not a multiple of eight is looked at together
-/// with those before it, which then count nothing.
+/// If the number of discs is not a multiple of eight, the last `left` discs are loaded together with
+/// those before them, which then have weight 0.
 struct Rows {
     std::ptrdiff_t left, whole, last;
 
@@ -267,31 +270,32 @@ struct Rows {
     SWIRL_INLINE Eight counts() const { return Eight::load(last_lanes + left); }
 };
 
-template <class Pushed>
+template <class Accelerated>
 SWIRL_INLINE RotationCentre centre_of(const Columns& c, const double* mass, std::ptrdiff_t size,
-                                      double clock_now, const Pushed& push) {
+                                      double clock_now, const Accelerated& acceleration) {
     const Rows rows(size);
     const Eight clock = Eight::all(clock_now), zero = Eight::all(0.0);
     Moments m{zero, zero, zero, zero, zero};
     for (std::ptrdiff_t i = 0; i < rows.whole; i += lanes)
-        m.add(discs(c, push, clock, i), Eight::load(mass + i));
+        m.add(discs(c, acceleration, clock, i), Eight::load(mass + i));
     if (rows.left > 0)
-        m.add(discs(c, push, clock, rows.last), Eight::load(mass + rows.last) * rows.counts());
+        m.add(discs(c, acceleration, clock, rows.last),
+              Eight::load(mass + rows.last) * rows.counts());
     const Double2 all = sums(m.mass, m.mass);
     const Double2 r = sums(m.x, m.y) / all, v = sums(m.vx, m.vy) / all;
     return {size, clock_now, all[0], {r[0], r[1]}, {v[0], v[1]}};
 }
 
-template <class Pushed>
+template <class Accelerated>
 SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& about, double clock_now,
-                                    double closest_square, const Pushed& push) {
+                                    double closest_square, const Accelerated& acceleration) {
     const Rows rows(about.discs);
     const Eight clock = Eight::all(clock_now);
     const Centre centre_of_mass(about, clock);
     const auto arm = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
-        return centre_of_mass.arm(discs(c, push, clock, i));
+        return centre_of_mass.arm(discs(c, acceleration, clock, i));
     };
-    Turning t(arm(0));
+    RateSums t(arm(0));
     std::ptrdiff_t i = lanes;
     for (; i + lanes < rows.whole; i += 2 * lanes) t.add(arm(i), arm(i + lanes));
     if (i < rows.whole) t.add(arm(i));
@@ -305,23 +309,25 @@ SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& abou
 RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
                       const double* held_at, const double* mass, std::ptrdiff_t size,
                       double clock) {
-    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, NoPush{});
+    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, NoAcceleration{});
 }
 RotationCentre centre_of_spheres(const double* x, const double* y, const double* vx,
                                  const double* vy, const double* held_at, const double* mass,
-                                 std::ptrdiff_t size, double clock, const RotationPush& push) {
-    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, Push{push});
+                                 std::ptrdiff_t size, double clock,
+                                 const RotationAcceleration& acceleration) {
+    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, Acceleration{acceleration});
 }
 
 RotationRates rates(const double* x, const double* y, const double* vx, const double* vy,
                     const double* held_at, const RotationCentre& about, double clock,
                     double closest_square) {
-    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, NoPush{});
+    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, NoAcceleration{});
 }
 RotationRates rates_of_spheres(const double* x, const double* y, const double* vx, const double* vy,
                                const double* held_at, const RotationCentre& about, double clock,
-                               double closest_square, const RotationPush& push) {
-    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, Push{push});
+                               double closest_square, const RotationAcceleration& acceleration) {
+    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square,
+                    Acceleration{acceleration});
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-constexpr int directions = 360;
+constexpr int directions = 360;  // steps of one degree
 
 double length(const Vec2& v) { return square_root(dot(v, v)); }
 
@@ -76,7 +76,7 @@ FittingPhase::Fit FittingPhase::best(bool clockwise) const {
         sums.push_back(sum);
         minimum = std::min(minimum, sum);
     }
-    // Where several fit as well, the middle of them.
+    // If several fit equally well, the middle of them.
     Vec2 middle{0.0, 0.0};
     for (int k = 0; k < directions; ++k)
         if (sums[std::size_t(k)] <= minimum) middle = middle + unit_circle(double(k) / directions);

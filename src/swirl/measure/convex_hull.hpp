@@ -1,7 +1,7 @@
 // The convex hull of points and its perimeter: Andrew's monotone chain (Andrew 1979,
 // doi:10.1016/0020-0190(79)90072-3), O(N log N).
 //
-// Limits: no points or one: perimeter 0; points on a line: there and back, twice their length.
+// Limits: no points or one: perimeter 0; points on a line: twice their length.
 #pragma once
 
 #include <algorithm>

@@ -3,15 +3,19 @@
 //   density of a cell = ⟨number of disc centres in it⟩ / area of the cell
 //
 // in discs per unit area (unit of length: the disc radius), averaged over samples. Summed over all
-// cells, times the area of a cell, it is the number of discs. By event, as in the paper: sample
-// after every event, or after every k-th, which changes the error but not the mean. By time: sample
-// at equal time steps. Error from blocks of periods (cell_averages.hpp).
+// cells and multiplied by the area of a cell, it is the number of discs.
 //
-// Source: paper, SI "Simulation parameters" (100 × 100 cells over the container's bounding square).
-// Limits: no samples: NaN everywhere. A centre outside the square is counted in outside() alone.
+//   by event   as in the paper: sampled after every event, or after every k-th, which changes the
+//              error but not the mean
+//   by time    sampled at equal time steps
+//
+// Errors: from blocks of periods (cell_averages.hpp). Source: paper, SI "Simulation parameters"
+// (100 × 100 cells over the container's bounding square). Limits: no samples: NaN everywhere. A
+// centre outside the square is counted in outside() alone.
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "swirl/measure/cell_averages.hpp"
@@ -50,22 +54,20 @@ class DensityMap {
 
   private:
     SquareGrid grid_;
-    CellRates counts_;                // the last one is outside
+    CellRates counts_;                // the last cell is outside
     std::vector<std::int32_t> cell_;  // of every disc, at one sample
 };
 
-/// Both averages.
-class DensityMaps {
+/// The density by time and by event.
+class DensityMaps : public BlockAverages<DensityMaps> {
   public:
+    static auto averages(auto& s) { return std::tie(s.by_time_, s.by_event_); }
+
     explicit DensityMaps(double container_radius)
         : by_time_(container_radius), by_event_(container_radius) {}
 
     void sample(const MFrameView& view) { by_time_.sample(view); }
     void sample_by_event(const MFrameView& view) { by_event_.sample(view); }
-    void close_block() {
-        by_time_.close_block();
-        by_event_.close_block();
-    }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
@@ -84,14 +86,9 @@ class DensityMaps {
         }
         visit(std::move(table));
     }
-    void merge(const DensityMaps& other) {
-        by_time_.merge(other.by_time_);
-        by_event_.merge(other.by_event_);
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(by_time_);
-        visit(by_event_);
+        visit(by_time_, by_event_);
     }
 
   private:

@@ -1,22 +1,23 @@
-// How far the discs wander, and how far they turn, in a given time.
+// How far the discs move, and how far they rotate, in a given time.
 //
-//   displacement          ⟨|Δ(r − C)|²⟩      relative to the container, in the lab's directions
+//   displacement          ⟨|Δ(r − C)|²⟩      relative to the container, in lab directions
 //   angular displacement  ⟨Δα⟩ and ⟨Δα²⟩ − ⟨Δα⟩²   of the discs' orientation α
 //
-// for lags of 1, 2, 4, … samples, over all discs and beginnings. In free diffusion they grow as 4
-// D t and 2 D_rot t; in a dish the first saturates near the square of its size, and within a period
-// it shows the sloshing. Take lags of whole periods to see the diffusion through it.
+// for lags of 1, 2, 4, … samples, over all discs and all beginnings. In free diffusion they grow as
+// 4 D t and 2 D_rot t. In a container the first saturates near the square of its size, and within a
+// period it shows the sloshing. Lags of whole periods show the diffusion without the sloshing.
 //
 // Units: length², rad (the angle is counted through full turns). Normalisation: every disc and
-// every beginning counts the same. Error from blocks of periods: a displacement belongs to the
-// block in which it ends. Those of a lag of L periods overlap for L blocks, so L blocks count as
-// one independent sample: the error is √L times that of the blocks. Limits: orientation unknown
-// (NaN): no angular displacement (NaN). Samples that do not follow in equal steps of time (to 1 %),
-// or another number of discs, begin anew, and are counted.
+// every beginning counts the same. Errors: from blocks of periods. A displacement belongs to the
+// block in which it ends. Displacements over L periods overlap for L blocks, so L blocks count as
+// one independent sample: the error is √L times that of the blocks. Limits: unknown orientations
+// (NaN) make the angular displacement NaN. Samples that are not at equal time steps (to 1 %), or a
+// change of the number of discs, begin again, and are counted.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "swirl/measure/cell_averages.hpp"
@@ -26,11 +27,13 @@
 
 namespace swirl {
 
-class Diffusion {
+class Diffusion : public BlockAverages<Diffusion> {
   public:
+    static auto averages(auto& s) { return std::tie(s.moves_, s.rotations_); }
+
     /// Lags up to 2^(lags − 1) samples.
     explicit Diffusion(std::size_t lags = 10)
-        : window_((std::size_t{1} << (lags - 1)) + 1), moves_(lags), turns_(lags) {}
+        : window_((std::size_t{1} << (lags - 1)) + 1), moves_(lags), rotations_(lags) {}
 
     void sample(const Snapshot& s) {
         const double step = s.time() - last_time_;
@@ -54,37 +57,35 @@ class Diffusion {
             const std::int64_t lag = std::int64_t{1} << k;
             if (lag > samples_) break;
             const State* const then = at(samples_ - lag);
-            double square = 0.0, turned = 0.0, turned_square = 0.0;
+            double square = 0.0, angle = 0.0, angle_square = 0.0;
             for (std::size_t i = 0; i < discs_; ++i) {
                 const Vec2 d = now[i].position - then[i].position;
-                const double turn = now[i].angle - then[i].angle;
+                const double rotation = now[i].angle - then[i].angle;
                 square += dot(d, d);
-                turned += turn;
-                turned_square += turn * turn;
+                angle += rotation;
+                angle_square += rotation * rotation;
             }
             const double visits = static_cast<double>(discs_);
             moves_.add(k, {square}, visits);
-            turns_.add(k, {turned, turned_square}, visits);
+            rotations_.add(k, {angle, angle_square}, visits);
         }
         ++samples_;
     }
     /// The discs of the next sample are not those of the last, though there may be as many.
-    void begin_anew() { discs_ = 0; }
-    void close_block() {
-        moves_.close_block();
-        turns_.close_block();
-    }
+    void begin_tracks() { discs_ = 0; }
 
     std::size_t lags() const { return moves_.size(); }
     /// In units of the snapshots' time.
     double lag(std::size_t k) const { return step_ * static_cast<double>(std::int64_t{1} << k); }
-    Estimate square_displacement(std::size_t k) const { return apart(moves_.estimate(k), k); }
+    Estimate square_displacement(std::size_t k) const { return independent(moves_.estimate(k), k); }
     /// ⟨Δα⟩.
-    Estimate mean_turn(std::size_t k) const { return apart(turns_.estimate(k, 0), k); }
+    Estimate mean_rotation(std::size_t k) const {
+        return independent(rotations_.estimate(k, 0), k);
+    }
     /// ⟨Δα²⟩ − ⟨Δα⟩²; the error is that of ⟨Δα²⟩.
-    Estimate turn_variance(std::size_t k) const {
-        Estimate e = apart(turns_.estimate(k, 1), k);
-        e.mean -= turns_.mean(k, 0) * turns_.mean(k, 0);
+    Estimate rotation_variance(std::size_t k) const {
+        Estimate e = independent(rotations_.estimate(k, 1), k);
+        e.mean -= rotations_.mean(k, 0) * rotations_.mean(k, 0);
         return e;
     }
     double breaks() const { return breaks_; }
@@ -93,23 +94,14 @@ class Diffusion {
     void merge(const Diffusion& other) {
         if (step_ == 0.0) step_ = other.step_;
         if (period_ == 0.0) period_ = other.period_;
-        moves_.merge(other.moves_);
-        turns_.merge(other.turns_);
+        BlockAverages::merge(other);
         breaks_ += other.breaks_;
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(past_);
-        visit(discs_);
-        visit(samples_);
-        visit(last_time_);
-        visit(step_);
-        visit(period_);
-        visit(breaks_);
-        visit(moves_);
-        visit(turns_);
+        visit(past_, discs_, samples_, last_time_, step_, period_, breaks_, moves_, rotations_);
     }
-    /// Where the discs are to begin again, what is kept of those before does not matter.
+    /// If the next sample restarts, the stored positions do not matter.
     bool is_consistent() const { return discs_ == 0 || past_.size() / discs_ == window_; }
 
     struct State {
@@ -122,58 +114,58 @@ class Diffusion {
         return past_.data() + static_cast<std::size_t>(index) % window_ * discs_;
     }
 
-    /// As many blocks as the lag is long count as one.
-    Estimate apart(Estimate e, std::size_t k) const {
+    /// As many blocks as the lag is long count as one independent sample.
+    Estimate independent(Estimate e, std::size_t k) const {
         const double blocks = std::fmax(1.0, lag(k) / period_);
         e.error *= square_root(blocks);
         e.effective_samples /= blocks;
         return e;
     }
 
-    std::size_t window_;  // samples that are kept
+    std::size_t window_;  // samples that are stored
     std::vector<State> past_;
     std::size_t discs_ = 0;
     std::int64_t samples_ = 0;
     double last_time_ = 0.0, step_ = 0.0, period_ = 0.0, breaks_ = 0.0;
     CellMeans<1> moves_;
-    CellMeans<2> turns_;
+    CellMeans<2> rotations_;
 };
 
-/// For lags below a period, and for lags of whole periods.
+/// Diffusion for lags below a period, and for lags of whole periods.
 class DiffusionLags {
   public:
     /// At equal steps of time within the period.
     void sample_within_period(const Snapshot& s) { within_.sample(s); }
     /// Once per period, always at the same phase.
     void sample_across_periods(const Snapshot& s) { across_.sample(s); }
-    void begin_anew() {
-        within_.begin_anew();
-        across_.begin_anew();
+    void begin_tracks() {
+        within_.begin_tracks();
+        across_.begin_tracks();
     }
     void close_block() {
         within_.close_block();
         across_.close_block();
     }
 
-    /// A lag that was not reached is left out.
+    /// Lags that were not reached have no row.
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportTable table{"",
-                          "squared displacement and turn of a disc against the time between",
+                          "squared displacement and rotation of a disc against the lag",
                           {{"lag", "r/v"},
                            {"displacement", "r²"},
                            {"displacement_error", "r²"},
-                           {"turn", "rad"},
-                           {"turn_error", "rad"},
-                           {"turn_variance", "rad²"},
-                           {"turn_variance_error", "rad²"}}};
+                           {"rotation", "rad"},
+                           {"rotation_error", "rad"},
+                           {"rotation_variance", "rad²"},
+                           {"rotation_variance_error", "rad²"}}};
         for (const Diffusion* d : {&within_, &across_})
             for (std::size_t k = 0; k < d->lags(); ++k) {
-                const Estimate moved = d->square_displacement(k), turn = d->mean_turn(k),
-                               variance = d->turn_variance(k);
+                const Estimate moved = d->square_displacement(k), rotation = d->mean_rotation(k),
+                               variance = d->rotation_variance(k);
                 if (moved.blocks == 0 || std::isnan(moved.mean)) continue;
-                table.add({d->lag(k), moved.mean, moved.error, turn.mean, turn.error, variance.mean,
-                           variance.error});
+                table.add({d->lag(k), moved.mean, moved.error, rotation.mean, rotation.error,
+                           variance.mean, variance.error});
             }
         visit(std::move(table));
     }
@@ -183,8 +175,7 @@ class DiffusionLags {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(within_);
-        visit(across_);
+        visit(within_, across_);
     }
 
   private:

@@ -1,8 +1,8 @@
-// How the places at which something happens are distributed over θ: a mean direction
-// (circular_mean.hpp) says nothing of two maxima.
+// The distribution over θ of the positions at which something happens. A mean direction
+// (circular_mean.hpp) cannot show two maxima.
 //
-// Units: shares of all places in equal slices of θ, which add up to 1. Limits: no places, no shares
-// (NaN). The null vector has no direction and is not counted.
+// Units: shares of all positions in equal slices of θ, which add up to 1. Limits: without positions
+// the shares are NaN. The null vector has no direction and is not counted.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,9 @@ class DirectionHistogram {
   public:
     static constexpr std::size_t slices = 36;
 
-    void add(const Vec2& place) {
-        if (!(dot(place, place) > 0.0)) return;
-        const auto slice = static_cast<std::size_t>(turns_of(place) * slices);
+    void add(const Vec2& position) {
+        if (!(dot(position, position) > 0.0)) return;
+        const auto slice = static_cast<std::size_t>(turns_of(position) * slices);
         counts_[std::min(slice, slices - 1)] += 1.0;
     }
     double share(std::size_t slice) const {
@@ -42,18 +42,19 @@ class DirectionHistogram {
     std::vector<double> counts_ = std::vector<double>(slices);
 };
 
-/// Where discs become pinned and free.
-inline ReportTable table_of(const char* description, const DirectionHistogram& pinned,
-                            const DirectionHistogram& free) {
-    ReportTable table{"places", description, {{"theta", "°"}, {"pinned", "1"}, {"free", "1"}}};
+/// The table of the positions where discs become pinned and free.
+inline ReportTable positions_table(const char* description, const DirectionHistogram& pinned,
+                                   const DirectionHistogram& free) {
+    ReportTable table{"positions", description, {{"theta", "°"}, {"pinned", "1"}, {"free", "1"}}};
     for (std::size_t k = 0; k < DirectionHistogram::slices; ++k)
         table.add({360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
                    pinned.share(k), free.share(k)});
     return table;
 }
 
-/// A mean direction as it is reported.
-inline ReportRow row_of(const char* name, const char* description, const CircularMean& mean) {
+/// The row of a mean direction.
+inline ReportRow direction_row(const char* name, const char* description,
+                               const CircularMean& mean) {
     return {name,
             "°",
             description,

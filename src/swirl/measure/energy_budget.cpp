@@ -27,9 +27,9 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
     const Body i = body_of(after, event.i);
     const Body j = wall ? wall_body(after.container_velocity) : body_of(after, event.j);
 
-    // |n|² is 1 but for its rounding, which is not random: all contacts of a pair have the same
-    // distance to the last digits. The kick went along this very n, so its length belongs here;
-    // without it the budget is off by a fifth of a rounding error per event, always to one side.
+    // |n|² is 1 up to rounding. This rounding is not random, since all contacts of a pair have the
+    // same distance to the last digits. The impulse acted along this very n, so |n|² belongs here.
+    // Without it the budget is off by a fifth of a rounding error per event, always to one side.
     const double inverse_masses = (i.inverse_mass + j.inverse_mass) * dot(n, n);
     const double inverse_tangential = inverse_masses + i.radius * i.radius * i.inverse_inertia +
                                       j.radius * j.radius * j.inverse_inertia;
@@ -62,22 +62,23 @@ double kinetic_energy(const Snapshot& s) {
     return sum;
 }
 
-/// After the event; K by the states as they are held, which on a floor must be those of now.
+/// After the event. K is that of the stored states, which on a floor must be the present ones.
 void EnergyBudget::follow_floor(const EnergyChange& collision, const Snapshot& after) {
-    Bodies now{true, kinetic_energy(after), {0.0, 0.0}, after.container_velocity};
+    Totals now{true, kinetic_energy(after), {0.0, 0.0}, after.container_velocity};
     for (std::size_t i = 0; i < after.size(); ++i)
         now.momentum = now.momentum + after.mass[i] * after.velocity(i);
     if (last_.known) {
-        const double done = collision.work - collision.friction_loss - collision.inelastic_loss;
+        const double by_collision =
+            collision.work - collision.friction_loss - collision.inelastic_loss;
         const double work =
             dot(last_.floor_velocity, now.momentum - last_.momentum - collision.push);
         floor_.work += work;
-        floor_.friction_loss += work - (now.energy - last_.energy - done);
+        floor_.friction_loss += work - (now.energy - last_.energy - by_collision);
     }
     last_ = now;
 }
 
-void EnergyBudget::sample(const Event& event, const Snapshot& after) {
+void EnergyBudget::sample_event(const Event& event, const Snapshot& after) {
     const EnergyChange change = energy_change(event, after);
     if (event.kind == EventKind::disc_wall || event.kind == EventKind::disc_disc) {
         add(event.kind == EventKind::disc_wall ? wall_ : disc_, change);
@@ -91,15 +92,15 @@ void EnergyBudget::compare(double energy) {
     const double unaccounted = energy - accounted();
     if (!begun_) at_start_ = unaccounted;
     begun_ = compared_ = true;
-    worst_ = std::fmax(worst_, std::fabs(unaccounted - at_start_));
+    max_difference_ = std::fmax(max_difference_, std::fabs(unaccounted - at_start_));
 }
 
 double EnergyBudget::unaccounted_share() const {
     if (!begun_) return not_available;
-    return worst_ / std::fmax(std::fabs(total_work()), std::fabs(total_loss()));
+    return max_difference_ / std::fmax(std::fabs(total_work()), std::fabs(total_loss()));
 }
 
-void EnergyBudget::close_block(double duration) {
+void EnergyBudget::close_event_block(double duration) {
     work_.add(wall_.work, duration);
     disc_friction_.add(disc_.friction_loss, duration);
     wall_friction_.add(wall_.friction_loss, duration);
@@ -115,13 +116,8 @@ void EnergyBudget::close_block(double duration) {
 void EnergyBudget::merge(const EnergyBudget& other) {
     add(total_, other.total_);
     begun_ = begun_ || other.begun_;
-    worst_ = std::fmax(worst_, other.worst_);
-    work_.merge(other.work_);
-    disc_friction_.merge(other.disc_friction_);
-    wall_friction_.merge(other.wall_friction_);
-    inelastic_.merge(other.inelastic_);
-    floor_work_.merge(other.floor_work_);
-    floor_friction_.merge(other.floor_friction_);
+    max_difference_ = std::fmax(max_difference_, other.max_difference_);
+    MergedAverages::merge(other);
 }
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// Where the energy comes from and where it goes, collision by collision. Only collisions change the
+// Where the energy comes from and where it goes, in every collision. Only collisions change the
 // kinetic energy K = Σ ½ m v² + ½ I ω² (lab frame), and each does so by
 //
 //   ΔK = W − L
@@ -12,27 +12,29 @@
 //
 // (the change of ½ m* g² under an impulse J with m* = J/(g' − g)). Velocities after the collision
 // are those of the snapshot; those before follow from the impulse and the effective masses of
-// physics/collision_law.hpp. So W and L rest on nothing but the impulses, and Σ (W − L) equals the
-// change of K that the snapshots show up to rounding: the budget closes, and a law that leaked
-// would show.
+// physics/collision_law.hpp. So W and L depend on the impulses alone, and Σ (W − L) equals the
+// change of K between snapshots up to rounding. The budget closes; a collision law that did not
+// conserve energy would show.
 //
-// Spheres (collision_law.hpp): L_t has the vertical part −J_z (s_z + s'_z)/2 too, of the planar
-// motion, so with the energy that lifts one of them; a contact on a floor may give back what
-// pressing has stored, so L_n may be below 0 there. Between collisions the floor acts, with the
-// velocity u, which is constant on a leg. With P the momentum of all, and ΔP and ΔK what the
-// snapshots show from event to event less what the collisions did,
+// Spheres (collision_law.hpp): L_t also has the vertical part −J_z (s_z + s'_z)/2, of the planar
+// motion, so it includes the energy that lifts one of them. A contact on a floor may return energy
+// that was stored by pressing, so L_n may be negative there. Between collisions the floor acts, with
+// the velocity u, which is constant on a segment of the path. With P the momentum of all spheres,
+// and ΔP and ΔK their changes from event to event without those in the collision,
 //
 //   W_f = u·ΔP                work of the moving floor
-//   L_f = W_f − ΔK            what sliding on it takes, Σ μ_f m g ∫|c| dt ≥ 0, and rolling against
-//                             a resistance, Σ μ_r m g times the way over the floor
+//   L_f = W_f − ΔK            loss by sliding on the floor, Σ μ_f m g ∫|c| dt ≥ 0, and by rolling
+//                             resistance, Σ μ_r m g times the way over the floor
 //
-// Here the floor is what is left over, so the budget closes by construction and says nothing of
-// that; that L_f is never negative does.
+// The floor's part is the difference, so there the budget closes by construction, which checks
+// nothing. That L_f is never negative is a check.
 //
 // Results: power, energy per unit time, averaged over blocks of periods. Units: disc mass × speed²
-// / time. In a steady state work = losses. Elastic frictionless collisions lose nothing
-// (round-off). Limits: no time: NaN; needs spins.
+// / time. In a steady state, work = losses. Elastic frictionless collisions lose nothing, up to
+// rounding. Errors: from blocks of periods. Limits: no time: NaN; needs spins.
 #pragma once
+
+#include <tuple>
 
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/physics/event.hpp"
@@ -41,7 +43,7 @@
 
 namespace swirl {
 
-/// What one collision did to the energy.
+/// The change of energy in one collision.
 struct EnergyChange {
     double work = 0.0;            // of the wall
     double friction_loss = 0.0;   // tangential
@@ -54,33 +56,36 @@ EnergyChange energy_change(const Event& event, const Snapshot& after);
 /// K of a snapshot, lab frame.
 double kinetic_energy(const Snapshot& snapshot);
 
-class EnergyBudget {
+class EnergyBudget : public MergedAverages<EnergyBudget> {
   public:
-    /// Every event, with the state after it.
-    void sample(const Event& event, const Snapshot& after);
-    /// `duration`: the time the events since the last call took.
-    void close_block(double duration);
+    static auto averages(auto& s) {
+        return std::tie(s.work_, s.disc_friction_, s.wall_friction_, s.inelastic_, s.floor_work_,
+                        s.floor_friction_);
+    }
 
-    /// Power: of the wall; lost in friction between discs, and at the wall; lost in inelastic
+    void sample_event(const Event& event, const Snapshot& after);
+    /// `duration`: the time in which the events since the last call happened.
+    void close_event_block(double duration);
+
+    /// Power of the wall; power lost in friction between discs and at the wall, and in inelastic
     /// collisions.
     Estimate wall_power() const { return work_.estimate(); }
     Estimate disc_friction_power() const { return disc_friction_.estimate(); }
     Estimate wall_friction_power() const { return wall_friction_.estimate(); }
     Estimate inelastic_power() const { return inelastic_.estimate(); }
-    /// Of the floor, and lost in sliding and rolling on it; of spheres on a floor.
+    /// Power of the floor, and power lost in sliding and rolling on it; for spheres on a floor.
     Estimate floor_power() const { return floor_work_.estimate(); }
     Estimate floor_friction_power() const { return floor_friction_.estimate(); }
 
-    /// Everything since the beginning, open block included.
+    /// Since the beginning, including the open block.
     double total_work() const { return total_.work; }
     double total_loss() const { return total_.friction_loss + total_.inelastic_loss; }
     /// The change of K that the collisions account for.
     double accounted() const { return total_work() - total_loss(); }
 
-    /// How far the budget is from closing: the largest difference between the change of K that the
-    /// snapshots show from the first event of a block to that of another, and the change the
-    /// collisions account for, over the energy that went through. Round-off: some 10⁻¹⁴ in 10⁵
-    /// events.
+    /// How far the budget is from closing. Between the first events of any two blocks, K changes in
+    /// the snapshots, and by what the collisions account for. This is the largest difference of the
+    /// two, relative to the total work or loss. Rounding makes it some 10⁻¹⁴ in 10⁵ events.
     double unaccounted_share() const;
 
     template <class Visitor>
@@ -95,11 +100,11 @@ class EnergyBudget {
         visit(ReportRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
                         floor_power()});
         visit(ReportRow{"floor_friction_power", "m v³/r",
-                        "lost on the floor in sliding and to rolling resistance",
+                        "lost on the floor by sliding and rolling resistance",
                         floor_friction_power()});
         visit(ReportRow{.name = "unaccounted_share",
                         .unit = "1",
-                        .description = "of the energy that went through",
+                        .description = "share of the energy that is not accounted for",
                         .estimate = {.mean = unaccounted_share()},
                         .has_error = false});
     }
@@ -107,26 +112,16 @@ class EnergyBudget {
     template <class Visitor>
     void fields(Visitor&& visit) {
         for (EnergyChange* change : {&disc_, &wall_, &total_}) {
-            visit(change->work);
-            visit(change->friction_loss);
-            visit(change->inelastic_loss);
+            visit(change->work, change->friction_loss, change->inelastic_loss);
         }
-        for (BlockSeries* s : {&work_, &disc_friction_, &wall_friction_, &inelastic_, &floor_work_,
-                               &floor_friction_})
-            visit(*s);
-        for (double* sum : {&floor_.work, &floor_.friction_loss, &last_.energy}) visit(*sum);
-        visit(last_.momentum);
-        visit(last_.floor_velocity);
-        visit(last_.known);
-        visit(begun_);
-        visit(compared_);
-        visit(at_start_);
-        visit(worst_);
+        this->visit_averages(visit);
+        visit(floor_.work, floor_.friction_loss, last_.energy, last_.momentum);
+        visit(last_.floor_velocity, last_.known, begun_, compared_, at_start_, max_difference_);
     }
 
   private:
     /// All bodies together, after the last event.
-    struct Bodies {
+    struct Totals {
         bool known = false;
         double energy = 0.0;
         Vec2 momentum{0.0, 0.0}, floor_velocity{0.0, 0.0};
@@ -135,10 +130,11 @@ class EnergyBudget {
     void follow_floor(const EnergyChange& collision, const Snapshot& after);
 
     EnergyChange disc_, wall_, floor_;  // the open block
-    Bodies last_;
+    Totals last_;
     EnergyChange total_;
     bool begun_ = false, compared_ = false;  // ever, and in this block
-    double at_start_ = 0.0, worst_ = 0.0;    // K less what is accounted for, and its largest change
+    // K minus what is accounted for, at the start, and its maximum change since.
+    double at_start_ = 0.0, max_difference_ = 0.0;
     BlockSeries work_, disc_friction_, wall_friction_, inelastic_, floor_work_, floor_friction_;
 };
 

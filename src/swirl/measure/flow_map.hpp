@@ -1,13 +1,13 @@
 // How the discs move, in the M-frame: the arrows of the paper's Figs 2b, 2c and 5d.
 //
-//   flow of a cell = ⟨u⟩ over the discs found in it,
+//   flow of a cell = ⟨u⟩ over the discs found in it
 //
-// u the velocity relative to the container, turned into the M-frame (m_frame.hpp): the paper's
-// "average local disc velocity deviation from the container". A disc that moves with the container
-// has 0.
+// where u is the velocity relative to the container, rotated into the M-frame (m_frame.hpp): the
+// paper's "average local disc velocity deviation from the container". A disc that moves with the
+// container has 0.
 //
 // Units: the snapshot's velocity, in which the container's speed is 1. Normalisation: every disc
-// found in the cell counts the same, at every sample. Error from blocks of periods
+// found in the cell counts the same, at every sample. Errors: from blocks of periods
 // (cell_averages.hpp). Source: paper, SI "Simulation parameters" (20 × 20 cells over the
 // container's bounding square). Limits: a cell never visited has no flow (NaN). A centre outside
 // the square belongs to no cell.
@@ -68,7 +68,7 @@ class FlowMap {
 
   private:
     SquareGrid grid_;
-    CellMeans<2> cells_;              // the last one is outside
+    CellMeans<2> cells_;              // the last cell is outside
     std::vector<std::int32_t> cell_;  // of every disc, at one sample
 };
 

@@ -1,26 +1,27 @@
-// How strongly the discs jiggle: the random motion that is left when the mean flow is taken away.
+// How strong the random motion of the discs is: the motion that is left when the mean flow is
+// subtracted.
 //
 //   of a cell    T = ½ (⟨m u²⟩ − ⟨m u⟩²/⟨m⟩) over the discs found in it, u the velocity relative
 //                to the container in the M-frame: twice the energy per degree of freedom (a disc
 //                has two), the kT of a gas
 //   granular     the average of T over all discs
-//   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom; of spheres, that
+//   of the spin  ⟨I ω²⟩ − ⟨I ω⟩²/⟨I⟩ over all discs (one degree of freedom; for spheres, the spin
 //                about the vertical)
 //
 // In equilibrium the last two are equal; friction at the wall drives the spins and makes them
 // differ. Units: disc mass × (container's speed)². Source: Goldhirsch 2003,
-// doi:10.1146/annurev.fluid.35.101101.161114. Error from blocks of periods: that of ½⟨m u²⟩ (of
-// ⟨I ω²⟩), the mean flow being known better than what moves about it.
+// doi:10.1146/annurev.fluid.35.101101.161114. Errors: from blocks of periods, those of ½⟨m u²⟩ and
+// ⟨I ω²⟩, since the mean flow is known better than the motion about it.
 //
-// Only every 8th sample is used, unless told otherwise.
+// By default only every 8th sample is used. Smoothed velocities miss a part of ½⟨m u²⟩, which
+// add_energy() adds.
 //
-// Smoothed velocities miss some of ½⟨m u²⟩, which is added if it is told (add_energy).
-//
-// Limits: a cell never visited has no temperature (NaN), one visited once has 0. Whatever structure
-// the flow has inside a cell counts as temperature. Missing spins (NaN) make that of the spin NaN.
+// Limits: a cell never visited has no temperature (NaN), one visited once has 0. Structure of the
+// flow inside a cell counts as temperature. Missing spins (NaN) make that of the spin NaN.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
+#include <tuple>
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
@@ -29,8 +30,10 @@
 
 namespace swirl {
 
-class GranularTemperature {
+class GranularTemperature : public BlockAverages<GranularTemperature> {
   public:
+    static auto averages(auto& s) { return std::tie(s.cells_, s.spins_, s.energies_); }
+
     explicit GranularTemperature(double container_radius, std::size_t side = 20, int every = 8)
         : grid_{side, container_radius}, every_(every), cells_(grid_.cells()), spins_(1) {}
 
@@ -40,19 +43,14 @@ class GranularTemperature {
             const double m = view.mass[i], I = view.inertia[i], spin = view.spin[i];
             spins_.add(0, {I, I * spin, I * spin * spin});
             const std::size_t cell = grid_.cell_at(view.x[i], view.y[i]);
-            if (cell == SquareGrid::nowhere) continue;
+            if (cell == SquareGrid::outside) continue;
             const double ux = view.ux[i], uy = view.uy[i], energy = m * (ux * ux + uy * uy);
             cells_.add(cell, {m, m * ux, m * uy, energy});
             energies_.add(energy);
         }
     }
-    void close_block() {
-        cells_.close_block();
-        spins_.close_block();
-        energies_.close_block();
-    }
 
-    /// ½⟨u²⟩ of a disc is so much more than its velocities say; all discs have the mass 1.
+    /// ½⟨u²⟩ of a disc is larger by `missing` than its velocities give; all discs have the mass 1.
     void add_energy(double missing) { missing_ = missing; }
 
     const SquareGrid& grid() const { return grid_; }
@@ -82,17 +80,9 @@ class GranularTemperature {
         visit(ReportRow{"granular", "m v²", "granular temperature T of the motion", granular()});
         visit(ReportRow{"of_the_spin", "m v²", "temperature of the spins", of_the_spin()});
     }
-    void merge(const GranularTemperature& other) {
-        cells_.merge(other.cells_);
-        spins_.merge(other.spins_);
-        energies_.merge(other.energies_);
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(samples_);
-        visit(cells_);
-        visit(spins_);
-        visit(energies_);
+        visit(samples_, cells_, spins_, energies_);
     }
 
   private:

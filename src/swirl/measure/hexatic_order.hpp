@@ -1,27 +1,24 @@
-// How nearly the neighbours of a disc stand like those in a honeycomb.
+// How closely the neighbours of a disc are arranged as in a honeycomb.
 //
 //   ψ_6(i) = |Σ_j l_ij exp(6 i θ_ij)| / Σ_j l_ij
 //
-// over the neighbours j of disc i in the Voronoi diagram (voronoi.hpp), θ_ij the direction from i
-// to j, l_ij the length of the common border inside the container. The weight makes ψ_6 continuous
-// where a neighbour appears or vanishes (Mickel, Kapfer, Schröder-Turk, Mecke 2013,
+// over the neighbours j of disc i in the Voronoi diagram (voronoi.hpp). θ_ij is the direction from
+// i to j, l_ij the length of the common border inside the container. The weight makes ψ_6
+// continuous where a neighbour appears or vanishes (Mickel, Kapfer, Schröder-Turk, Mecke 2013,
 // doi:10.1063/1.4774084). It is 1 for a perfect hexagon and 0 for a square. A disc at the wall has
 // neighbours on one side only; they count as they are.
 //
-// Six neighbours: the share of the discs that have exactly six in the Voronoi diagram, among the
-// discs that the wall does not keep from it: those farther than their diameter from the wall. In a
-// crystal it is 1, for points thrown at random 0.29.
+// Six neighbours: the share of the discs with exactly six neighbours, among the discs that are
+// farther than their diameter from the wall, which does not prevent them from having six. It is 1
+// in a crystal and 0.29 for random points.
 //
-// Average: over discs and samples, and over the pinned ones among them. Error from blocks of
-// periods. Units: none. Limits: a disc without neighbours has none and is left out.
+// Average: over discs and samples, and over the pinned and the resident ones among them. Errors:
+// from blocks of periods. Units: none. Limits: a disc without neighbours has no ψ_6 and is omitted.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
-#include "swirl/measure/all_and_pinned.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/region_averages.hpp"
 #include "swirl/measure/voronoi.hpp"
 
 namespace swirl {
@@ -42,10 +39,9 @@ inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::s
     return total > 0.0 ? square_root(re * re + im * im) / total : not_available;
 }
 
-class HexaticOrder : public AllAndPinned {
+class HexaticOrder : public RegionAverages {
   public:
-    void sample(const MFrameView& view, const Voronoi& cells,
-                std::span<const std::uint8_t> pinned = {}) {
+    void sample(const MFrameView& view, const Voronoi& cells, PinnedFlags pinned = {}) {
         add(view, pinned, [&](std::size_t i) { return hexatic_order(view, cells, i); });
         for (std::size_t i = 0; i < view.size(); ++i) {
             const Vec2 p = view.position(i);
@@ -53,11 +49,11 @@ class HexaticOrder : public AllAndPinned {
             if (!(inside > 0.0 && dot(p, p) < inside * inside)) continue;
             const double six = cells.end(i) - cells.begin(i) == 6 ? 1.0 : 0.0;
             six_.add(six);
-            if (i < pinned.size() && pinned[i] != 0) six_pinned_.add(six);
+            if (is_pinned(pinned, i)) six_pinned_.add(six);
         }
     }
     void close_block() {
-        AllAndPinned::close_block();
+        RegionAverages::close_block();
         six_.close_block();
         six_pinned_.close_block();
     }
@@ -68,22 +64,21 @@ class HexaticOrder : public AllAndPinned {
     void report(Visitor&& visit) const {
         visit(ReportRow{"all", "1", "hexatic order ψ6 of all discs", all()});
         visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
-        visit(ReportRow{"stays", "1", "hexatic order ψ6 of the discs on a stay at the wall",
-                        on_residences()});
+        visit(ReportRow{"resident", "1", "hexatic order ψ6 of the discs resident at the wall",
+                        resident()});
         visit(ReportRow{"six", "1", "share with six neighbours, of the discs away from the wall",
                         six()});
         visit(ReportRow{"six_pinned", "1", "the same of the pinned discs", six_pinned()});
     }
     void merge(const HexaticOrder& other) {
-        AllAndPinned::merge(other);
+        RegionAverages::merge(other);
         six_.merge(other.six_);
         six_pinned_.merge(other.six_pinned_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        AllAndPinned::fields(visit);
-        six_.fields(visit);
-        six_pinned_.fields(visit);
+        RegionAverages::fields(visit);
+        visit(six_, six_pinned_);
     }
 
   private:

@@ -1,5 +1,8 @@
 #include "swirl/measure/m_frame.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "swirl/math/wide.hpp"
 
 namespace swirl {
@@ -44,12 +47,12 @@ Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame) {
 
 namespace {
 
-/// Positions and velocities of all discs, turned into the M-frame.
-SWIRL_WIDE void turn_all(std::size_t n, const MFrame& frame, double clock,
-                         const double* __restrict x, const double* __restrict y,
-                         const double* __restrict vx, const double* __restrict vy,
-                         const double* __restrict held_at, double* __restrict X,
-                         double* __restrict Y, double* __restrict U, double* __restrict W) {
+/// Positions and velocities of all discs, rotated into the M-frame.
+SWIRL_WIDE void rotate_all(std::size_t n, const MFrame& frame, double clock,
+                           const double* __restrict x, const double* __restrict y,
+                           const double* __restrict vx, const double* __restrict vy,
+                           const double* __restrict held_at, double* __restrict X,
+                           double* __restrict Y, double* __restrict U, double* __restrict W) {
     const MFrame f = frame;
     for (std::size_t i = 0; i < n; ++i) {
         const double elapsed = clock - held_at[i];
@@ -75,8 +78,8 @@ void MFrameView::update(const Snapshot& s) {
     mass = s.mass;
     inertia = s.inertia;
 
-    turn_all(n, frame, s.clock, s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data(),
-             x.data(), y.data(), ux.data(), uy.data());
+    rotate_all(n, frame, s.clock, s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
+               s.held_at.data(), x.data(), y.data(), ux.data(), uy.data());
 }
 
 CentreOfMass MFrameView::centre_of_mass() const {
@@ -90,6 +93,15 @@ CentreOfMass MFrameView::centre_of_mass() const {
     }
     const double closest = 0x1p-40 * container_radius;
     return {{mx / m, my / m}, {mu / m, mw / m}, closest * closest};
+}
+
+void MFrameView::order_by_x(std::vector<std::uint32_t>& order) const {
+    order.resize(size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::erase_if(order, [&](std::uint32_t i) { return !(dot(position(i), position(i)) < never); });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return x[a] < x[b] || (x[a] == x[b] && a < b);
+    });
 }
 
 }  // namespace swirl

@@ -1,7 +1,6 @@
-// The measurements there are, one row each: name, one line of description, and the class in
-// measure/ that makes it. Command line, JSON, CSV and docs/measurements.md have them from here;
-// what a measurement is given, and when, follows from the functions that its class has
-// (observation.hpp).
+// All measurements, one row each: the name, the header with the definition, and one line of
+// description. The command line, JSON, CSV and docs/measurements.md are generated from this list.
+// sampling.hpp lists the functions that a measurement can have and when they are called.
 #pragma once
 
 #include <tuple>
@@ -19,6 +18,7 @@
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
+#include "swirl/measure/sampling.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/wall_residence.hpp"
@@ -26,24 +26,25 @@
 
 namespace swirl {
 
-template <class Kind>
+template <class M>
 struct MeasurementRow {
+    static_assert(SamplingContract<M>::holds);
     const char* name;
     const char* header;  // in src/swirl/measure/, with the definition
     const char* description;
-    Kind (*make)(double container_radius);
+    M (*make)(double container_radius);
 };
 
-template <class Kind>
-constexpr MeasurementRow<Kind> measurement(const char* name, const char* header,
-                                           const char* description) {
-    return {name, header, description, [](double) { return Kind(); }};
+template <class M>
+constexpr MeasurementRow<M> measurement(const char* name, const char* header,
+                                        const char* description) {
+    return {name, header, description, [](double) { return M(); }};
 }
-/// One that must know how large the container is.
-template <class Kind>
-constexpr MeasurementRow<Kind> measurement_in_container(const char* name, const char* header,
-                                                        const char* description) {
-    return {name, header, description, [](double radius) { return Kind(radius); }};
+/// For a class whose constructor needs the radius of the container.
+template <class M>
+constexpr MeasurementRow<M> measurement_in_container(const char* name, const char* header,
+                                                     const char* description) {
+    return {name, header, description, [](double radius) { return M(radius); }};
 }
 
 // clang-format off
@@ -53,21 +54,21 @@ inline constexpr std::tuple measurement_list{
     measurement_in_container<FlowMap>("flow", "flow_map.hpp",
         "velocity relative to the container, 20 × 20 (Figs 2, 5d)"),
     measurement<AngularProfile>("profile", "angular_profile.hpp",
-        "angular velocity about the centre of mass against θ (Fig. 3)"),
+        "angular velocity about the centre of mass as a function of θ (Fig. 3)"),
     measurement<PinnedByCollisions>("pinned", "pinned_loose.hpp",
         "where discs become pinned and free, by tracks and by collisions (Fig. 3)"),
-    measurement<WallResidences>("stays", "wall_residence.hpp",
-        "stays in the wall layer: where discs become pinned and free there (Fig. 3)"),
+    measurement<WallResidences>("residence", "wall_residence.hpp",
+        "residence in the wall layer: where discs become pinned and free there (Fig. 3)"),
     measurement<ClusterCentre>("centre", "cluster_centre.hpp",
-        "where the cluster is in the M-frame, its shape, centrifugal and Coriolis force"),
+        "position of the cluster in the M-frame, its shape, centrifugal and Coriolis force"),
     measurement<Slip>("slip", "slip.hpp",
         "slip parameter, perimeter, pancake line (Figs 1b, 4a)"),
     measurement<SpinFrustration>("frustration", "spin_frustration.hpp",
         "spins at the wall and of neighbours, sticking contacts (Fig. 4b)"),
     measurement_in_container<RadialDensity>("radial", "radial_density.hpp",
-        "density against the distance from the container's centre"),
+        "density as a function of the distance from the container's centre"),
     measurement_in_container<GranularTemperature>("temperature", "granular_temperature.hpp",
-        "granular temperature, of the motion and of the spins"),
+        "granular temperature of the motion and of the spins"),
     measurement<HexaticOrder>("order", "hexatic_order.hpp",
         "hexatic order ψ6 from Voronoi neighbours, of all discs and of the pinned"),
     measurement<LocalPacking>("packing", "local_packing.hpp",
@@ -75,13 +76,13 @@ inline constexpr std::tuple measurement_list{
     measurement<CollisionRates>("collisions", "collision_rates.hpp",
         "collision rates of a disc, mean free time"),
     measurement_in_container<WallStress>("wall", "wall_stress.hpp",
-        "pressure on the wall and traction along it against θ"),
+        "pressure on the wall and traction along it as functions of θ"),
     measurement<DiffusionLags>("diffusion", "diffusion.hpp",
-        "squared displacement and turn of a disc against the time between"),
+        "squared displacement and rotation of a disc as functions of the lag"),
     measurement<EnergyBudget>("energy", "energy_budget.hpp",
         "energy budget: work of wall and floor, losses in friction and collisions"),
     measurement<Rolling>("rolling", "rolling.hpp",
-        "of spheres: rolling and sliding on the floor, vertical rubbing, frustration"),
+        "for spheres: rolling and sliding on the floor, vertical friction, frustration"),
 };
 // clang-format on
 

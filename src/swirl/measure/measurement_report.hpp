@@ -1,17 +1,16 @@
-// What a measurement says in the end: rows, each a quantity with its unit and its error, and tables
-// of such. A measurement hands them over one by one,
+// The results of a measurement: rows, each a quantity with its unit and its error, and tables of
+// such quantities. A measurement hands them over one by one,
 //
 //     template <class Visitor> void report(Visitor&& visit) const {
 //         visit(ReportRow{"cluster", "1", "slip parameter of all discs", cluster()});
 //     }
 //
-// and whoever wants JSON, CSV, a line on a terminal or a table in the documentation visits them; no
-// such writer knows a measurement by its name. What is reported does not depend on what has been
-// found: the rows and columns of a measurement that has seen nothing are the same, their values not
-// known (NaN).
+// This is the only place where names, units and descriptions are given. JSON, CSV, the terminal and
+// the documentation visit the rows; none of them knows a measurement by its name. Rows and columns
+// do not depend on the data: a measurement without samples reports the same ones, with NaN.
 //
 // Units are those of docs/physics.md: r the radius of a disc, m its mass, v the speed of the
-// container, Ω = 2π/T; ° for angles, 1 where there is none.
+// container, Ω = 2π/T; ° for angles, 1 for none.
 #pragma once
 
 #include <cstddef>
@@ -46,10 +45,10 @@ struct ReportColumn {
 };
 
 struct ReportTable {
-    const char* name;  // empty: the only table of its measurement
+    const char* name;  // empty for the only table of a measurement
     const char* description;
     std::vector<ReportColumn> columns;
-    std::vector<double> values{};  // row after row
+    std::vector<double> values{};  // row by row
 
     std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
     double at(std::size_t row, std::size_t column) const {
@@ -59,7 +58,7 @@ struct ReportTable {
     void add(std::initializer_list<double> row) { values.insert(values.end(), row); }
 };
 
-/// All that a measurement reports, collected.
+/// All rows and tables of one measurement.
 struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReportTable> tables;
@@ -68,7 +67,7 @@ struct Report {
     void operator()(ReportTable table) { tables.push_back(std::move(table)); }
 };
 
-/// An angle as it is reported.
+/// Angles are radians inside and degrees in reports.
 inline constexpr double degrees_per_radian = 180.0 / pi;
 
 }  // namespace swirl

@@ -1,38 +1,15 @@
-// What an observer of a dish sees: any choice of the measurements (measurement_list.hpp), each
-// given its samples when they are due. Whoever has a dish to show, a run, a recording or a camera's
-// tracks, hands over what there is, in order of time:
+// Samples any choice of the measurements in measurement_list.hpp. A source of snapshots (a run, a
+// recording, a camera's tracks) hands over what it has, in order of time:
 //
 //     Observation observation(container_radius, period, names);
-//     observation.sample(snapshot);       at equal steps of time, samples_per_period of them
+//     observation.sample(snapshot);       at equal time steps, samples_per_period of them
 //     observation.sample(event, after);   after every event, if events are known at all
 //     observation.close_block();          at the end of every period
-//     observation.begin_tracks();         where the discs to come are not those of before: a camera
-//                                         has lost one, or names it otherwise
+//     observation.begin_tracks();         if the discs of the next sample are not those of the
+//                                         last: a camera has lost one, or swapped IDs
 //
-// Warm-up is what is not handed over. A measurement is a class with close_block(), merge(),
-// fields(), report(visitor), and those of the following that it needs; which they are is found out
-// when this is compiled:
-//
-//     sample(view)                     every sample, in the M-frame
-//     sample(view, pinned)             the frame of seven samples ago and who was pinned then,
-//                                      which is not known sooner (pinned_loose.hpp)
-//     sample(view, cells, pinned)      every 100th sample and its Voronoi cells; seven samples late
-//                                      too where somebody follows the pinned
-//     sample_stays(stays)              after every sample, beside those of the pinned: by now it is
-//                                      known who was on a long stay at the wall some time ago
-//     sample_in_lab(snapshot)          every sample, in the lab
-//     sample_within_period(snapshot)   every 7th sample, in the lab
-//     sample_across_periods(snapshot)  the first sample of every block, in the lab
-//     sample(event[, after])           every event
-//     begin_anew()                     beside sample_within_period: other discs from here on
-//     sample_by_event(view)            the state after every 32nd event, in the M-frame
-//     close_block(duration[, discs])   instead of close_block() or beside it: of the collisions
-//                                      alone. Without events it is not called: then nothing is
-//                                      known, not even that nothing happened
-//     add_energy(missing)              ½⟨u²⟩ of a disc is so much more than its velocities say: who
-//                                      gives smoothed ones knows
-//     report(visitor, pinned_loose)    instead of report(visitor): what the tracks say of pinned
-//                                      discs belongs to it too
+// The source omits the warm-up by not handing it over. sampling.hpp lists what a measurement can be
+// given and when; each of these kinds of sampling is a concept.
 #pragma once
 
 #include <array>
@@ -44,6 +21,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "swirl/measure/long_residence.hpp"
@@ -57,31 +35,31 @@
 
 namespace swirl {
 
-/// The paper's camera took 960 frames per second of a table turning at 11.81 rad/s.
+/// The paper's camera took 960 frames per second of a table rotating at 11.81 rad/s.
 inline constexpr int samples_per_period = 511;
 
-/// By event every 32nd will do: that changes the error, hardly, and not the mean.
+/// Every 32nd event suffices for averages by event: the mean stays, and the error hardly grows.
 inline constexpr int events_per_sample = 32;
 
-/// Cells are found at every hundredth sample: they cost as much as twenty others, and the structure
-/// changes slowly. 100 and 511 have no common divisor, so every phase of the swirl is met.
+/// Cells are found at every 100th sample: they cost as much as twenty samples, and the structure
+/// changes slowly. 100 and 511 have no common divisor, so every phase of the swirl occurs.
 inline constexpr int samples_per_structure = 100;
 
-/// Displacements within a period are taken at every seventh sample, 73 times per period.
+/// Displacements within a period are taken at every 7th sample, 73 times per period.
 inline constexpr int samples_per_position = 7;
 
 /// A row of the list, and what follows from the functions of its class.
 struct MeasurementKind {
     std::string_view name, header, description;
-    bool needs_pinned;  // has nothing to say if it is not known who is pinned
+    bool needs_pinned;  // has no result if it is not known which discs are pinned
     bool needs_tracks;  // the same discs in every frame
-    bool needs_cells;   // Voronoi's
-    bool needs_events;  // collision by collision: frames are not enough
+    bool needs_cells;   // Voronoi cells
+    bool needs_events;  // every collision: frames are not enough
 };
 
 /// In the order of the list.
 std::span<const MeasurementKind> measurement_kinds();
-/// Null if there is none of this name.
+/// Null if no measurement has this name.
 const MeasurementKind* find_measurement(std::string_view name);
 
 struct MeasurementReport {
@@ -89,23 +67,21 @@ struct MeasurementReport {
     Report report;
 };
 
-/// Who is pinned, and the frames of the last moments, so that a disc found pinned can be seen where
-/// it was then.
+/// Which discs are pinned, and the last frames. It is known seven frames late, so a measurement of
+/// pinned discs needs the frame of that time.
 class PinnedFrames {
   public:
     const MFrameView& sample(const Snapshot& lab);
-    void begin_tracks() { pinned_loose_.begin_anew(); }
+    void begin_tracks() { pinned_loose_.begin_tracks(); }
     void close_block() { pinned_loose_.close_block(); }
     const PinnedLoose& pinned_loose() const { return pinned_loose_; }
-    /// The frame that pinned() speaks of; null in the first frames of the tracks.
+    /// The frame to which pinned() belongs; null in the first frames of the tracks.
     const MFrameView* earlier() const;
 
     void merge(const PinnedFrames& other) { pinned_loose_.merge(other.pinned_loose_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(pinned_loose_);
-        visit(recent_);
-        visit(frames_);
+        visit(pinned_loose_, recent_, frames_);
     }
 
   private:
@@ -116,9 +92,9 @@ class PinnedFrames {
 
 class Observation {
   public:
-    /// The names are those of measurement_kinds(), each once; others are passed over. Without the
-    /// same discs for some frames in a row nobody follows which are pinned. Radius and period are
-    /// those of the snapshots to come.
+    /// The names are those of measurement_kinds(), each once; other names are ignored. Radius and
+    /// period are those of the snapshots to come. `same_discs` is false if no disc can be followed
+    /// for some frames in a row: then it is never known which discs are pinned.
     Observation(double container_radius, double period, std::vector<std::string> names,
                 bool same_discs = true);
 
@@ -130,35 +106,38 @@ class Observation {
     /// The discs of the next sample are not those of the last.
     void begin_tracks();
     void close_block();
-    /// Velocities are smoothed: ½⟨u²⟩ of a disc, relative to the container, is so much more.
+    /// For smoothed velocities: ½⟨u²⟩ of a disc, relative to the container, is larger by `missing`.
     void add_energy(double missing);
 
     /// In the order of the names.
     std::vector<MeasurementReport> report() const;
 
-    /// Takes in the closed blocks of another observation of the same names.
+    /// Adds the closed blocks of another observation with the same names.
     void merge(const Observation& other);
 
-    /// Checkpointable: everything gathered, to the last bit.
+    /// The complete state, for checkpoints.
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(samples_);
-        visit(events_);
-        visit(discs_);
-        visit(block_begins_);
-        visit(pinned_);
-        visit(residences_);
+        visit(samples_, events_, discs_, block_begins_, pinned_, residences_);
         each([&](auto& m) { visit(m); });
     }
 
   private:
     template <class List>
     struct ChosenFrom;
-    template <class... Kinds>
-    struct ChosenFrom<std::tuple<MeasurementRow<Kinds>...>> {
-        using Type = std::tuple<std::optional<Kinds>...>;
+    template <class... M>
+    struct ChosenFrom<std::tuple<MeasurementRow<M>...>> {
+        using Type = std::tuple<std::optional<M>...>;
     };
 
+    /// Calls visit(row, chosen) for all rows of the list.
+    template <class Chosen, class Visit>
+    static void each_row(Chosen& chosen, Visit&& visit) {
+        [&]<std::size_t... K>(std::index_sequence<K...>) {
+            (visit(std::get<K>(measurement_list), std::get<K>(chosen)), ...);
+        }
+        (std::make_index_sequence<std::tuple_size_v<Chosen>>{});
+    }
     /// Calls visit(measurement) for all that were chosen.
     template <class Visit>
     void each(Visit&& visit) {
@@ -175,10 +154,10 @@ class Observation {
     std::int64_t samples_ = 0;
     std::uint64_t events_ = 0;
     std::size_t discs_ = 0;     // at the last event
-    bool block_begins_ = true;  // nothing has been sampled of it
+    bool block_begins_ = true;  // the present block has no sample yet
     PinnedFrames pinned_;
     LongResidences residences_;  // of the frames that pinned_ knows
-    MFrameView view_;            // of now, where the pinned are not followed; and of the last event
+    MFrameView view_;  // the present sample if pinned discs are not followed; also the last event
     Voronoi cells_;
 };
 

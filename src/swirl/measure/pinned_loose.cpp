@@ -7,11 +7,11 @@
 namespace swirl {
 namespace {
 
-// The running sums lose a last bit with every frame; now and then they are added up afresh.
+// The running sums collect a rounding error with every frame, so they are summed again this often.
 constexpr std::int64_t frames_between_sums = 1024;
 
-/// The window of the fit moves on by one frame: Σ k r loses Σ r and the old end and gains the new
-/// one.
+/// Moves the window of the fit by one frame: Σ k r loses Σ r and the old end and gains the new
+/// end.
 SWIRL_WIDE void move_window(std::size_t n, const double* __restrict now, double* __restrict oldest,
                             double* __restrict sum, double* __restrict slope) {
     constexpr double h = PinnedLoose::half_width;
@@ -22,30 +22,32 @@ SWIRL_WIDE void move_window(std::size_t n, const double* __restrict now, double*
     }
 }
 
-/// The criteria, for every disc: position now, in the frame before and after, and path direction.
-SWIRL_WIDE void judge_all(std::size_t n, double sine_square, double jump_square,
-                          const double* __restrict x, const double* __restrict y,
-                          const double* __restrict bx, const double* __restrict by,
-                          const double* __restrict ax, const double* __restrict ay,
-                          const double* __restrict sx, const double* __restrict sy,
-                          double* __restrict parallel_for, double* __restrict pinned,
-                          double* __restrict loose_for, double* __restrict left_x,
-                          double* __restrict left_y, double* __restrict freed,
-                          double* __restrict turned) {
+/// Applies the criteria to every disc: (x, y) is its position, b the one in the frame before, a the
+/// one in the frame after, s the path direction.
+SWIRL_WIDE void classify(std::size_t n, double sine_square, double jump_square,
+                         const double* __restrict x, const double* __restrict y,
+                         const double* __restrict bx, const double* __restrict by,
+                         const double* __restrict ax, const double* __restrict ay,
+                         const double* __restrict sx, const double* __restrict sy,
+                         double* __restrict parallel_for, double* __restrict pinned,
+                         double* __restrict loose_for, double* __restrict left_x,
+                         double* __restrict left_y, double* __restrict freed,
+                         double* __restrict turned_sharply) {
     for (std::size_t i = 0; i < n; ++i) {
         const double radial = sx[i] * x[i] + sy[i] * y[i];
-        const double sense = x[i] * sy[i] - y[i] * sx[i];
+        const double rotation = x[i] * sy[i] - y[i] * sx[i];
         const double bound =
             sine_square * (sx[i] * sx[i] + sy[i] * sy[i]) * (x[i] * x[i] + y[i] * y[i]);
         const double along = radial * radial <= bound ? 1.0 : 0.0;
-        const double parallel = sense < 0.0 ? along : 0.0;
+        const double parallel = rotation < 0.0 ? along : 0.0;
         const double frames = parallel * (parallel_for[i] + 1.0);
-        const double settled = frames > PinnedLoose::half_width ? 1.0 : 0.0;
-        const double held = pinned[i] * parallel;
-        const double now = settled > held ? settled : held;
+        const double long_enough = frames > PinnedLoose::half_width ? 1.0 : 0.0;
+        const double still_pinned = pinned[i] * parallel;
+        const double now = long_enough > still_pinned ? long_enough : still_pinned;
         const double dx = ax[i] - 2.0 * x[i] + bx[i], dy = ay[i] - 2.0 * y[i] + by[i];
         const double sharp = dx * dx + dy * dy >= jump_square ? 1.0 : 0.0;
-        // Counts from 1 at the frame where it leaves; parallel again in time, it had not left.
+        // Counts from 1 at the frame where the disc leaves. If it is parallel again in time, it had
+        // not left.
         const double leaving = pinned[i] * (1.0 - parallel);
         const double since = leaving > 0.0 ? 1.0 : loose_for[i] > 0.0 ? loose_for[i] + 1.0 : 0.0;
         const double loose = parallel > 0.0 ? 0.0 : since;
@@ -53,7 +55,7 @@ SWIRL_WIDE void judge_all(std::size_t n, double sine_square, double jump_square,
         loose_for[i] = freed[i] > 0.0 ? 0.0 : loose;
         left_x[i] = leaving > 0.0 ? x[i] : left_x[i];
         left_y[i] = leaving > 0.0 ? y[i] : left_y[i];
-        turned[i] = sharp * (1.0 - now);
+        turned_sharply[i] = sharp * (1.0 - now);
         parallel_for[i] = frames;
         pinned[i] = now;
     }
@@ -65,21 +67,21 @@ PinnedLoose::PinnedLoose(const PinningCriteria& criteria)
     : sine_square_(std::sin(criteria.deviation) * std::sin(criteria.deviation)),
       sharp_turn_(criteria.sharp_turn) {}
 
-void PinnedLoose::begin_tracks(std::size_t n) {
+void PinnedLoose::restart(std::size_t n) {
     frames_ = 0;
     past_x_.assign(n * width, 0.0);
     past_y_.assign(n * width, 0.0);
     for (auto* column : {&sum_x_, &sum_y_, &slope_x_, &slope_y_}) column->assign(n, 0.0);
     for (auto* column :
-         {&parallel_for_, &is_pinned_, &freed_, &turned_, &loose_for_, &left_x_, &left_y_})
+         {&parallel_for_, &is_pinned_, &freed_, &turned_sharply_, &loose_for_, &left_x_, &left_y_})
         column->assign(n, 0.0);
     pinned_.assign(n, 0);
 }
 
-void PinnedLoose::begin_anew() {
+void PinnedLoose::begin_tracks() {
     if (frames_ > 0) breaks_ += 1.0;
     frames_ = 0;
-    pinned_.clear();  // as many discs as no frame has
+    pinned_.clear();  // so that the next frame has another number of discs
 }
 
 double* PinnedLoose::slot(std::vector<double>& past, std::int64_t frame) {
@@ -105,12 +107,12 @@ void PinnedLoose::sample(const MFrameView& view) {
     const std::size_t n = view.size();
     const double step = view.time - last_time_;
     if (n != pinned_.size()) {
-        begin_tracks(n);
+        restart(n);
     } else if (frames_ > 0) {
         const bool even = frames_ == 1 || std::abs(step - step_) <= 0.01 * step_;
         if (!(step > 0.0) || !even) {
             breaks_ += 1.0;
-            begin_tracks(n);
+            restart(n);
         } else if (frames_ == 1) {
             step_ = step;
         }
@@ -131,54 +133,45 @@ void PinnedLoose::sample(const MFrameView& view) {
         ++frames_;
         if (frames_ >= width) sum_window();
     }
-    if (frames_ >= width) judge(view);
+    if (frames_ >= width) apply_criteria(view);
 }
 
-void PinnedLoose::judge(const MFrameView& view) {
+void PinnedLoose::apply_criteria(const MFrameView& view) {
     const std::size_t n = pinned_.size();
     const std::int64_t centre = frames_ - 1 - half_width;
     const double *const x = slot(past_x_, centre), *const y = slot(past_y_, centre);
     const double *const bx = slot(past_x_, centre - 1), *const by = slot(past_y_, centre - 1);
     const double *const ax = slot(past_x_, centre + 1), *const ay = slot(past_y_, centre + 1);
     const double jump = sharp_turn_ * view.frame.omega * view.container_radius * step_;
-    judge_all(n, sine_square_, jump * jump, x, y, bx, by, ax, ay, slope_x_.data(), slope_y_.data(),
-              parallel_for_.data(), is_pinned_.data(), loose_for_.data(), left_x_.data(),
-              left_y_.data(), freed_.data(), turned_.data());
+    classify(n, sine_square_, jump * jump, x, y, bx, by, ax, ay, slope_x_.data(), slope_y_.data(),
+             parallel_for_.data(), is_pinned_.data(), loose_for_.data(), left_x_.data(),
+             left_y_.data(), freed_.data(), turned_sharply_.data());
     double pinned_now = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         pinned_[i] = is_pinned_[i] != 0.0 ? 1 : 0;
         pinned_now += is_pinned_[i];
-        if (freed_[i] + turned_[i] == 0.0) continue;
         if (freed_[i] != 0.0) {
-            const Vec2 place{left_x_[i], left_y_[i]};
-            becoming_free_.add(place);
-            free_places_.add(place);
+            const Vec2 position{left_x_[i], left_y_[i]};
+            becoming_free_.add(position);
+            free_positions_.add(position);
         }
-        if (turned_[i] != 0.0) {
-            const Vec2 place{x[i], y[i]};
-            becoming_pinned_.add(place);
-            pinned_places_.add(place);
+        if (turned_sharply_[i] != 0.0) {
+            const Vec2 position{x[i], y[i]};
+            becoming_pinned_.add(position);
+            pinned_positions_.add(position);
         }
     }
     share_.add(pinned_now / static_cast<double>(n));
 }
 
-void PinnedLoose::close_block() {
-    becoming_pinned_.close_block();
-    becoming_free_.close_block();
-    share_.close_block();
-}
-
 void PinnedLoose::merge(const PinnedLoose& other) {
-    becoming_pinned_.merge(other.becoming_pinned_);
-    becoming_free_.merge(other.becoming_free_);
-    share_.merge(other.share_);
-    pinned_places_.merge(other.pinned_places_);
-    free_places_.merge(other.free_places_);
+    BlockAverages::merge(other);
+    pinned_positions_.merge(other.pinned_positions_);
+    free_positions_.merge(other.free_positions_);
     breaks_ += other.breaks_;
 }
 
-void PinnedByCollisions::sample(const Event& event, const Snapshot& after) {
+void PinnedByCollisions::sample_event(const Event& event, const Snapshot& after) {
     if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
     if (last_.size() != after.size()) {
         last_.assign(after.size(), {});

@@ -9,8 +9,8 @@ SWIRL_WIDE void rings_of(std::size_t n, double rings, double radius, const doubl
                          const double* __restrict y, std::int32_t* __restrict ring) {
     const double per_length = rings / radius;
     for (std::size_t i = 0; i < n; ++i) {
-        const double place = square_root(x[i] * x[i] + y[i] * y[i]) * per_length;
-        ring[i] = static_cast<std::int32_t>(place < rings ? place : rings);
+        const double position = square_root(x[i] * x[i] + y[i] * y[i]) * per_length;
+        ring[i] = static_cast<std::int32_t>(position < rings ? position : rings);
     }
 }
 

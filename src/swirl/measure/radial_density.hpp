@@ -1,11 +1,12 @@
-// How the discs are spread between the centre of the container and its wall.
+// The density of discs as a function of the distance from the container's centre C.
 //
 //   ρ(ring) = ⟨number of disc centres in the ring⟩ / area of the ring
 //
-// in discs per unit area, about C. Rings are equally wide, from 0 to R. Σ ρ × area is the number of
-// discs. Times the area of a disc it is the packing fraction that many discs would have everywhere.
+// in discs per unit area. The rings about C are equally wide, from 0 to R. Σ ρ × area is the number
+// of discs. Multiplied by the area of a disc, ρ is the packing fraction of a container that has this
+// density everywhere.
 //
-// Units: 1/length². Normalisation: per sample. Error from blocks of periods. Limits: no samples:
+// Units: 1/length². Normalisation: per sample. Errors: from blocks of periods. Limits: no samples:
 // NaN. A centre outside the container (a camera's error) is counted in no ring.
 #pragma once
 
@@ -61,7 +62,7 @@ class RadialDensity {
 
   private:
     double container_radius_;
-    CellRates counts_;                // the last one is outside
+    CellRates counts_;                // the last ring is outside
     std::vector<std::int32_t> ring_;  // of every disc, at one sample
 };
 

@@ -20,13 +20,13 @@ void Rolling::sample_in_lab(const Snapshot& lab) {
     for (std::size_t i = 0; i < lab.size(); ++i) {
         mean_radius += lab.radius[i] / static_cast<double>(lab.size());
         const Disc d = lab.disc(i);
-        const bool does = lab.rolls(i);
+        const bool rolls = lab.rolls(i);
         const Vec2 c = slip_on_floor(d, lab.container_velocity);
-        rolls_.add(does ? 1.0 : 0.0);
+        rolls_.add(rolls ? 1.0 : 0.0);
         const Vec2 out = d.position - lab.container_centre;
         const double gap = lab.container_radius - d.radius - square_root(dot(out, out));
-        if (gap < gap_ * d.radius) rolls_at_wall_.add(does ? 1.0 : 0.0);
-        slip_.add(does ? 0.0 : square_root(dot(c, c)));
+        if (gap < gap_ * d.radius) rolls_at_wall_.add(rolls ? 1.0 : 0.0);
+        slip_.add(rolls ? 0.0 : square_root(dot(c, c)));
     }
     view_.update(lab);
     for (const Pair& pair : touching_.find(view_, gap_ * mean_radius)) {
@@ -38,44 +38,30 @@ void Rolling::sample_in_lab(const Snapshot& lab) {
     }
 }
 
-void Rolling::sample(const Event& event, const Snapshot& after) {
+void Rolling::sample_event(const Event& event, const Snapshot& after) {
     const bool wall = event.kind == EventKind::disc_wall;
     if (!after.are_spheres() || (!wall && event.kind != EventKind::disc_disc)) return;
-    double slip = 0.0, lever = 0.0;  // after it; and R²/I
+    double slip = 0.0;   // s_z after the collision
+    double lever = 0.0;  // Σ R²/I
     const auto add = [&](std::size_t i) {
         slip -= after.radius[i] * cross(horizontal_spin(after, i), event.normal);
         lever += after.radius[i] * after.radius[i] / after.inertia[i];
     };
     add(event.i);
     if (!wall) add(event.j);
-    // Before it the slip was s_z − J_z R²/I.
+    // Before the collision the slip was s_z − J_z Σ R²/I.
     const double J = event.impulse.vertical;
     (wall ? at_wall_ : between_).add(event.impulse, -J * (slip - 0.5 * J * lever));
 }
 
-void Rolling::close_block() {
-    for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_})
-        mean->close_block();
-}
-
-void Rolling::close_block(double duration, std::size_t spheres) {
+void Rolling::close_event_block(double duration, std::size_t spheres) {
     if (samples_ == 0) return;  // no spheres
     const double weight = duration * static_cast<double>(spheres);
     between_.close_block(weight);
     at_wall_.close_block(weight);
 }
 
-void Rolling::merge(const Rolling& other) {
-    rolls_.merge(other.rolls_);
-    rolls_at_wall_.merge(other.rolls_at_wall_);
-    slip_.merge(other.slip_);
-    axes_.merge(other.axes_);
-    contacts_.merge(other.contacts_);
-    between_.merge(other.between_);
-    at_wall_.merge(other.at_wall_);
-}
-
-void Rolling::Rubbing::add(const Impulse& J, double vertical_loss) {
+void Rolling::VerticalFriction::add(const Impulse& J, double vertical_loss) {
     vertical_square += J.vertical * J.vertical;
     square += J.vertical * J.vertical + J.tangential * J.tangential;
     vertical += std::abs(J.vertical);
@@ -83,14 +69,14 @@ void Rolling::Rubbing::add(const Impulse& J, double vertical_loss) {
     loss += vertical_loss;
 }
 
-void Rolling::Rubbing::close_block(double weight) {
+void Rolling::VerticalFriction::close_block(double weight) {
     share.add(vertical_square, square);
     friction.add(vertical, normal);
     power.add(loss, weight);
     vertical_square = square = vertical = normal = loss = 0.0;
 }
 
-void Rolling::Rubbing::merge(const Rubbing& other) {
+void Rolling::VerticalFriction::merge(const VerticalFriction& other) {
     share.merge(other.share);
     friction.merge(other.friction);
     power.merge(other.power);

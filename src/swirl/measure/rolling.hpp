@@ -1,35 +1,35 @@
-// How spheres on a floor roll, how much they slide on it, and how far they keep each other from
+// How spheres on a floor roll, how much they slide on it, and how far they prevent each other from
 // rolling (floor.hpp, collision_law.hpp).
 //
-// Seen at equal steps of time, every 7th sample:
+// At every 7th sample:
 //
-//   rolling share    the share of the spheres that do not slip on the floor (they roll, or rest on
-//   it); and of those at the
-//                    wall, the gap to which is below 0.1 R
-//   floor slip       ⟨|c|⟩, c = v − u − R ω × ẑ
-//   axis correlation Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
-//                    where neighbours roll alike
-//   contact rolling  the same of h = ω_x n_y − ω_y n_x, the rolling along the line of centres: −1
-//                    for two that roll on each other without rubbing, 1 where both roll the same
-//                    way and rub with the sum of their speeds. Spheres that roll together over a
-//                    floor have 1. That is the frustration: the floor asks for 1, the contact for
-//                    −1, and both cannot be had
+//   rolling share     the share of the spheres that do not slip on the floor (they roll, or rest on
+//                     it); also among those at the wall, whose gap to it is below 0.1 R
+//   floor slip        ⟨|c|⟩, c = v − u − R ω × ẑ
+//   axis correlation  Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
+//                     where neighbours roll alike
+//   contact rolling   the same for h = ω_x n_y − ω_y n_x, the rolling along the line of centres. It
+//                     is −1 for two spheres that roll on each other without slip. It is 1 where both
+//                     roll the same way and their surfaces slip with the sum of their speeds;
+//                     spheres that roll together over a floor have 1. That is the frustration: the
+//                     floor requires 1, the contact −1, and both at once are impossible
 //
-// Collision by collision, between spheres and at the wall:
+// At every collision, between spheres and at the wall:
 //
-//   vertical share   Σ J_z² / Σ (J_t² + J_z²): of friction's impulses, how much is vertical
+//   vertical share     Σ J_z² / Σ (J_t² + J_z²): the vertical part of the impulses of friction
 //   vertical friction  Σ |J_z| / Σ J_n: at most μ
-//   vertical power   what friction takes by the vertical components alone, per sphere and time,
-//                    −J_z (s_z + s'_z)/2, with the energy that lifts one of them
+//   vertical power     the energy that the vertical components of friction alone dissipate, per
+//                      sphere and time, −J_z (s_z + s'_z)/2, including the energy that lifts a
+//                      sphere
 //
-// Touching: gap below 0.1 of the mean radius. Units as stated; errors from blocks of periods.
-// Limits: NaN for discs, which do not roll; without a floor everybody slips, and c says nothing.
-// Recorded frames tell all but what is seen collision by collision.
+// Touching: gap below 0.1 of the mean radius. Units as stated. Errors: from blocks of periods.
+// Limits: NaN for discs, which do not roll; without a floor every sphere slips, and c has no
+// meaning. From recorded frames, everything is known but the results from collisions.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
-#include <vector>
+#include <tuple>
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
@@ -40,17 +40,18 @@
 
 namespace swirl {
 
-class Rolling {
+class Rolling : public BlockAverages<Rolling> {
   public:
+    static auto averages(auto& s) {
+        return std::tie(s.rolls_, s.rolls_at_wall_, s.slip_, s.axes_, s.contacts_);
+    }
+
     explicit Rolling(double gap = 0.1, int every = 7) : gap_(gap), every_(every) {}
 
     void sample_in_lab(const Snapshot& lab);
-    void sample(const Event& event, const Snapshot& after);
-    /// Of the samples.
-    void close_block();
-    /// Of the collisions; `duration`: the time since the last call, in which there were so many
-    /// spheres.
-    void close_block(double duration, std::size_t spheres);
+    void sample_event(const Event& event, const Snapshot& after);
+    /// `duration`: the time in which the events since the last call happened.
+    void close_event_block(double duration, std::size_t spheres);
 
     Estimate rolling_share() const { return rolls_.estimate(); }
     Estimate wall_rolling_share() const { return rolls_at_wall_.estimate(); }
@@ -68,54 +69,54 @@ class Rolling {
     void report(Visitor&& visit) const {
         visit(ReportRow{"rolling_share", "1", "share of the spheres that roll on the floor",
                         rolling_share()});
-        visit(ReportRow{"wall_rolling_share", "1", "share of those at the wall that roll",
+        visit(ReportRow{"wall_rolling_share", "1", "share of the spheres at the wall that roll",
                         wall_rolling_share()});
-        visit(ReportRow{"floor_slip", "v", "size of the slip on the floor", floor_slip()});
+        visit(ReportRow{"floor_slip", "v", "|slip| on the floor", floor_slip()});
         visit(ReportRow{"axis_correlation", "1",
-                        "of touching spheres' horizontal spins: 1 where they roll alike",
+                        "correlation of touching spheres' horizontal spins: 1 if they roll alike",
                         axis_correlation()});
         visit(ReportRow{"contact_correlation", "1",
-                        "of their rolling along the line of centres: −1 where they do not rub, 1 "
-                        "where they rub with both speeds",
+                        "correlation of their rolling along the line of centres: −1 without slip, "
+                        "1 if they slip with both speeds",
                         contact_correlation()});
-        visit(ReportRow{"vertical_share", "1", "vertical part of friction between spheres",
+        visit(ReportRow{"vertical_share", "1", "vertical share of friction between spheres",
                         vertical_share()});
         visit(ReportRow{"vertical_share_at_wall", "1", "the same at the wall",
                         vertical_share_at_wall()});
         visit(ReportRow{"vertical_friction", "1",
-                        "vertical over normal impulse between spheres, at most μ",
+                        "ratio of vertical to normal impulse between spheres, at most μ",
                         vertical_friction()});
         visit(ReportRow{"vertical_friction_at_wall", "1", "the same at the wall",
                         vertical_friction_at_wall()});
         visit(ReportRow{"vertical_power", "m v³/r",
-                        "lost by a sphere to vertical rubbing between spheres", vertical_power()});
+                        "lost by a sphere to vertical friction between spheres", vertical_power()});
         visit(ReportRow{"vertical_power_at_wall", "m v³/r", "the same at the wall",
                         vertical_power_at_wall()});
     }
-    void merge(const Rolling& other);
+    void merge(const Rolling& other) {
+        BlockAverages::merge(other);
+        between_.merge(other.between_);
+        at_wall_.merge(other.at_wall_);
+    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : {&rolls_, &rolls_at_wall_, &slip_, &axes_, &contacts_}) visit(*mean);
-        visit(between_);
-        visit(at_wall_);
+        this->visit_averages(visit);
+        visit(between_, at_wall_);
     }
 
   private:
-    /// Of all collisions of one kind.
-    struct Rubbing {
+    /// Friction in all collisions of one kind. The sums are those of the open block.
+    struct VerticalFriction {
         double vertical_square = 0.0, square = 0.0, vertical = 0.0, normal = 0.0, loss = 0.0;
         BlockSeries share, friction, power;
 
         void add(const Impulse& J, double vertical_loss);
         void close_block(double weight);
-        void merge(const Rubbing& other);
+        void merge(const VerticalFriction& other);
         template <class Visitor>
         void fields(Visitor&& visit) {
-            for (double* sum : {&vertical_square, &square, &vertical, &normal, &loss}) visit(*sum);
-            visit(share);
-            visit(friction);
-            visit(power);
+            visit(vertical_square, square, vertical, normal, loss, share, friction, power);
         }
     };
 
@@ -123,7 +124,7 @@ class Rolling {
     int every_;
     std::int64_t samples_ = 0;
     BlockMean rolls_, rolls_at_wall_, slip_, axes_, contacts_;
-    Rubbing between_, at_wall_;
+    VerticalFriction between_, at_wall_;
     MFrameView view_;
     TouchingPairs touching_;
 };

@@ -1,4 +1,4 @@
-// N_c by each of the rotation rates: they cross zero at different numbers of discs.
+// N_c by each of the rotation rates, which cross zero at different numbers of discs.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace swirl {
 
-/// ϖ(N) by each of rotation_rates.
+/// ϖ(N) for each of rotation_rates.
 using RotationCurves = std::array<std::vector<RotationPoint>, rotation_rates.size()>;
 using Crossings = std::array<Crossing, rotation_rates.size()>;
 

@@ -1,11 +1,11 @@
-// The moments at which a dish is sampled: k T / n in every period, or k times an interval. Until
-// the next event the state of a snapshot holds, so the exact state at a moment in between is the
+// The times at which a container is sampled: k T / n in every period, or k times an interval. The
+// state in a snapshot is valid until the next event, so the exact state at a time before it is the
 // same snapshot with another clock:
 //
 //     while (times.next(snapshot, path, event.clock)) observation.sample(snapshot);
 //
-// Times are those of the simulation; the end of a period is the beginning of the next, and counts
-// there.
+// Times are those of the simulation. The end of a period is the beginning of the next one, and
+// belongs to that.
 #pragma once
 
 #include <cmath>
@@ -19,21 +19,21 @@ namespace swirl {
 
 class SampleTimes {
   public:
-    /// `interval` above 0: k · interval from the beginning, whatever the periods.
+    /// With `interval` above 0: k · interval from the beginning, independent of the periods.
     SampleTimes(int per_period, double period, double interval = 0.0)
         : per_period_(per_period), period_(period), interval_(interval) {}
 
-    /// Puts the clock and the container of the snapshot to the next moment up to `clock` within its
-    /// period; false if there is none left. Asked before every event, and mostly there is none.
+    /// Sets the clock and the container of the snapshot to the next sample time up to `clock` within
+    /// its period; false if there is none left. Called before every event; usually there is none.
     SWIRL_INLINE bool next(Snapshot& s, const ContainerPath& path, double clock) {
         if (s.periods == periods_ && due_ > clock) return false;
-        return take_next(s, path, clock);
+        return advance(s, path, clock);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(index_, periods_);
     }
-    /// By an interval every moment of the swirls before has been taken. (One less for rounding.)
+    /// With an interval, every time in the earlier periods has been taken (one less for rounding).
     bool is_consistent() const {
         if (interval_ == 0.0) return index_ <= per_period_;
         const double due = static_cast<double>(periods_) * period_ / interval_;
@@ -41,9 +41,9 @@ class SampleTimes {
     }
 
   private:
-    bool take_next(Snapshot& s, const ContainerPath& path, double clock) {
+    bool advance(Snapshot& s, const ContainerPath& path, double clock) {
         if (s.periods != periods_) begin_period(s.periods);
-        if (due_ == not_asked) due_ = next_in(s.periods);
+        if (due_ == undetermined) due_ = next_in(s.periods);
         if (!(due_ <= clock)) return false;
         s.clock = due_;
         const Segment& segment = path.segment_at(s.clock);
@@ -56,24 +56,24 @@ class SampleTimes {
     void begin_period(std::int64_t periods) {
         if (interval_ == 0.0) index_ = 0;
         periods_ = periods;
-        due_ = not_asked;
+        due_ = undetermined;
     }
-    /// The next moment on the clock of this period; never, if it is not in it.
+    /// The next sample time on the clock of this period; never if it is in a later one.
     double next_in(std::int64_t periods) const {
         const auto k = static_cast<double>(index_);
         if (interval_ == 0.0) return index_ < per_period_ ? period_ * k / per_period_ : never;
-        const double swirl = std::floor(k * interval_ / period_);
+        const double its_period = std::floor(k * interval_ / period_);
         const auto now = static_cast<double>(periods);
-        return swirl > now ? never : std::fmax(0.0, k * interval_ - now * period_);
+        return its_period > now ? never : std::fmax(0.0, k * interval_ - now * period_);
     }
 
-    static constexpr double not_asked = -1.0;
+    static constexpr double undetermined = -1.0;
 
     int per_period_;
     double period_, interval_;
-    std::int64_t index_ = 0;    // of the next
-    std::int64_t periods_ = 0;  // whole periods before the one it counts in
-    double due_ = not_asked;    // its moment in this period, once it has been asked for
+    std::int64_t index_ = 0;     // of the next sample
+    std::int64_t periods_ = 0;   // whole periods before that in which it counts
+    double due_ = undetermined;  // its time in this period, once determined
 };
 
 }  // namespace swirl

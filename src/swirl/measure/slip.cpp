@@ -16,15 +16,18 @@ double perimeter_of(const MFrameView& view, std::vector<Vec2>& centres) {
     return perimeter(convex_hull(centres)) + 2.0 * pi * radius;
 }
 
-/// ϖ of some of the discs.
-struct Rates {
+/// The mean of ϖ over some of the discs.
+struct MeanRate {
     double sum = 0.0, count = 0.0;
 
     void add(double rate) {
         sum += rate;
         count += 1.0;
     }
-    double mean() const { return sum / count; }
+    /// Adds −ϖ_M × factor to the average; nothing without discs.
+    void add_slip_to(BlockMean& average, double omega, double factor) const {
+        if (count > 0.0) average.add((omega - sum / count) * factor);
+    }
 };
 
 }  // namespace
@@ -34,7 +37,7 @@ double cluster_perimeter(const MFrameView& view) {
     return perimeter_of(view, centres);
 }
 
-void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) {
+void Slip::sample(const MFrameView& view, PinnedFlags pinned) {
     if (samples_++ % every_ != 0) return;
     const double P = perimeter_of(view, centres_);
     if (!(P == P)) return;
@@ -44,29 +47,32 @@ void Slip::sample(const MFrameView& view, std::span<const std::uint8_t> pinned) 
 
     const double omega = view.frame.omega, factor = P / (P_container * omega);
     const CentreOfMass centre = view.centre_of_mass();
-    const bool hold = held_.empty();
-    Rates all, pinned_ones;
+    const bool nothing_pending = pending_.empty();
+    MeanRate all, of_pinned;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const double rate = centre.varpi(view.position(i), view.relative_velocity(i));
         const Vec2 d = view.position(i) - centre.position;
         if (!(rate == rate) || dot(d, d) < view.radius[i] * view.radius[i]) continue;
         all.add(rate);
-        if (i < pinned.size() && pinned[i] != 0) pinned_ones.add(rate);
-        if (hold && in_wall_layer(view, i)) held_.push_back({i, rate});
+        if (is_pinned(pinned, i)) of_pinned.add(rate);
+        if (nothing_pending && in_wall_layer(view, i)) pending_.push_back({i, rate});
     }
-    if (hold) held_at_ = view.time, held_factor_ = factor, held_omega_ = omega;
-    if (all.count > 0.0) cluster_.add((omega - all.mean()) * factor);
-    if (pinned_ones.count > 0.0) pinned_.add((omega - pinned_ones.mean()) * factor);
+    if (nothing_pending) {
+        pending_time_ = view.time;
+        pending_factor_ = factor;
+        pending_omega_ = omega;
+    }
+    all.add_slip_to(cluster_, omega, factor);
+    of_pinned.add_slip_to(pinned_, omega, factor);
 }
 
 void Slip::sample_residences(const LongResidences& residences) {
-    if (held_.empty() || !residences.knows(held_at_)) return;
-    Rates on_residences;
-    for (const Rate& rate : held_)
-        if (residences.pinned(rate.disc, held_at_)) on_residences.add(rate.varpi);
-    if (on_residences.count > 0.0)
-        residences_.add((held_omega_ - on_residences.mean()) * held_factor_);
-    held_.clear();
+    if (pending_.empty() || !residences.is_known(pending_time_)) return;
+    MeanRate of_resident;
+    for (const Rate& rate : pending_)
+        if (residences.resident(rate.disc, pending_time_)) of_resident.add(rate.varpi);
+    of_resident.add_slip_to(resident_, pending_omega_, pending_factor_);
+    pending_.clear();
 }
 
 }  // namespace swirl

@@ -4,37 +4,38 @@
 //   s = (|ϖ_M|/Ω) (P_cluster / P_container)     0: slips freely, 1: rolls without slipping
 //
 //   P_cluster    perimeter of the convex hull of the discs' centres, plus 2π r: the tightest band
-//                round the cluster. With discs of several sizes r is their mean radius
+//                around the cluster. For a mixture, r is the mean radius
 //   P_container  2π R
-//   ϖ_M          for the whole cluster the mean of ϖ_i − Ω over all discs; for the pinned region
-//                the mean over the pinned discs by the SI's criterion (pinned_loose.hpp), about
-//                the centre of mass and with the perimeter of the whole cluster, which is what
-//                rolls; for stays the same over the discs on a long stay in the layer at the wall
-//                (long_residence.hpp): those that only fly along the wall are held by nothing
+//   ϖ_M          cluster: the mean of ϖ_i − Ω over all discs. Pinned region: the mean over the
+//                pinned discs by the SI's criterion (pinned_loose.hpp). Resident: the mean over the
+//                discs on a long residence in the layer at the wall (long_residence.hpp), which
+//                excludes discs that only fly along the wall. All three are about the centre of
+//                mass and with the perimeter of the whole cluster, since the whole cluster rolls
 //
-// The average is that of the product, over samples; −ϖ_M stands for |ϖ_M|, so that noise about zero
+// The average is that of the product, over samples. −ϖ_M stands for |ϖ_M|, so that noise about zero
 // does not add up (ϖ_M is negative wherever the wall drives).
 //
-//   pancake line: a single body with the cluster's perimeter, s = 1,
+//   pancake line: a single body with the cluster's perimeter and s = 1,
 //   ϖ/Ω = 1 − P_container/P_cluster
 //
-// Only every 64th sample is used, unless told otherwise: the hull costs more than most
-// measurements, and the cluster changes little between two frames of a camera.
+// By default only every 64th sample is used: the hull costs more than most measurements, and the
+// cluster changes little between two samples.
 //
-// Units: none. Error from blocks of periods. Limits: one disc has no rotation about itself (NaN is
-// not averaged: the mean stays NaN if there was nothing else); nobody pinned, or on
-// a stay: that sample does not count for it. A disc nearer to the centre of mass than
-// its own radius is left out: there ϖ_i has no finite variance.
+// Units: none. Errors: from blocks of periods. Limits: one disc does not rotate about itself; its
+// sample does not count, and the mean is NaN if there was no other. A sample without a pinned
+// (resident) disc does not count for that mean. A disc closer to the centre of mass than its own
+// radius is omitted: there ϖ_i has no finite variance.
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <tuple>
 #include <vector>
 
 #include "swirl/measure/convex_hull.hpp"
 #include "swirl/measure/long_residence.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/pinned_loose.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
@@ -44,22 +45,21 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
     return 1.0 - container_perimeter / cluster_perimeter;
 }
 
-class Slip {
+class Slip : public BlockAverages<Slip> {
   public:
+    static auto averages(auto& s) {
+        return std::tie(s.cluster_, s.pinned_, s.resident_, s.perimeter_, s.pancake_);
+    }
+
     explicit Slip(int every = 64) : every_(every) {}
 
-    /// `pinned`: for each disc whether it is pinned; empty where that is not known.
-    void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
-    /// After every sample of the discs, used or not: who is on a long stay.
+    /// `pinned`: for each disc whether it is pinned; empty if that is not known.
+    void sample(const MFrameView& view, PinnedFlags pinned = {});
     void sample_residences(const LongResidences& residences);
-    void close_block() {
-        for (BlockMean* mean : {&cluster_, &pinned_, &residences_, &perimeter_, &pancake_})
-            mean->close_block();
-    }
 
     Estimate cluster() const { return cluster_.estimate(); }
     Estimate pinned_region() const { return pinned_.estimate(); }
-    Estimate on_residences() const { return residences_.estimate(); }
+    Estimate resident() const { return resident_.estimate(); }
     /// P_cluster, in units of the snapshot's length.
     Estimate cluster_perimeter() const { return perimeter_.estimate(); }
     /// ϖ/Ω of the pancake with the cluster's momentary perimeter, averaged.
@@ -70,26 +70,17 @@ class Slip {
         visit(ReportRow{"cluster", "1", "slip parameter s of all discs", cluster()});
         visit(ReportRow{"pinned_region", "1", "slip parameter s of the pinned discs",
                         pinned_region()});
-        visit(ReportRow{"stays", "1", "slip parameter s of the discs on a stay at the wall",
-                        on_residences()});
+        visit(ReportRow{"resident", "1", "slip parameter s of the discs resident at the wall",
+                        resident()});
         visit(ReportRow{"cluster_perimeter", "r", "perimeter of the cluster", cluster_perimeter()});
         visit(ReportRow{"pancake", "Ω",
                         "rotation of a pancake of that perimeter that does not slip", pancake()});
     }
-    void merge(const Slip& other) {
-        cluster_.merge(other.cluster_);
-        pinned_.merge(other.pinned_);
-        residences_.merge(other.residences_);
-        perimeter_.merge(other.perimeter_);
-        pancake_.merge(other.pancake_);
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : {&cluster_, &pinned_, &residences_, &perimeter_, &pancake_})
-            visit(*mean);
-        visit(held_);
-        for (double* value : {&held_at_, &held_factor_, &held_omega_}) visit(*value);
+        this->visit_averages(visit);
+        visit(pending_, pending_time_, pending_factor_, pending_omega_);
     }
 
     struct Rate {
@@ -100,11 +91,11 @@ class Slip {
   private:
     int every_;
     std::int64_t samples_ = 0;
-    BlockMean cluster_, pinned_, residences_, perimeter_, pancake_;
+    BlockMean cluster_, pinned_, resident_, perimeter_, pancake_;
     std::vector<Vec2> centres_;
-    // Of the discs in the wall layer at a moment, until it is known which were on a long stay then.
-    std::vector<Rate> held_;
-    double held_at_ = 0.0, held_factor_ = 0.0, held_omega_ = 0.0;
+    // Rates of the discs in the wall layer, until it is known which of them were resident then.
+    std::vector<Rate> pending_;
+    double pending_time_ = 0.0, pending_factor_ = 0.0, pending_omega_ = 0.0;
 };
 
 /// P_cluster of one snapshot; NaN without discs.

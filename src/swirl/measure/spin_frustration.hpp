@@ -1,53 +1,61 @@
-// How far the discs keep each other from spinning (paper, main text and Fig. 4b). Two discs that
-// roll on each other like gears spin in opposite senses; three that touch mutually cannot all do
-// so.
+// How far the discs prevent each other from spinning (paper, main text and Fig. 4b). Two discs that
+// roll on each other like gears spin in opposite directions; three that touch mutually cannot all
+// do so.
 //
-//   wall spin         ⟨|ω_i|⟩/Ω in the lab, over the discs at the wall, over those of them that
-//                     are pinned by the SI's criterion (pinned_loose.hpp), and over those on a long
-//                     stay in the wall's layer (long_residence.hpp): 0 for a disc stuck to the
-//                     wall, as the container does not turn
+//   wall spin         ⟨|ω_i|⟩/Ω in the lab, over the discs at the wall, over the pinned ones among
+//                     them (SI's criterion, pinned_loose.hpp), and over the resident discs
+//                     (long_residence.hpp). 0 for a disc stuck to the wall, as the container does
+//                     not turn
 //   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
-//                     independent spins, 1 for a body that turns as a whole; the same over touching
-//                     pairs of pinned discs; over pairs of a disc on a long stay and any that it
-//                     touches; over those of them that are both on one, neighbours along the wall;
-//                     and over all
-//                     disc–disc collisions, each counted with its normal impulse: strong contacts
+//                     independent spins, 1 for a body that turns as a whole. Over all pairs; over
+//                     pairs of pinned discs; over pairs with at least one resident disc; over pairs
+//                     of two resident discs, neighbours along the wall; and over all disc–disc
+//                     collisions, each weighted with its normal impulse: strong contacts
 //   triangles         share of the touching pairs that have a common neighbour touching both: the
 //                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
 //                     packing
 //   sticking          share of the collisions in which friction stopped the slip, for disc–disc
-//                     and for disc–wall separately (needs the collisions themselves)
+//                     and for disc–wall collisions
 //
-// Only every 64th sample of the discs is used, unless told otherwise: a search for neighbours
-// costs more than most measurements. Every collision counts.
+// By default only every 64th sample of the discs is used: a search for neighbours costs more than
+// most measurements. Every collision counts.
 //
 // At the wall: gap below 0.1 r. Touching: gap below 0.1 of the mean radius. Units: none. The ratios
-// are of sums over samples; errors from blocks of periods. Limits: missing spins (NaN) make wall
-// spin and correlation NaN; nobody touching: NaN.
+// are of sums over samples. Errors: from blocks of periods. Limits: missing spins (NaN) make wall
+// spin and correlation NaN; without touching discs the correlations are NaN.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
-#include <span>
+#include <tuple>
 #include <vector>
 
 #include "swirl/measure/long_residence.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
 
-class SpinFrustration {
+class SpinFrustration : public BlockAverages<SpinFrustration> {
   public:
+    static auto averages(auto& s) {
+        return std::tie(s.wall_spin_, s.pinned_wall_spin_, s.resident_spin_, s.correlation_,
+                        s.pinned_correlation_, s.resident_correlation_, s.along_wall_,
+                        s.by_impulse_, s.triangles_, s.coordination_, s.disc_sticking_,
+                        s.wall_sticking_);
+    }
+
     explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
 
-    /// `pinned`: for each disc whether it is pinned; empty where that is not known.
-    void sample(const MFrameView& view, std::span<const std::uint8_t> pinned = {});
+    /// `pinned`: for each disc whether it is pinned; empty if that is not known.
+    void sample(const MFrameView& view, PinnedFlags pinned = {});
+    void sample_residences(const LongResidences& residences);
     /// A collision, for the share that sticks and the spins of strong contacts.
-    void sample(const Event& event, const Snapshot& after) {
+    void sample_event(const Event& event, const Snapshot& after) {
         if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
         if (event.kind == EventKind::disc_disc)
             add_pair(by_impulse_, after.spin[event.i], after.spin[event.j],
@@ -55,18 +63,13 @@ class SpinFrustration {
         BlockMean& share = event.kind == EventKind::disc_disc ? disc_sticking_ : wall_sticking_;
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }
-    /// After every sample of the discs, used or not: who is on a long stay.
-    void sample_residences(const LongResidences& residences);
-    void close_block() {
-        for (BlockMean* mean : means()) mean->close_block();
-    }
 
     Estimate wall_spin() const { return wall_spin_.estimate(); }
     Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
+    Estimate resident_spin() const { return resident_spin_.estimate(); }
     Estimate correlation() const { return correlation_.estimate(); }
     Estimate pinned_correlation() const { return pinned_correlation_.estimate(); }
-    Estimate residence_spin() const { return residence_spin_.estimate(); }
-    Estimate residence_correlation() const { return residence_correlation_.estimate(); }
+    Estimate resident_correlation() const { return resident_correlation_.estimate(); }
     Estimate along_wall() const { return along_wall_.estimate(); }
     Estimate correlation_by_impulse() const { return by_impulse_.estimate(); }
     Estimate triangles() const { return triangles_.estimate(); }
@@ -77,22 +80,21 @@ class SpinFrustration {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(
-            ReportRow{"wall_spin", "Ω", "size of the spin of the discs at the wall", wall_spin()});
-        visit(ReportRow{"pinned_wall_spin", "Ω", "size of the spin of the pinned discs at the wall",
+        visit(ReportRow{"wall_spin", "Ω", "|spin| of the discs at the wall", wall_spin()});
+        visit(ReportRow{"pinned_wall_spin", "Ω", "|spin| of the pinned discs at the wall",
                         pinned_wall_spin()});
-        visit(ReportRow{"stay_spin", "Ω", "size of the spin of the discs on a stay at the wall",
-                        residence_spin()});
-        visit(ReportRow{"spin_correlation", "1", "of touching discs: −1 for gears", correlation()});
-        visit(ReportRow{"pinned_correlation", "1", "the same of touching discs that are pinned",
+        visit(ReportRow{"resident_spin", "Ω", "|spin| of the discs resident at the wall",
+                        resident_spin()});
+        visit(ReportRow{"spin_correlation", "1", "spin correlation of touching discs: −1 for gears",
+                        correlation()});
+        visit(ReportRow{"pinned_correlation", "1", "the same for two pinned discs",
                         pinned_correlation()});
-        visit(ReportRow{"stay_correlation", "1",
-                        "the same of a disc on a stay at the wall and any that it touches",
-                        residence_correlation()});
-        visit(ReportRow{"along_wall", "1", "the same of touching discs that are both on a stay",
-                        along_wall()});
+        visit(ReportRow{"resident_correlation", "1",
+                        "the same for a resident disc and any that it touches",
+                        resident_correlation()});
+        visit(ReportRow{"along_wall", "1", "the same for two resident discs", along_wall()});
         visit(ReportRow{"correlation_by_impulse", "1",
-                        "the same over collisions, each counted with its normal impulse",
+                        "the same over collisions, each weighted with its normal impulse",
                         correlation_by_impulse()});
         visit(ReportRow{"triangles", "1", "share of the touching pairs with a common neighbour",
                         triangles()});
@@ -102,44 +104,23 @@ class SpinFrustration {
         visit(ReportRow{"wall_sticking", "1",
                         "share of the disc–wall collisions that stop the slip", wall_sticking()});
     }
-    void merge(const SpinFrustration& other) {
-        wall_spin_.merge(other.wall_spin_);
-        pinned_wall_spin_.merge(other.pinned_wall_spin_);
-        residence_spin_.merge(other.residence_spin_);
-        correlation_.merge(other.correlation_);
-        pinned_correlation_.merge(other.pinned_correlation_);
-        residence_correlation_.merge(other.residence_correlation_);
-        along_wall_.merge(other.along_wall_);
-        by_impulse_.merge(other.by_impulse_);
-        triangles_.merge(other.triangles_);
-        coordination_.merge(other.coordination_);
-        disc_sticking_.merge(other.disc_sticking_);
-        wall_sticking_.merge(other.wall_sticking_);
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);
-        for (BlockMean* mean : means()) visit(*mean);
-        visit(held_spins_);
-        visit(held_pairs_);
-        visit(held_at_);
+        this->visit_averages(visit);
+        visit(pending_spins_, pending_pairs_, pending_time_);
     }
 
     struct Spin {
         std::size_t disc;
         double spin;
     };
-    struct Spins {
+    struct SpinPair {
         std::size_t i, j;
-        double a, b;
+        double spin_i, spin_j;
     };
 
   private:
-    std::vector<BlockMean*> means() {
-        return {&wall_spin_,          &pinned_wall_spin_,      &residence_spin_, &correlation_,
-                &pinned_correlation_, &residence_correlation_, &along_wall_,     &by_impulse_,
-                &triangles_,          &coordination_,          &disc_sticking_,  &wall_sticking_};
-    }
     /// ω_i ω_j over ½ (ω_i² + ω_j²), as a ratio of sums.
     static void add_pair(BlockMean& correlation, double a, double b, double weight = 1.0) {
         const double square = 0.5 * (a * a + b * b);
@@ -152,16 +133,15 @@ class SpinFrustration {
     double gap_;
     int every_;
     std::int64_t samples_ = 0;
-    BlockMean wall_spin_, pinned_wall_spin_, residence_spin_, correlation_, triangles_,
-        coordination_;
-    BlockMean pinned_correlation_, residence_correlation_, along_wall_, by_impulse_, disc_sticking_,
+    BlockMean wall_spin_, pinned_wall_spin_, resident_spin_, correlation_, pinned_correlation_,
+        resident_correlation_, along_wall_, by_impulse_, triangles_, coordination_, disc_sticking_,
         wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
-    // Of the discs in the wall layer at a moment, until it is known which were on a long stay then.
-    std::vector<Spin> held_spins_;
-    std::vector<Spins> held_pairs_;
-    double held_at_ = 0.0;
+    // Of the discs in the wall layer, until it is known which of them were resident then.
+    std::vector<Spin> pending_spins_;
+    std::vector<SpinPair> pending_pairs_;
+    double pending_time_ = 0.0;
 };
 
 }  // namespace swirl

@@ -12,7 +12,7 @@ SWIRL_WIDE void locate_all(std::size_t points, double side, double half_width,
     const std::int32_t n = static_cast<std::int32_t>(side);
     for (std::size_t i = 0; i < points; ++i) {
         const double column = (x[i] + half_width) * scale, row = (y[i] + half_width) * scale;
-        // What is not inside, or not a number, becomes row n, column 0: the number after the last.
+        // A point outside, or NaN, gets row n, column 0: the number after the last cell.
         const bool inside = (column >= 0.0) & (column < side) & (row >= 0.0) & (row < side);
         const double safe_column = inside ? column : 0.0, safe_row = inside ? row : side;
         cell[i] = static_cast<std::int32_t>(safe_row) * n + static_cast<std::int32_t>(safe_column);

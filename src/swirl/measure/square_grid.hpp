@@ -1,5 +1,5 @@
 // The container's bounding square in the M-frame, −R ≤ x, y ≤ R, cut into n × n equal cells: the
-// ground of the density map (paper, SI: 100 × 100) and the flow map (20 × 20).
+// grid of the density map (paper, SI: 100 × 100) and the flow map (20 × 20).
 //
 // Cells are numbered row by row from the lower left: cell = row·n + column, rows with y. The square
 // is that of the paper's Fig. 5c: its corners lie outside the container and stay empty. A centre
@@ -17,7 +17,7 @@ struct SquareGrid {
     std::size_t side = 0;   // n
     double half_width = 0;  // R
 
-    static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+    static constexpr std::size_t outside = static_cast<std::size_t>(-1);
 
     std::size_t cells() const { return side * side; }
     double cell_width() const { return 2.0 * half_width / static_cast<double>(side); }
@@ -27,10 +27,10 @@ struct SquareGrid {
         const double scale = static_cast<double>(side) / (2.0 * half_width);
         const double column = (x + half_width) * scale, row = (y + half_width) * scale;
         const double n = static_cast<double>(side);
-        if (!(column >= 0.0 && column < n && row >= 0.0 && row < n)) return nowhere;
+        if (!(column >= 0.0 && column < n && row >= 0.0 && row < n)) return outside;
         return static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
     }
-    /// cell_at for many points at once; who is in no cell gets the number cells().
+    /// cell_at for many points at once; a point outside the square gets the number cells().
     void locate(std::size_t points, const double* x, const double* y, std::int32_t* cell) const;
 
     Vec2 centre_of(std::size_t cell) const {

@@ -1,13 +1,12 @@
-// Which discs touch. Hard discs never do for longer than an instant, so two discs count as touching
-// when the gap between them is below a tolerance given by the caller.
+// Which discs touch. Hard discs touch only for an instant, so two discs count as touching when the
+// gap between them is below a tolerance given by the caller.
 //
-// Found by sweeping over the discs in order of x: O(N^1.5) in a dish. Pairs come in a fixed order
-// that depends on the positions alone.
+// A sweep over the discs in order of x finds them: O(N^1.5) in a container. The order of the pairs
+// depends on the positions alone.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "swirl/measure/m_frame.hpp"
@@ -20,20 +19,10 @@ struct Pair {
 
 class TouchingPairs {
   public:
-    /// All pairs with |r_i − r_j| − (R_i + R_j) < gap. Discs whose place is not a number touch
-    /// nobody.
+    /// All pairs with |r_i − r_j| − (R_i + R_j) < gap. Discs without a finite position touch no disc.
     const std::vector<Pair>& find(const MFrameView& view, double gap) {
         pairs_.clear();
-        order_.resize(view.size());
-        std::iota(order_.begin(), order_.end(), 0u);
-        order_.erase(std::remove_if(order_.begin(), order_.end(),
-                                    [&](std::uint32_t i) {
-                                        return !(view.x[i] == view.x[i] && view.y[i] == view.y[i]);
-                                    }),
-                     order_.end());
-        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return view.x[a] < view.x[b] || (view.x[a] == view.x[b] && a < b);
-        });
+        view.order_by_x(order_);
         double largest = 0.0;
         for (const std::uint32_t i : order_) largest = std::max(largest, view.radius[i]);
         for (std::size_t a = 0; a < order_.size(); ++a) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace swirl {
 namespace {
 
-constexpr std::uint32_t nobody = static_cast<std::uint32_t>(-1);
+/// Behind the sides of the octagon around the container.
+constexpr std::uint32_t no_neighbour = static_cast<std::uint32_t>(-1);
 
 /// The angle from a to b, −π … π.
 double angle_between(const Vec2& a, const Vec2& b) {
@@ -20,8 +20,8 @@ struct InCircle {
     double area, length;
 };
 
-/// Of the triangle (0, a, b) with sign, and of the side from a to b: the part inside the circle |x|
-/// < R.
+/// The part inside the circle |x| < R of the triangle (0, a, b), with sign, and of the side from a
+/// to b.
 InCircle in_circle(const Vec2& a, const Vec2& b, double R) {
     const Vec2 side = b - a;
     const double square = R * R;
@@ -43,7 +43,33 @@ InCircle in_circle(const Vec2& a, const Vec2& b, double R) {
     return {area, square_root(dot(inside, inside))};
 }
 
+/// Corners of a regular octagon around the circle.
+std::vector<Vec2> octagon_around(double R) {
+    constexpr double cos_22_5_degrees = 0.9238795325112867;
+    std::vector<Vec2> corners;
+    for (int k = 0; k < 8; ++k)
+        corners.push_back((R / cos_22_5_degrees) * unit_circle((k + 0.5) / 8.0));
+    return corners;
+}
+
+double distance_square(const MFrameView& view, std::uint32_t i, std::uint32_t j) {
+    const Vec2 d = view.position(j) - view.position(i);
+    return dot(d, d);
+}
+
 }  // namespace
+
+/// How far a neighbour of a disc can be and still cut something off its cell.
+struct Voronoi::Reach {
+    double max_radius;  // of all discs
+    double far;         // distance of the farthest corner: a border beyond it cuts nothing off
+    double neighbour;   // distance of a neighbour whose border is that far
+
+    Reach(double farthest, double radius, double largest) : max_radius(largest), far(farthest) {
+        const double excess = largest * largest - radius * radius;
+        neighbour = excess > 0.0 ? far + square_root(far * far + excess) : 2.0 * far;
+    }
+};
 
 double Voronoi::farthest(const Vec2& centre) const {
     double square = 0.0;
@@ -73,11 +99,64 @@ bool Voronoi::clip(const Vec2& centre, const Vec2& towards, double distance,
         if (da <= 0.0) next_.push_back(a);
         if ((da <= 0.0) == (db <= 0.0)) continue;
         const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
-        // Leaving the half-plane, the new side begins; coming back, the old one goes on.
+        // Where the outline leaves the half-plane the new side begins; where it returns, the old one
+        // continues.
         next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
     }
     cell_.swap(next_);
     return true;
+}
+
+void Voronoi::clip_by(const MFrameView& view, std::uint32_t disc, std::uint32_t neighbour,
+                      Reach& reach) {
+    const Vec2 centre = view.position(disc), d = view.position(neighbour) - centre;
+    const double r = view.radius[disc], square = dot(d, d);
+    if (!(square > 0.0) || square >= reach.neighbour * reach.neighbour) return;
+    const double distance = square_root(square);
+    const double border =
+        (square + r * r - view.radius[neighbour] * view.radius[neighbour]) / (2.0 * distance);
+    if (border >= reach.far) return;
+    if (clip(centre, (1.0 / distance) * d, border, neighbour))
+        reach = Reach(farthest(centre), r, reach.max_radius);
+}
+
+void Voronoi::clip_by_neighbours(const MFrameView& view, std::size_t rank, double max_radius) {
+    const std::uint32_t i = order_[rank];
+    const Vec2 centre = view.position(i);
+    const double r = view.radius[i];
+    Reach reach(farthest(centre), r, max_radius);
+
+    // First the near discs, the nearest first: they cut off nearly everything.
+    const double near = 2.5 * (r + max_radius), near_square = near * near;
+    near_.clear();
+    const auto add_if_near = [&](std::uint32_t j) {
+        const double square = distance_square(view, i, j);
+        if (square < near_square) near_.push_back({square, j});
+    };
+    for (std::size_t k = rank; k > 0 && centre.x - view.x[order_[k - 1]] < near; --k)
+        add_if_near(order_[k - 1]);
+    for (std::size_t k = rank + 1; k < order_.size() && view.x[order_[k]] - centre.x < near; ++k)
+        add_if_near(order_[k]);
+    std::sort(near_.begin(), near_.end());
+    for (const auto& [square, j] : near_) clip_by(view, i, j, reach);
+
+    // Then the others within reach, outwards in the order of x, alternately to both sides.
+    const auto clip_if_far = [&](std::uint32_t j) {
+        if (distance_square(view, i, j) >= near_square) clip_by(view, i, j, reach);
+    };
+    std::size_t left = rank, right = rank + 1;
+    bool more_left = true, more_right = true;
+    while (more_left || more_right) {
+        if (more_left) {
+            more_left = left > 0 && centre.x - view.x[order_[left - 1]] < reach.neighbour;
+            if (more_left) clip_if_far(order_[--left]);
+        }
+        if (more_right) {
+            more_right =
+                right < order_.size() && view.x[order_[right]] - centre.x < reach.neighbour;
+            if (more_right) clip_if_far(order_[right++]);
+        }
+    }
 }
 
 void Voronoi::find(const MFrameView& view) {
@@ -86,91 +165,25 @@ void Voronoi::find(const MFrameView& view) {
     areas_.assign(n, 0.0);
     first_.assign(n + 1, 0);
     borders_.clear();
-    order_.resize(n);
-    std::iota(order_.begin(), order_.end(), 0u);
-    order_.erase(std::remove_if(order_.begin(), order_.end(),
-                                [&](std::uint32_t i) {
-                                    const Vec2 p = view.position(i);
-                                    return !(dot(p, p) < never);
-                                }),
-                 order_.end());
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return view.x[a] < view.x[b] || (view.x[a] == view.x[b] && a < b);
-    });
+    view.order_by_x(order_);
     std::vector<std::size_t> rank(n, n);
-    double largest = 0.0;
+    double max_radius = 0.0;
     for (std::size_t k = 0; k < order_.size(); ++k) {
         rank[order_[k]] = k;
-        largest = larger(view.radius[order_[k]], largest);
+        max_radius = larger(view.radius[order_[k]], max_radius);
     }
-
-    // Around the container: its corners are not far outside.
-    std::vector<Corner> octagon;
-    for (int k = 0; k < 8; ++k) {
-        const Vec2 p = unit_circle((k + 0.5) / 8.0);
-        octagon.push_back({(R / 0.9238795325112867) * p, nobody});  // cos 22.5°
-    }
+    const std::vector<Vec2> octagon = octagon_around(R);
 
     for (std::size_t i = 0; i < n; ++i) {
         first_[i] = borders_.size();
         if (rank[i] == n) continue;
-        const Vec2 centre = view.position(i);
-        const double r = view.radius[i];
-        cell_ = octagon;
-        // Beyond this distance no border can cut anything off the cell.
-        double far = 0.0;
-        const auto horizon = [&] {
-            far = farthest(centre);
-            const double excess = largest * largest - r * r;
-            return excess > 0.0 ? far + square_root(far * far + excess) : 2.0 * far;
-        };
-        double reach = horizon();
-        const auto meet = [&](std::uint32_t j) {
-            const Vec2 d = view.position(j) - centre;
-            const double square = dot(d, d);
-            if (!(square > 0.0) || square >= reach * reach) return;
-            const double distance = square_root(square);
-            const double border =
-                (square + r * r - view.radius[j] * view.radius[j]) / (2.0 * distance);
-            if (border >= far) return;
-            if (clip(centre, (1.0 / distance) * d, border, j)) reach = horizon();
-        };
-        // Outwards from the disc in the order of x, to both sides: first those that are near, the
-        // nearest first, which cut off nearly everything; then whoever is still within reach.
-        const double near = 2.5 * (r + largest), near_square = near * near;
-        const auto distance_square = [&](std::uint32_t j) {
-            const Vec2 d = view.position(j) - centre;
-            return dot(d, d);
-        };
-        near_.clear();
-        const auto note = [&](std::uint32_t j) {
-            const double square = distance_square(j);
-            if (square < near_square) near_.push_back({square, j});
-        };
-        for (std::size_t k = rank[i]; k > 0 && centre.x - view.x[order_[k - 1]] < near; --k)
-            note(order_[k - 1]);
-        for (std::size_t k = rank[i] + 1; k < order_.size() && view.x[order_[k]] - centre.x < near;
-             ++k)
-            note(order_[k]);
-        std::sort(near_.begin(), near_.end());
-        for (const auto& [square, j] : near_) meet(j);
-        std::size_t left = rank[i], right = rank[i] + 1;
-        bool more_left = true, more_right = true;
-        while (more_left || more_right) {
-            if (more_left) {
-                more_left = left > 0 && centre.x - view.x[order_[left - 1]] < reach;
-                if (more_left && distance_square(order_[--left]) >= near_square) meet(order_[left]);
-            }
-            if (more_right) {
-                more_right = right < order_.size() && view.x[order_[right]] - centre.x < reach;
-                if (more_right && distance_square(order_[right++]) >= near_square)
-                    meet(order_[right - 1]);
-            }
-        }
+        cell_.clear();
+        for (const Vec2& corner : octagon) cell_.push_back({corner, no_neighbour});
+        clip_by_neighbours(view, rank[i], max_radius);
         for (std::size_t k = 0; k < cell_.size(); ++k) {
             const InCircle part = in_circle(cell_[k].at, cell_[(k + 1) % cell_.size()].at, R);
             areas_[i] += part.area;
-            if (cell_[k].beyond != nobody && part.length > 0.0)
+            if (cell_[k].beyond != no_neighbour && part.length > 0.0)
                 borders_.push_back({cell_[k].beyond, part.length});
         }
     }

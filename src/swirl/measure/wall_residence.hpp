@@ -1,33 +1,35 @@
-// How long discs stay at the wall, and where in the M-frame such stays begin and end: the pinned
-// region without a criterion on the direction of flight.
+// How long discs reside at the wall, and where in the M-frame such residences begin and end: the
+// pinned region without a criterion on the direction of flight.
 //
 // The SI's criterion for "pinned" (pinned_loose.hpp) asks whether a disc flies along the wall, not
-// whether it is near it, so discs that fly parallel to the wall far inside count as pinned, the
-// places where they become free have two maxima, and the mean of those places moves with N as the
+// whether it is near it. So discs that fly parallel to the wall far inside count as pinned. The
+// positions where they become free have two maxima, and the mean position moves with N as the
 // weights of the two do. Here:
 //
 //   layer            r > R − 1.5 a: the centre is within one and a half of the disc's radii of the
 //                    wall, its rim within half a radius (the second layer's centres are 1.7 or more
-//                    further in)
-//   stay             all samples in a row in which a disc is in the layer
-//   pinned           the disc is on a stay that lasts at least 40/511 of a period, all of it, from
-//                    its first sample on
-//   becoming pinned  where such a stay begins
+//                    radii further in)
+//   residence        consecutive samples in which a disc is in the layer
+//   pinned           the disc is on a residence that lasts at least 40/511 of a period; all of it
+//                    counts, from its first sample on
+//   becoming pinned  where such a residence begins
 //   becoming free    where it ends
 //
-// Both thresholds are arbitrary; the table `sensitivity` has what becomes of the averages with
-// 1.3, 1.5, 1.7 and 20, 40, 80, and `places` how the angles are distributed.
+// Both thresholds are arbitrary. The table `sensitivity` has the averages for layers of 1.3, 1.5
+// and 1.7 radii and minimum lengths of 20, 40 and 80 samples; `positions` has the distribution of
+// the angles.
 //
-// Units: radians inside, degrees in the report; lengths of stays in periods. Normalisation: the
-// share is that of all discs and samples; places are those of all stays. Errors from blocks of
-// periods. Limits: a stay that was under way when the samples began has no known beginning, and its
-// length is what has been seen of it. Samples whose times do not ascend, or a change of the number
-// of discs, begin anew.
+// Units: radians inside, degrees in the report; lengths of residences in periods. Normalisation:
+// the share is that of all discs and samples; positions are those of all residences. Errors: from
+// blocks of periods. Limits: a residence that had begun before the first sample has no known
+// beginning, and its length is what was seen of it. Samples whose times do not ascend, or a change
+// of the number of discs, begin again.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "swirl/measure/cell_averages.hpp"
@@ -45,38 +47,38 @@ class WallResidences {
     static constexpr std::array layers{1.3, wall_layer, 1.7};  // radii between centre and wall
     static constexpr std::array minimum{0.5 * long_residence, long_residence,
                                         2.0 * long_residence};  // periods
-    static constexpr std::size_t standard = 1;                  // of both
+    static constexpr std::size_t standard = 1;                  // index into both
 
-    /// All samples at equal steps of time.
+    /// All samples at equal time steps.
     void sample(const MFrameView& view);
     void close_block();
 
     const CircularMean& becoming_pinned(std::size_t layer = standard,
                                         std::size_t duration = standard) const {
-        return kinds_[layer][duration].begin;
+        return averages_[layer][duration].begin;
     }
     const CircularMean& becoming_free(std::size_t layer = standard,
                                       std::size_t duration = standard) const {
-        return kinds_[layer][duration].end;
+        return averages_[layer][duration].end;
     }
     /// The share of the discs that is pinned.
     Estimate share(std::size_t layer = standard, std::size_t duration = standard) const {
-        return kinds_[layer][duration].share.estimate();
+        return averages_[layer][duration].share.estimate();
     }
-    /// Of the stays that have ended, in periods.
+    /// Of the residences that have ended, in periods.
     Estimate length() const { return length_.estimate(); }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(
-            row_of("becoming_pinned", "θ where stays in the wall layer begin", becoming_pinned()));
-        visit(row_of("becoming_free", "θ where they end", becoming_free()));
-        visit(ReportRow{"share", "1", "share of the discs that is on such a stay", share()});
-        visit(ReportRow{"length", "T", "of a stay, in swirls", length()});
+        visit(direction_row("becoming_pinned", "θ where residences in the wall layer begin",
+                            becoming_pinned()));
+        visit(direction_row("becoming_free", "θ where they end", becoming_free()));
+        visit(ReportRow{"share", "1", "share of the discs that is on such a residence", share()});
+        visit(ReportRow{"length", "T", "length of a residence, in periods", length()});
         ReportTable sensitivity{"sensitivity",
-                                "the same for other thresholds: layer and least length of a stay",
+                                "the same for other layers and minimum lengths of a residence",
                                 {{"layer", "r"},
-                                 {"least_length", "T"},
+                                 {"min_length", "T"},
                                  {"becoming_pinned", "°"},
                                  {"becoming_pinned_error", "°"},
                                  {"pinned_concentration", "1"},
@@ -87,32 +89,25 @@ class WallResidences {
                                  {"share_error", "1"}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
             for (std::size_t d = 0; d < minimum.size(); ++d) {
-                const Kind& kind = kinds_[l][d];
-                const Estimate pinned = scaled(kind.begin.angle(), degrees_per_radian),
-                               free = scaled(kind.end.angle(), degrees_per_radian),
-                               held = kind.share.estimate();
+                const Averages& a = averages_[l][d];
+                const Estimate pinned = scaled(a.begin.angle(), degrees_per_radian),
+                               free = scaled(a.end.angle(), degrees_per_radian),
+                               on_wall = a.share.estimate();
                 sensitivity.add({layers[l], minimum[d], pinned.mean, pinned.error,
-                                 kind.begin.concentration(), free.mean, free.error,
-                                 kind.end.concentration(), held.mean, held.error});
+                                 a.begin.concentration(), free.mean, free.error,
+                                 a.end.concentration(), on_wall.mean, on_wall.error});
             }
         visit(std::move(sensitivity));
-        visit(table_of("how the places of becoming pinned and free are distributed over θ", begins_,
-                       ends_));
+        visit(positions_table("distribution over θ of becoming pinned and becoming free", begins_,
+                              ends_));
     }
     void merge(const WallResidences& other);
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(last_time_);
-        visit(discs_);
-        visit(residences_);
-        for (auto& layer : kinds_)
-            for (Kind& kind : layer) {
-                visit(kind.begin);
-                visit(kind.end);
-                visit(kind.share);
-            }
-        visit(length_);
-        for (DirectionHistogram* places : {&begins_, &ends_}) visit(*places);
+        visit(last_time_, discs_, residences_);
+        for (auto& layer : averages_)
+            for (Averages& a : layer) visit(a);
+        visit(length_, begins_, ends_);
     }
     bool is_consistent() const {
         return residences_.size() % layers.size() == 0 &&
@@ -121,13 +116,20 @@ class WallResidences {
 
     /// Of one disc in one layer.
     struct Residence {
-        double samples = 0.0;  // so far; 0: it is not there
+        double samples = 0.0;  // so far; 0: not in the layer
         double begin_time = 0.0, knows_begin = 0.0;
         Vec2 begin{}, last{};
     };
 
   private:
-    struct Kind {
+    /// For one layer and one minimum length.
+    struct Averages : BlockAverages<Averages> {
+        static auto averages(auto& s) { return std::tie(s.begin, s.end, s.share); }
+        template <class Visitor>
+        void fields(Visitor&& visit) {
+            this->visit_averages(visit);
+        }
+
         CircularMean begin, end;
         BlockMean share;
     };
@@ -136,7 +138,7 @@ class WallResidences {
     double last_time_ = 0.0;
     std::size_t discs_ = 0;
     std::vector<Residence> residences_;  // of every disc, layer by layer
-    std::array<std::array<Kind, minimum.size()>, layers.size()> kinds_;
+    std::array<std::array<Averages, minimum.size()>, layers.size()> averages_;
     BlockMean length_;
     DirectionHistogram begins_, ends_;
 };

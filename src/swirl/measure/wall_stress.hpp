@@ -1,17 +1,18 @@
-// How hard the discs press on the wall and how they drag it, along the wall, in the M-frame.
+// How hard the discs press on the wall, and how they drag it along, in the M-frame.
 //
 //   pressure(θ)   Σ J_n / (R Δθ t)     force on the wall per length, outwards
 //   traction(θ)   Σ J_t / (R Δθ t)     force on the wall per length, along it, counter-clockwise
 //
-// over the disc–wall collisions whose contact lies in the slice Δθ of θ within the time t, J the
-// impulse on the wall. In the M-frame the wall runs clockwise; where it drags the discs along they
-// drag it back, so the traction is positive there. |traction| ≤ μ_w · pressure, everywhere.
+// over the disc–wall collisions whose contact lies in the slice Δθ of θ within the time t; J is the
+// impulse on the wall. In the M-frame the wall moves clockwise. Where it drags the discs along they
+// drag it back, so the traction is positive there. |traction| ≤ μ_w · pressure everywhere.
 //
-// Units: force/length, in disc mass × speed² / length². Error from blocks of periods. Limits: no
-// time: NaN; slices where nobody hit: 0.
+// Units: force/length, in disc mass × speed² / length². Errors: from blocks of periods. Limits: no
+// time: NaN; slices without a collision: 0.
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
@@ -21,32 +22,35 @@
 
 namespace swirl {
 
-class WallStress {
+class WallStress : public MergedAverages<WallStress> {
   public:
-    explicit WallStress(double container_radius, std::size_t slices = 72)
-        : container_radius_(container_radius), normal_(slices), along_(slices) {}
+    static auto averages(auto& s) {
+        return std::tie(s.normal_, s.tangential_, s.all_normal_, s.all_tangential_);
+    }
 
-    /// Every event, with the state after it.
-    void sample(const Event& event, const Snapshot& after) {
+    explicit WallStress(double container_radius, std::size_t slices = 72)
+        : container_radius_(container_radius), normal_(slices), tangential_(slices) {}
+
+    void sample_event(const Event& event, const Snapshot& after) {
         if (event.kind != EventKind::disc_wall) return;
-        const double u = turns_of(m_frame(after).turn(event.normal));
+        const double u = turns_of(m_frame(after).rotate(event.normal));
         const std::size_t slice = std::min(
             static_cast<std::size_t>(u * static_cast<double>(normal_.size())), normal_.size() - 1);
         normal_.add(slice, event.impulse.normal);
         // The law's tangent (n_y, −n_x) points clockwise.
-        along_.add(slice, -event.impulse.tangential);
+        tangential_.add(slice, -event.impulse.tangential);
         open_normal_ += event.impulse.normal;
-        open_along_ -= event.impulse.tangential;
+        open_tangential_ -= event.impulse.tangential;
     }
-    /// `duration`: the time the events since the last call took.
-    void close_block(double duration) {
+    /// `duration`: the time in which the events since the last call happened.
+    void close_event_block(double duration) {
         normal_.add_weight(duration);
-        along_.add_weight(duration);
+        tangential_.add_weight(duration);
         normal_.close_block();
-        along_.close_block();
+        tangential_.close_block();
         all_normal_.add(open_normal_, duration);
-        all_along_.add(open_along_, duration);
-        open_normal_ = open_along_ = 0.0;
+        all_tangential_.add(open_tangential_, duration);
+        open_normal_ = open_tangential_ = 0.0;
     }
 
     std::size_t slices() const { return normal_.size(); }
@@ -57,17 +61,20 @@ class WallStress {
         return scaled(normal_.estimate(slice), per_length());
     }
     Estimate traction(std::size_t slice) const {
-        return scaled(along_.estimate(slice), per_length());
+        return scaled(tangential_.estimate(slice), per_length());
     }
     /// Averaged along the whole wall.
     Estimate mean_pressure() const { return scaled(all_normal_.estimate(), per_circumference()); }
-    Estimate mean_traction() const { return scaled(all_along_.estimate(), per_circumference()); }
+    Estimate mean_traction() const {
+        return scaled(all_tangential_.estimate(), per_circumference());
+    }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"pressure", "m v²/r²", "on the wall, averaged along it", mean_pressure()});
-        visit(ReportRow{"traction", "m v²/r²", "along the wall, averaged, counter-clockwise",
-                        mean_traction()});
+        visit(ReportRow{"pressure", "m v²/r²", "pressure on the wall, averaged along it",
+                        mean_pressure()});
+        visit(ReportRow{"traction", "m v²/r²",
+                        "traction along the wall, averaged, counter-clockwise", mean_traction()});
         ReportTable table{"profile",
                           "pressure and traction in slices of θ",
                           {{"theta", "°"},
@@ -81,20 +88,9 @@ class WallStress {
         }
         visit(std::move(table));
     }
-    void merge(const WallStress& other) {
-        normal_.merge(other.normal_);
-        along_.merge(other.along_);
-        all_normal_.merge(other.all_normal_);
-        all_along_.merge(other.all_along_);
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(normal_);
-        visit(along_);
-        visit(open_normal_);
-        visit(open_along_);
-        visit(all_normal_);
-        visit(all_along_);
+        visit(normal_, tangential_, open_normal_, open_tangential_, all_normal_, all_tangential_);
     }
 
   private:
@@ -104,9 +100,9 @@ class WallStress {
     double per_circumference() const { return 1.0 / (2.0 * pi * container_radius_); }
 
     double container_radius_;
-    CellRates normal_, along_;
-    double open_normal_ = 0.0, open_along_ = 0.0;
-    BlockSeries all_normal_, all_along_;
+    CellRates normal_, tangential_;
+    double open_normal_ = 0.0, open_tangential_ = 0.0;
+    BlockSeries all_normal_, all_tangential_;
 };
 
 }  // namespace swirl

@@ -38,10 +38,10 @@ const std::vector<std::string>& numbers_against_n() {
                                                 "slip.pancake",
                                                 "slip.cluster",
                                                 "slip.pinned_region",
-                                                "slip.stays=slip_stays",
+                                                "slip.resident=slip_resident",
                                                 "frustration.wall_spin",
                                                 "frustration.pinned_wall_spin",
-                                                "frustration.stay_spin",
+                                                "frustration.resident_spin",
                                                 "frustration.spin_correlation",
                                                 "frustration.triangles",
                                                 "centre.distance=centre_distance",
@@ -49,7 +49,7 @@ const std::vector<std::string>& numbers_against_n() {
                                                 "order.all=psi6",
                                                 "temperature.granular",
                                                 "pinned.share=pinned_share",
-                                                "stays.share=stay_share"};
+                                                "residence.share=residence_share"};
     return names;
 }
 
@@ -503,7 +503,7 @@ Json Experiment::json() const {
 
 const std::vector<std::string>& measurements_of_a_video() {
     static const std::vector<std::string> names{"density",     "flow",   "profile", "pinned",
-                                                "stays",       "centre", "slip",    "frustration",
+                                                "residence",       "centre", "slip",    "frustration",
                                                 "temperature", "order"};
     return names;
 }

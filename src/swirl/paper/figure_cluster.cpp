@@ -102,8 +102,8 @@ static FigurePlan plan_figure_1b(const PaperSettings& settings) {
         settings, "1b", {high_friction},
         {"slip.cluster_perimeter", "slip.pancake", "centre.x=centre_x", "centre.y=centre_y",
          "centre.distance=centre_distance", "centre.theta=centre_theta", "centre.left=left",
-         "centre.elongation", "centre.centrifugal", "centre.coriolis", "centre.most_centrifugal",
-         "centre.most_coriolis"},
+         "centre.elongation", "centre.centrifugal", "centre.coriolis", "centre.max_centrifugal",
+         "centre.max_coriolis"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             NamedCurve curve;
             for (std::size_t k = 0; k < points.size(); ++k)
@@ -119,12 +119,12 @@ static FigurePlan plan_figure_1b(const PaperSettings& settings) {
 static FigurePlan plan_figure_4a(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4a", {smooth, rough},
-        {"slip.cluster", "slip.pinned_region", "slip.stays=slip_stays"},
+        {"slip.cluster", "slip.pinned_region", "slip.resident=slip_resident"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<std::string> sentences;
             for (const Friction& friction : {smooth, rough}) {
-                sentences.push_back(first_and_last("slip of discs on a stay at the wall", friction,
-                                                   "slip", "stays", points, results));
+                sentences.push_back(first_and_last("slip of discs resident at the wall", friction,
+                                                   "slip", "resident", points, results));
                 sentences.push_back(first_and_last("slip of all pinned, by the SI's criterion",
                                                    friction, "slip", "pinned_region", points,
                                                    results));
@@ -136,17 +136,17 @@ static FigurePlan plan_figure_4a(const PaperSettings& settings) {
 static FigurePlan plan_figure_4b(const PaperSettings& settings) {
     return plan_against_n(
         settings, "4b", {high_friction},
-        {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.stay_spin",
+        {"frustration.wall_spin", "frustration.pinned_wall_spin", "frustration.resident_spin",
          "frustration.spin_correlation", "frustration.pinned_correlation",
-         "frustration.stay_correlation", "frustration.along_wall",
+         "frustration.resident_correlation", "frustration.along_wall",
          "frustration.correlation_by_impulse", "frustration.triangles", "frustration.coordination",
          "frustration.disc_sticking", "frustration.wall_sticking", "order.all=psi6",
-         "order.pinned=psi6_pinned", "order.stays=psi6_stays", "order.six", "order.six_pinned",
+         "order.pinned=psi6_pinned", "order.resident=psi6_resident", "order.six", "order.six_pinned",
          "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             return std::vector<std::string>{
-                first_and_last("spin of the discs on a stay at the wall, in Ω", high_friction,
-                               "frustration", "stay_spin", points, results),
+                first_and_last("spin of the discs resident at the wall, in Ω", high_friction,
+                               "frustration", "resident_spin", points, results),
                 first_and_last(
                     "the same of discs at the wall that are pinned by the SI's criterion",
                     high_friction, "frustration", "pinned_wall_spin", points, results),
@@ -166,7 +166,7 @@ static FigurePlan plan_figure_states(const PaperSettings& settings) {
     return plan_against_n(
         settings, "states", {high_friction, no_wall_friction, no_disc_friction},
         {"temperature.granular", "temperature.of_the_spin", "centre.coriolis", "order.all=psi6",
-         "stays.share=stay_share", "frustration.coordination", "frustration.triangles"},
+         "residence.share=residence_share", "frustration.coordination", "frustration.triangles"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             std::vector<std::string> sentences;
             for (const Friction& friction : {high_friction, no_wall_friction, no_disc_friction})
@@ -200,12 +200,12 @@ static FigurePlan plan_figure_4c(const PaperSettings& settings) {
 
 namespace {
 
-/// What becomes of the stays in the wall layer with other thresholds, for all N.
+/// What becomes of the residences in the wall layer with other thresholds, for all N.
 fs::path write_sensitivity(const std::vector<std::int64_t>& numbers,
                            const std::vector<Json>& results, const fs::path& out) {
     std::optional<Table> table;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const Json& rows = at(results[k], {"measured", "stays", "sensitivity"});
+        const Json& rows = at(results[k], {"measured", "residence", "sensitivity"});
         if (!rows.is_object()) continue;
         std::vector<std::string> columns;
         for (const auto& [name, values] : rows.items()) columns.push_back(name);
@@ -239,14 +239,14 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                                               "pinned.becoming_pinned_by_collisions",
                                               "pinned.becoming_free_by_collisions",
                                               "pinned.share",
-                                              "stays.becoming_pinned=stay_begins",
-                                              "stays.becoming_free=stay_ends",
-                                              "stays.share=stay_share",
-                                              "stays.length=stay_length"};
+                                              "residence.becoming_pinned=residence_begin",
+                                              "residence.becoming_free=residence_end",
+                                              "residence.share=residence_share",
+                                              "residence.length=residence_length"};
         std::vector<std::string> heads =
             joined({"discs", "point", "averaged_runs", "steady_state"}, columns);
         heads = joined(std::move(heads), number_columns(angles));
-        heads = joined(std::move(heads), {"becoming_free_resultant", "stay_ends_resultant"});
+        heads = joined(std::move(heads), {"becoming_free_resultant", "residence_end_resultant"});
         Table table(heads);
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -258,7 +258,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                 for (const std::string& column : columns)
                     row.emplace_back(number(measured["profile"][column][r]));
                 add_numbers(row, angles, results[k]);
-                for (const char* criterion : {"pinned", "stays"})
+                for (const char* criterion : {"pinned", "residence"})
                     row.emplace_back(
                         number(at(measured, {criterion, "becoming_free", "concentration"})));
                 table.add(std::move(row));
@@ -269,11 +269,11 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                 return with_error(number(value["mean"]), number(value["error"]));
             };
             outcome.findings.push_back(fmt::format(
-                "N = {}, stays in the wall layer: pinned from θ = {}°, free from {}° (resultant "
+                "N = {}, residences in the wall layer: pinned from θ = {}°, free from {}° (resultant "
                 "{:.2f}); {} of the discs are on one.",
-                numbers[k], told("stays", "becoming_pinned"), told("stays", "becoming_free"),
-                number(measured["stays"]["becoming_free"]["concentration"]),
-                told("stays", "share")));
+                numbers[k], told("residence", "becoming_pinned"), told("residence", "becoming_free"),
+                number(measured["residence"]["becoming_free"]["concentration"]),
+                told("residence", "share")));
             outcome.findings.push_back(fmt::format(
                 "N = {}, the SI's criterion: pinned from θ = {}°, free from {}° (resultant {:.2f}: "
                 "directions that nearly cancel have a mean that says little); {} of the discs are "
@@ -299,7 +299,7 @@ static FigurePlan plan_figure_3b(const PaperSettings& settings) {
     return plan_profiles(settings, "3b");
 }
 
-/// Where discs become pinned and free, by the SI's criterion and by stays in the wall layer: how
+/// Where discs become pinned and free, by the SI's criterion and by residences in the wall layer: how
 /// these places are distributed, which their mean directions do not say.
 static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
     FigurePlan plan;
@@ -308,10 +308,10 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
     for (const std::int64_t n : numbers)
         plan.points.push_back(measured_point(settings, high_friction, n));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        const std::vector<std::string> criteria{"pinned", "stays"};
+        const std::vector<std::string> criteria{"pinned", "residence"};
         std::vector<std::string> columns{"discs", "point", "averaged_runs", "steady_state",
                                          "theta"};
-        for (const char* what : {"si_pinned", "si_free", "stay_begins", "stay_ends"})
+        for (const char* what : {"si_pinned", "si_free", "residence_begin", "residence_end"})
             columns = joined(std::move(columns), {what, fmt::format("{}_mean", what),
                                                   fmt::format("{}_mean_error", what),
                                                   fmt::format("{}_resultant", what)});
@@ -319,7 +319,7 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             if (failed(results[k])) continue;
             const Json& measured = results[k]["measured"];
-            const Json& theta = measured["stays"]["places"]["theta"];
+            const Json& theta = measured["residence"]["positions"]["theta"];
             for (std::size_t r = 0; r < theta.size(); ++r) {
                 std::vector<Table::Cell> row{numbers[k], name_of_point(results[k]),
                                              averaged_runs(results[k]), steadiness(results[k]),
@@ -327,7 +327,7 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
                 for (const std::string& criterion : criteria)
                     for (const std::string which : {"pinned", "free"}) {
                         const Json& mean = measured[criterion]["becoming_" + which];
-                        row.emplace_back(number(measured[criterion]["places"][which][r]));
+                        row.emplace_back(number(measured[criterion]["positions"][which][r]));
                         for (const char* part : {"mean", "error", "concentration"})
                             row.emplace_back(number(at(mean, {part})));
                     }

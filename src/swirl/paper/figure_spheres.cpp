@@ -100,7 +100,7 @@ std::string sign_changes_sentence(const NamedCurve& curve) {
     const RotationPoint* const lowest = lowest_of(curve.points());
     return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f} ({}).{}", text,
                        with_error(lowest->mean, lowest->error), lowest->discs,
-                       rotation_rates[curve.rate].words, other_rates_report(crossings, curve.rate));
+                       rotation_rates[curve.rate].description, other_rates_report(crossings, curve.rate));
 }
 
 /// Every change of sign of a curve, and every number at which its sign is undetermined, in the
@@ -204,16 +204,16 @@ struct Seen {
 };
 constexpr std::array<Seen, 17> seen{{
     {"slip", "pinned_region"},
-    {"slip", "stays", "slip_stays"},
+    {"slip", "resident", "slip_resident"},
     {"slip", "cluster"},
     {"frustration", "wall_spin"},
     {"frustration", "pinned_wall_spin"},
-    {"frustration", "stay_spin"},
+    {"frustration", "resident_spin"},
     {"frustration", "spin_correlation"},
     {"frustration", "triangles"},
-    {"stays", "becoming_pinned", "stay_begins"},
-    {"stays", "becoming_free", "stay_ends"},
-    {"stays", "share", "stay_share"},
+    {"residence", "becoming_pinned", "residence_begin"},
+    {"residence", "becoming_free", "residence_end"},
+    {"residence", "share", "residence_share"},
     {"rolling", "rolling_share"},
     {"rolling", "wall_rolling_share"},
     {"rolling", "floor_slip"},
@@ -336,7 +336,7 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
             const std::string name =
                 fmt::format("spheres_measured_{}_N{}_{}", variants[v].name, n, length_of(config));
             plan.points.push_back(point_of_spheres(settings, name, config, settings.seeds(),
-                                                   {"slip", "frustration", "stays", "rolling"}));
+                                                   {"slip", "frustration", "residence", "rolling"}));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         std::vector<std::string> columns{"curve", "mu", "discs"};
@@ -357,8 +357,8 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
         for (std::size_t v = 0; v < variants.size(); ++v)
             outcome.findings.push_back(
                 fmt::format("spheres, {}: {}.", variants[v].words,
-                            at_both_ends(points, results, v, "slip", "stays",
-                                         "slip parameter of those on a stay at the wall")));
+                            at_both_ends(points, results, v, "slip", "resident",
+                                         "slip parameter of those resident at the wall")));
         outcome.files.push_back(out / "figure_spheres_pinned.csv");
         table.write(outcome.files.back());
         return outcome;
@@ -459,20 +459,20 @@ static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
         config.periods = *config.warmup + settings.periods(settings.quick ? 25 : 50, 3);
         plan.points.push_back(
             point_of_spheres(settings, fmt::format("spheres_few_N{}_{}", n, length_of(config)),
-                             config, settings.seeds(), {"stays"}));
+                             config, settings.seeds(), {"residence"}));
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table(joined({"discs", "stay_share", "stay_share_error"}, rotation_columns()));
+        Table table(joined({"discs", "residence_share", "residence_share_error"}, rotation_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const Json& share = at(results[k], {"measured", "stays", "share"});
+            const Json& share = at(results[k], {"measured", "residence", "share"});
             std::vector<Table::Cell> row{numbers[k]};
             for (const char* part : {"mean", "error"}) row.emplace_back(number(at(share, {part})));
             add_rotation(row, results[k]);
             table.add(std::move(row));
             const RotationPoint p = rotation_point(0.0, results[k], "by_time");
             outcome.findings.push_back(
-                fmt::format("{} spheres: ϖ/Ω = {}, share on a stay at the wall {}.", numbers[k],
+                fmt::format("{} spheres: ϖ/Ω = {}, share resident at the wall {}.", numbers[k],
                             with_error(p.mean, p.error),
                             with_error(number(at(share, {"mean"})), number(at(share, {"error"})))));
         }

@@ -16,7 +16,7 @@ namespace {
 
 /// What the figures of the paper, or a reader of its tables, may ask of one run. Maps are large.
 std::vector<std::string> measurements_of_the_paper(std::int64_t discs) {
-    std::vector<std::string> names{"profile",     "pinned", "stays",      "centre",     "slip",
+    std::vector<std::string> names{"profile",     "pinned", "residence",      "centre",     "slip",
                                    "frustration", "order",  "collisions", "temperature"};
     if (discs == rotating || discs == counterrotating)
         names.insert(names.end(), {"density", "flow"});
@@ -296,7 +296,7 @@ void NamedCurve::add(double discs, const Json& result) {
 }
 
 static std::string driving_sentence(const NamedCurve& curve, const Crossing& crossing) {
-    const char* const words = rotation_rates[curve.rate].words;
+    const char* const words = rotation_rates[curve.rate].description;
     if (const SignChange* const change = crossing.last()) {
         const std::string interval = change->resolved() ? fmt::format("95 %: {:.1f} to {:.1f}; ",
                                                                       change->lower, change->upper)

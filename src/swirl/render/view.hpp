@@ -25,7 +25,7 @@ class FrameAt {
     FrameAt(const Snapshot& snapshot, Frame frame);
 
     Vec2 position(const Vec2& lab) const { return m_ ? m_->position(lab) : lab; }
-    Vec2 turned(const Vec2& lab) const { return m_ ? m_->turn(lab) : lab; }
+    Vec2 turned(const Vec2& lab) const { return m_ ? m_->rotate(lab) : lab; }
     double orientation(double lab) const { return lab - angle_; }
     /// Of a disc, as seen in the frame.
     Vec2 velocity(const Vec2& lab_position, const Vec2& lab_velocity) const {

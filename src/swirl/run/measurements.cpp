@@ -15,18 +15,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-const MeasurementKind& kind_called(std::string_view name) {
+const MeasurementKind& require_measurement(std::string_view name) {
     if (const MeasurementKind* kind = find_measurement(name)) return *kind;
     std::string known;
     for (const MeasurementKind& kind : measurement_kinds())
         known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
     throw UsageError(
-        fmt::format("--measure has '{}' in its list, but each must be one of: {}; or "
-                    "the list is 'all'.",
+        fmt::format("--measure has '{}' in its list, but each must be one of: {}.\nhint: 'all' "
+                    "selects every measurement.",
                     name, known));
 }
 
-/// Rows and tables as they are before anything has been seen: names, units, descriptions.
+/// Rows and tables without data: names, units, descriptions.
 MeasurementReports empty_reports() {
     return Observation(1.0, 1.0, read_measurement_list("all")).report();
 }
@@ -41,7 +41,7 @@ std::string in_unit(std::string_view value, std::string_view unit) {
     return unit == "1" ? std::string(value) : fmt::format("{} {}", value, unit);
 }
 
-/// "theta (°), pressure (m v²/r²), …". The error of a column goes without saying.
+/// "theta (°), pressure (m v²/r²), …". Columns of errors are omitted.
 std::string columns_text(const ReportTable& table) {
     std::string text;
     for (const ReportColumn& column : table.columns) {
@@ -63,7 +63,7 @@ Json table_json(const ReportTable& table) {
     return json;
 }
 
-/// NaN, which JSON cannot hold, was written as null.
+/// JSON has no NaN; it is written as null.
 double number(const Json& json) { return json.is_number() ? json.get<double>() : not_available; }
 
 bool is_table(const Json& json) {
@@ -101,7 +101,7 @@ std::vector<std::string> read_measurement_list(std::string_view list) {
     }
     while (true) {
         const std::size_t comma = list.find(',');
-        const std::string name(kind_called(list.substr(0, comma)).name);
+        const std::string name(require_measurement(list.substr(0, comma)).name);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
         if (comma == list.npos) return names;
         list.remove_prefix(comma + 1);
@@ -123,7 +123,7 @@ std::string measurement_help_text() {
     };
     RunResult().report(line);
     for (const auto& [name, report] : empty_reports()) {
-        text += fmt::format("{}: {}\n", name, kind_called(name).description);
+        text += fmt::format("{}: {}\n", name, require_measurement(name).description);
         for (const ReportRow& row : report.rows) line(name, row);
         for (const ReportTable& table : report.tables)
             text += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
@@ -177,7 +177,7 @@ Json measured_json(const MeasurementReports& reports) {
     return measured;
 }
 
-// Directions are what says how well its angles agree (circular_mean.hpp).
+// Only directions report how well their angles agree (circular_mean.hpp).
 bool is_direction(const Json& row) { return row.is_object() && row.contains("concentration"); }
 
 std::vector<MeasuredNumber> measured_numbers(const Json& measured) {

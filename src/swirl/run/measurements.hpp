@@ -1,10 +1,10 @@
-// What is measured in a run (measure/observation.hpp), for people and for other programs: lists of
-// names read, and reports written as JSON, as CSV, as lines of text, as the table of
-// docs/measurements.md. All of it visits the rows and tables of the reports and knows no
-// measurement by name.
+// What is measured in a run (measure/observation.hpp), for people and for other programs: reads
+// lists of names, and writes reports as JSON, as CSV, as text and as the tables of
+// docs/measurements.md. All of it visits the rows and tables of the reports and knows no measurement
+// by name.
 //
 // JSON: a row is an object {"mean", "error", "effective_samples", "blocks", …} or a bare number, a
-// table an object of columns. What is not known is null.
+// table an object of columns. Missing values are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -22,17 +22,17 @@ namespace swirl {
 
 using MeasurementReports = std::vector<MeasurementReport>;
 
-/// "density,flow" or "all"; throws WrongCall, naming those there are, if one is unknown.
+/// Reads "density,flow" or "all". Throws UsageError with the list of all names if one is unknown.
 std::vector<std::string> read_measurement_list(std::string_view list);
 
-/// A line for each measurement.
+/// One line for each measurement.
 std::string measurement_list_text();
 /// The same with all their rows and tables, and the units.
 std::string measurement_help_text();
 /// The same as the tables of docs/measurements.md.
 std::string measurement_markdown();
 
-/// Of the dish of that run; the names are those of read_measurement_list().
+/// For the container of that run; the names are those of read_measurement_list().
 Observation observation_of(const RunConfig& config, std::vector<std::string> names);
 
 struct MeasuredRun {
@@ -44,7 +44,7 @@ struct MeasuredRun {
 MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
                          const RunControl& control = {});
 
-/// Name of the measurement: its rows, then its tables; or its table, if that has no name.
+/// For each measurement an object with its rows and tables. A table without a name is the object.
 nlohmann::ordered_json measured_json(const MeasurementReports& reports);
 
 /// "slip.cluster" and its value.
@@ -53,15 +53,15 @@ struct MeasuredNumber {
     Estimate estimate;
     bool direction = false;  // an angle in degrees: 350 and 10 make 0
 };
-/// Every row in such JSON.
+/// Every row in the JSON of measured_json().
 std::vector<MeasuredNumber> measured_numbers(const nlohmann::ordered_json& measured);
-/// Is this the JSON of a row that is a direction?
+/// Whether this is the JSON of a row that is a direction.
 bool is_direction(const nlohmann::ordered_json& row);
 
 /// One line for every row and every table.
 std::string measured_text(const MeasurementReports& reports);
 
-/// The files that write_measured_tables() will write there for these measurements.
+/// The files that write_measured_tables() writes for these measurements.
 std::vector<std::filesystem::path> measured_table_files(const std::vector<std::string>& names,
                                                         const std::filesystem::path& folder);
 

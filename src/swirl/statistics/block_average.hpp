@@ -1,21 +1,21 @@
-// How well a mean is known. A run delivers blocks, each covering whole periods of the swirl: the
-// sum of a quantity over the block, and the weight (number of samples, or time) it was summed over.
+// How well a mean is known. A run delivers blocks, each covering whole periods: the sum of a
+// quantity over the block, and the weight (number of samples, or time) over which it was summed.
 //
-// Mean. m = ΣS / ΣW over all blocks, so every sample counts the same however many fell into a
-// period. With S_b the sum and W_b the weight of block b this is a ratio estimator, and what
-// scatters is the residual d_b = S_b − m W_b (Cochran, Sampling Techniques, 3rd ed. 1977, §6.3):
+// Mean. m = ΣS / ΣW over all blocks, so every sample counts the same, however many fell into a
+// period. With S_b the sum and W_b the weight of block b this is a ratio estimator. What scatters
+// is the residual d_b = S_b − m W_b (Cochran, Sampling Techniques, 3rd ed. 1977, §6.3):
 //
 //     error² = τ · n/(n−1) · Σ d_b² / (ΣW)²
 //
 // Correlation between periods. τ = 1 + 2 Σ_k ρ_k is the integrated autocorrelation time of the
 // residuals in blocks, summed over Geyer's initial monotone positive sequence (Geyer 1992,
 // doi:10.1214/ss/1177011137) and taken to be at least 1. n/τ is the number of effective samples.
-// Products never reach across the seam between two runs that were merged.
+// If runs were merged, no product combines blocks of two runs.
 //
-// Units and normalisation: those of what is added. Limits: fewer than two blocks have no error
-// (NaN); no blocks, or no weight, have no mean (NaN); a NaN added makes the mean NaN. The error
-// carries a relative uncertainty of about 1/√(2n/τ). Runs of very many periods are coarsened: when
-// a run reaches 2048 blocks, neighbours are put together, so memory stays bounded.
+// Units and normalisation: those of the values added. Limits: fewer than two blocks have no error
+// (NaN); no blocks, or no weight, have no mean (NaN); a NaN added makes the mean NaN. The error has
+// a relative uncertainty of about 1/√(2n/τ). Runs of very many periods are coarsened: when a run
+// reaches 2048 blocks, neighbouring blocks are joined, so memory stays bounded.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,15 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace swirl {
 
 inline constexpr double not_available = std::numeric_limits<double>::quiet_NaN();
 
-/// A mean, its standard error, and what they rest on.
+/// A mean, its standard error, and the data behind them.
 struct Estimate {
     double mean = not_available;
     double error = not_available;
@@ -39,7 +41,14 @@ struct Estimate {
     std::size_t blocks = 0;
 };
 
-/// One block: sum of the quantity, and the weight it was summed over.
+/// An estimate times a factor: other units, or a normalisation.
+inline Estimate scaled(Estimate e, double factor) {
+    e.mean *= factor;
+    e.error *= std::abs(factor);
+    return e;
+}
+
+/// One block: the sum of the quantity, and the weight over which it was summed.
 struct Block {
     double sum = 0.0, weight = 0.0;
 };
@@ -49,12 +58,12 @@ class BlockSeries {
   public:
     static constexpr std::size_t max_blocks_per_run = 2048;
 
-    /// Closes a block of one period. A block without weight is kept: it happened, and held nothing.
+    /// Closes a block of one period. A block without weight counts as a block.
     void add(double sum, double weight) {
         if (runs_.empty()) runs_.emplace_back();
         runs_[current_].add({sum, weight});
     }
-    /// Adds the blocks of an independent run. What is added later still continues this one.
+    /// Adds the blocks of an independent run. Blocks added later still continue this run.
     void merge(const BlockSeries& other) {
         if (runs_.empty()) runs_.emplace_back();
         for (std::size_t r = 0; r < other.runs_.size(); ++r)
@@ -67,7 +76,7 @@ class BlockSeries {
         for (const Run& run : runs_) n += run.blocks.size();
         return n;
     }
-    /// Runs that hold a block.
+    /// Runs that have a block.
     std::size_t runs() const {
         std::size_t n = 0;
         for (const Run& run : runs_) n += run.blocks.empty() ? 0 : 1;
@@ -95,7 +104,7 @@ class BlockSeries {
         return e;
     }
 
-    /// Mean of each block of run `run` in order of time; blocks without weight are left out.
+    /// Mean of each block of run `run` in order of time; blocks without weight are omitted.
     std::vector<double> block_means(std::size_t run = 0) const {
         std::vector<double> means;
         if (run >= runs_.size()) return means;
@@ -124,19 +133,17 @@ class BlockSeries {
         return std::max(1.0, sum / variance);
     }
 
-    /// All that has to be kept to go on later (checkpoints).
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(current_);
-        visit(runs_);
+        visit(current_, runs_);
     }
     bool is_consistent() const { return current_ < std::max<std::size_t>(runs_.size(), 1); }
 
     struct Run {
         std::vector<Block> blocks;
         std::size_t periods_per_block = 1;
-        Block filling;           // not yet full, when a block covers several periods
-        std::size_t filled = 0;  // periods in it
+        Block filling;           // the open block, if a block covers several periods
+        std::size_t filled = 0;  // periods in the open block
 
         void add(const Block& period) {
             filling = {filling.sum + period.sum, filling.weight + period.weight};
@@ -153,10 +160,7 @@ class BlockSeries {
         }
         template <class Visitor>
         void fields(Visitor&& visit) {
-            visit(blocks);
-            visit(periods_per_block);
-            visit(filling);
-            visit(filled);
+            visit(blocks, periods_per_block, filling, filled);
         }
         bool is_consistent() const {
             return blocks.size() < max_blocks_per_run && std::has_single_bit(periods_per_block) &&
@@ -190,11 +194,11 @@ class BlockSeries {
         return sum / static_cast<double>(size());
     }
 
-    std::size_t current_ = 0;  // the run that is being added to
+    std::size_t current_ = 0;  // the run to which blocks are added
     std::vector<Run> runs_;
 };
 
-/// A series whose block is filled value by value.
+/// A series to whose open block values are added one by one.
 class BlockMean {
   public:
     void add(double value, double weight = 1.0) {
@@ -210,8 +214,7 @@ class BlockMean {
     void merge(const BlockMean& other) { series_.merge(other.series_); }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(open_);
-        visit(series_);
+        visit(open_, series_);
     }
 
   private:
@@ -226,12 +229,36 @@ inline Estimate estimate_of(std::span<const double> values) {
     return series.estimate();
 }
 
-/// The quantile of Student's t with this many degrees of freedom that `normal` is for a normal
-/// deviate.
-inline double student_quantile(double normal, double freedom) {
-    const double z = normal, z3 = z * z * z, z5 = z3 * z * z;
-    return z + (z3 + z) / (4.0 * freedom) +
-           (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
-}
+/// Base of a class M with several averages. M lists them once, in the order of its checkpoint:
+///
+///     static auto averages(auto& s) { return std::tie(s.a_, s.b_); }
+template <class M>
+class MergedAverages {
+  public:
+    /// Adds the closed blocks of an independent run.
+    void merge(const M& other) {
+        const auto into = M::averages(static_cast<M&>(*this));
+        const auto from = M::averages(other);
+        [&]<std::size_t... K>(std::index_sequence<K...>) {
+            (std::get<K>(into).merge(std::get<K>(from)), ...);
+        }
+        (std::make_index_sequence<std::tuple_size_v<decltype(into)>>{});
+    }
+
+  protected:
+    template <class Visitor>
+    void visit_averages(Visitor&& visit) {
+        std::apply(visit, M::averages(static_cast<M&>(*this)));
+    }
+};
+
+/// The same if the blocks of all averages are closed together.
+template <class M>
+class BlockAverages : public MergedAverages<M> {
+  public:
+    void close_block() {
+        this->visit_averages([](auto&... average) { (average.close_block(), ...); });
+    }
+};
 
 }  // namespace swirl

@@ -1,16 +1,17 @@
-// The mean of angles, where 350° and 10° make 0°: the direction of the sum of unit vectors.
+// The mean of angles, for which 350° and 10° average to 0°: the direction of the sum of unit
+// vectors.
 //
 //     C = Σ cos θ,  S = Σ sin θ,  θ̄ = angle of (C, S),  R̄ = √(C² + S²)/n
 //
 // R̄ is 1 if all angles agree and near 0 if they have no preferred direction (Mardia and Jupp,
-// Directional Statistics, 2000, ch. 2). Error of θ̄ from blocks of periods, taken for independent:
-// what scatters is the part of a block's sum across the mean, d_b = Σ_b sin(θ − θ̄), so
+// Directional Statistics, 2000, ch. 2). The error of θ̄ is that from blocks of periods, taken for
+// independent. What scatters is the part of a block's sum across the mean,
+// d_b = Σ_b sin(θ − θ̄), so
 //
 //     error² = n_b/(n_b − 1) Σ d_b² / (C² + S²)
 //
-// Units: radians, 0 ≤ θ̄ < 2π. Limits: no angles, or a sum that vanishes: NaN. Fewer than two
-// blocks: the error is NaN. An error of more than about 1 means that there is no direction to speak
-// of.
+// Units: radians, 0 ≤ θ̄ < 2π. Limits: no angles, or a sum of 0: NaN. Fewer than two blocks: the
+// error is NaN. An error of more than about 1 means that there is no preferred direction.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,7 @@ namespace swirl {
 
 class CircularMean {
   public:
-    /// Adds the direction of a vector; its length does not matter. The null vector has none.
+    /// Adds the direction of a vector, whatever its length. The null vector has none.
     void add(const Vec2& v) {
         const double square = dot(v, v);
         if (!(square > 0.0)) return;
@@ -74,8 +75,7 @@ class CircularMean {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        for (double* value : {&c_, &s_, &n_, &C_, &S_, &CC_, &CS_, &SS_, &N_}) visit(*value);
-        visit(blocks_);
+        visit(c_, s_, n_, C_, S_, CC_, CS_, SS_, N_, blocks_);
     }
 
   private:

@@ -1,12 +1,12 @@
 // Whether a run has reached a steady state, from the blocks of one of its averages
-// (statistics.hpp). Three tests look at all the blocks that the average rests on:
+// (block_average.hpp). Three tests use all the blocks of the average:
 //
 // Change. A step at block k divides the series where it reduces the sum of squares most, but not
 // within a twentieth of either end or within ten blocks. Its size is
 // z = (m_2 − m_1)/√(error_1² + error_2²). A step, or a trend, would enlarge the errors and so hide
 // itself. Therefore the errors rest on the residuals about a straight line in each of the two
 // parts. The error with one variance for all blocks and the error with a variance for each part are
-// both formed, and the larger counts. The limit is the quantile of Student's t that `most_change`
+// both formed, and the larger counts. The limit is the quantile of Student's t that `max_change`
 // is for a normal deviate, with Welch's degrees of freedom from the effective samples. The change
 // is a jump if the step describes it well: better than a straight line, and nearly as well as two
 // lines. Otherwise it is a drift.
@@ -28,16 +28,15 @@
 // Error rates, measured: docs/physics.md has the table
 // (tests/run/steady_state_calibration_test.cpp).
 //
-// Warm-up while a run continues. The blocks so far are tested now and then, from 50 of them on. The
-// end of the warm-up is that of MSER-5: blocks are averaged in fives, and the truncation d ≤ n/2 is
-// the one that minimises the squared standard error of the remainder,
-// Σ_{i>d}(Y_i − Ȳ_d)² / (n − d)² (White 1997, doi:10.1177/003754979706900601; batches of five:
-// White, Cobb, Spratt, Proceedings of the 2000 Winter Simulation Conference). The beginning is
-// forgotten when MSER-5 wants less than the first half cut off, and the remainder has no drift. Its
-// first fifth is compared with its last half, each with its own correlated error: |z| ≤ 4 (of
-// Student's t) with these errors as they are, and |z| ≤ 2 with the errors about straight lines.
-// (Two, because to wait a little longer costs less than to begin too early.) All blocks up to then
-// are the warm-up.
+// Warm-up while a run continues. The blocks so far are tested at intervals, from 50 of them on. The
+// end of the warm-up is that of MSER-5: blocks are averaged in fives, and the truncation d ≤ n/2
+// minimises the squared standard error of the remainder, Σ_{i>d}(Y_i − Ȳ_d)² / (n − d)² (White 1997,
+// doi:10.1177/003754979706900601; batches of five: White, Cobb, Spratt, Proceedings of the 2000
+// Winter Simulation Conference). The warm-up is over when MSER-5 cuts off less than the first half
+// and the remainder has no drift. For that, the first fifth of the remainder is compared with its
+// last half, each with its own correlated error: |z| ≤ 4 (of Student's t) with these errors, and
+// |z| ≤ 2 with the errors about straight lines. (Two, because waiting a little longer costs less
+// than beginning too early.) All blocks up to then are the warm-up.
 #pragma once
 
 #include <algorithm>
@@ -49,10 +48,11 @@
 #include <vector>
 
 #include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/student.hpp"
 
 namespace swirl {
 
-/// Blocks that the tests need.
+/// Minimum number of blocks for the tests.
 inline constexpr std::size_t min_blocks_of_a_steady_state = 50;
 /// Limit of the change test, as a normal deviate.
 inline constexpr double max_change = 4.5;
@@ -62,8 +62,8 @@ struct MeanChange {
     std::size_t at = 0;  // the first block after it
     double before = not_available, after = not_available;
     double size = not_available;      // in standard errors
-    double max_size = not_available;  // that may be chance
-    bool is_jump = false;             // and no drift
+    double max_size = not_available;  // largest size that chance explains
+    bool is_jump = false;             // otherwise a drift
     double effective_samples = 0.0;   // of the blocks, without the change
 
     bool found() const { return std::abs(size) > max_size; }
@@ -74,19 +74,20 @@ struct TwoStates {
     double low = not_available, high = not_available;
     double separation = 0.0;    // share of the variance between the two
     std::size_t changes = 0;    // from one to the other
-    double shortest_visit = 0;  // windows: to the state with the shorter visits, on average
+    double shortest_visit = 0;  // windows: mean over the visits to the state with the shorter ones
 
+    // The thresholds are those of "Two states", above.
     bool found() const { return separation >= 0.85 && changes >= 2 && shortest_visit >= 5.0; }
 };
 
-/// Whether a run has forgotten how it began, and stays in one state.
+/// Whether a run is independent of its initial state and stays in one state.
 struct SteadyState {
     enum class Verdict : std::uint8_t {
         steady,
         drifting,   // the mean changes gradually
         jumping,    // the mean changes in one step
         switching,  // between two states
-        too_short,  // fewer than 50 blocks: nothing can be said
+        too_short,  // fewer than 50 blocks: unknown
     };
     Verdict verdict = Verdict::too_short;
     MeanChange change;
@@ -94,7 +95,7 @@ struct SteadyState {
     double period = not_available;  // of the change, from the beginning of the run
 };
 
-/// What is left of a series when its straight line is taken away.
+/// The residuals of a series about its straight-line fit.
 inline std::vector<double> without_trend(std::span<const double> blocks) {
     const double n = static_cast<double>(blocks.size()), middle = (n - 1.0) / 2.0;
     double mean = 0.0, slope = 0.0;
@@ -103,10 +104,10 @@ inline std::vector<double> without_trend(std::span<const double> blocks) {
         slope += (static_cast<double>(b) - middle) * blocks[b];
     }
     slope *= n > 1.0 ? 12.0 / (n * (n * n - 1.0)) : 0.0;
-    std::vector<double> rest(blocks.begin(), blocks.end());
-    for (std::size_t b = 0; b < rest.size(); ++b)
-        rest[b] -= mean + slope * (static_cast<double>(b) - middle);
-    return rest;
+    std::vector<double> residuals(blocks.begin(), blocks.end());
+    for (std::size_t b = 0; b < residuals.size(); ++b)
+        residuals[b] -= mean + slope * (static_cast<double>(b) - middle);
+    return residuals;
 }
 
 inline double mean_of(std::span<const double> values) {
@@ -122,7 +123,8 @@ inline double squares_about(std::span<const double> values, double mean) {
     return squares;
 }
 
-/// Where two means, of the first k values and of the others, reduce the sum of squares most.
+/// The division into the first k values and the others whose two means reduce the sum of squares
+/// most.
 struct Division {
     std::size_t at = 0;
     double reduction = 0.0;
@@ -144,7 +146,8 @@ inline Division best_division(std::span<const double> values, std::size_t minimu
 struct DifferenceError {
     double variance, freedom, effective_samples;
 };
-/// Of the first `at` residuals and the others. Each part has lost a straight line.
+/// For the means of the first `at` residuals and of the others. A straight line was subtracted from
+/// each part, which costs two degrees of freedom.
 inline DifferenceError error_of_difference(std::span<const double> residuals, std::size_t at) {
     const Estimate early = estimate_of(residuals.first(at)),
                    late = estimate_of(residuals.subspan(at)), all = estimate_of(residuals);
@@ -153,14 +156,13 @@ inline DifferenceError error_of_difference(std::span<const double> residuals, st
     const double joint = all.error * all.error / (share * (1.0 - share));
     if (joint >= a + b) return {joint, all.effective_samples - 4.0, all.effective_samples};
     const double freedom =
-        (a + b) * (a + b) /
-        (a * a / (early.effective_samples - 2.0) + b * b / (late.effective_samples - 2.0));
+        welch_freedom(a, early.effective_samples - 2.0, b, late.effective_samples - 2.0);
     return {a + b, freedom, all.effective_samples};
 }
 
-/// Sets the size of a change. An autocorrelation time that is itself estimated takes its share of
-/// the effective samples: a third of the degrees of freedom are left (Error rates, above).
-inline void judge(MeanChange& change, const DifferenceError& error) {
+/// Sets the size of a change. The autocorrelation time is estimated from the same blocks, which
+/// makes the error less certain: a third of the degrees of freedom remain (Error rates, above).
+inline void set_size(MeanChange& change, const DifferenceError& error) {
     const double difference = change.after - change.before;
     change.size = difference == 0.0 ? 0.0 : difference / std::sqrt(error.variance);
     const double freedom = error.freedom / 3.0;
@@ -175,11 +177,12 @@ inline MeanChange transient(std::span<const double> blocks) {
     change.at = early.size();
     change.before = mean_of(early);
     change.after = mean_of(late);
-    const Estimate rest = estimate_of(without_trend(late));
+    const Estimate residual = estimate_of(without_trend(late));
     const double ratio = static_cast<double>(late.size()) / static_cast<double>(early.size());
-    judge(change, {rest.error * rest.error * (1.0 + ratio), rest.effective_samples - 2.0,
-                   rest.effective_samples * static_cast<double>(blocks.size()) /
-                       static_cast<double>(late.size())});
+    set_size(change,
+             {residual.error * residual.error * (1.0 + ratio), residual.effective_samples - 2.0,
+              residual.effective_samples * static_cast<double>(blocks.size()) /
+                  static_cast<double>(late.size())});
     return change;
 }
 
@@ -191,15 +194,15 @@ inline MeanChange most_likely_change(std::span<const double> blocks) {
     change.after = mean_of(late);
     std::vector<double> residuals = without_trend(early);
     for (const double residual : without_trend(late)) residuals.push_back(residual);
-    judge(change, error_of_difference(residuals, change.at));
+    set_size(change, error_of_difference(residuals, change.at));
     const double step = squares_about(early, change.before) + squares_about(late, change.after);
     const double line = squares_about(without_trend(blocks), 0.0);
     change.is_jump = step < line && squares_about(residuals, 0.0) > 0.5 * step;
     return change;
 }
 
-/// How often the tests of one steady series, with so many effective samples, find a change: upper
-/// bounds of what is measured (docs/physics.md).
+/// Upper bounds of the measured rates at which the tests of a steady series with so many effective
+/// samples find a change (docs/physics.md).
 inline double false_alarm_rate(const MeanChange& change) {
     return change.effective_samples >= 100.0  ? 0.0005
            : change.effective_samples >= 50.0 ? 0.004
@@ -249,7 +252,7 @@ inline TwoStates find_two_states(std::span<const double> blocks) {
     return best;
 }
 
-/// Is it the mean of one state?
+/// Applies the three tests.
 inline SteadyState find_steady_state(std::span<const double> blocks) {
     using Verdict = SteadyState::Verdict;
     SteadyState state;
@@ -273,7 +276,7 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
     std::vector<double> batch(n);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = 0; k < 5; ++k) batch[i] += blocks[5 * i + k] / 5.0;
-    // From the back, with Welford's update, so that nothing cancels.
+    // From the end, with Welford's update, which avoids cancellation.
     std::size_t best = 0;
     double minimum = std::numeric_limits<double>::infinity(), mean = 0.0, squares = 0.0;
     for (std::size_t d = n; d-- > 0;) {
@@ -291,7 +294,7 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
     return 5 * best;
 }
 
-/// While a run continues: are these, all blocks so far, warm-up enough?
+/// Whether the blocks so far are a sufficient warm-up. Called while a run continues.
 inline bool beginning_is_forgotten(std::span<const double> blocks) {
     constexpr double max_drift = 4.0, max_trend = 2.0;
     if (blocks.size() < min_blocks_of_a_steady_state) return false;
@@ -305,8 +308,7 @@ inline bool beginning_is_forgotten(std::span<const double> blocks) {
     const double change = std::abs(first.mean - last.mean);
     const double c = first.error * first.error, d = last.error * last.error;
     const double freedom =
-        (c + d) * (c + d) /
-        (c * c / (first.effective_samples - 1.0) + d * d / (last.effective_samples - 1.0));
+        welch_freedom(c, first.effective_samples - 1.0, d, last.effective_samples - 1.0);
     if (change > 0.0 &&
         !(change <= student_quantile(max_drift, freedom >= 1.0 ? freedom : 1.0) * std::sqrt(c + d)))
         return false;

@@ -3,29 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/statistics/student.hpp"
+
 namespace swirl {
 namespace {
 
-constexpr double z = 1.959963984540054;  // 95 %, two-sided
+constexpr double z = normal_95;
 
-std::vector<RotationPoint> usable(std::span<const RotationPoint> points) {
-    std::vector<RotationPoint> kept;
+std::vector<RotationPoint> usable_points(std::span<const RotationPoint> points) {
+    std::vector<RotationPoint> usable;
     for (const RotationPoint& p : points)
         if (std::isfinite(p.discs) && std::isfinite(p.mean) && std::isfinite(p.error) &&
             p.error >= 0.0)
-            kept.push_back(p);
-    std::stable_sort(kept.begin(), kept.end(),
+            usable.push_back(p);
+    std::stable_sort(usable.begin(), usable.end(),
                      [](const auto& a, const auto& b) { return a.discs < b.discs; });
-    return kept;
+    return usable;
 }
 
-/// +1, −1, or 0 for one that is not certain.
+/// +1, −1, or 0 if the sign is not certain.
 int sign_of(const RotationPoint& p) {
     return p.mean > certain_sign * p.error ? 1 : p.mean < -certain_sign * p.error ? -1 : 0;
 }
 
-/// Where the straight line from a to b is compatible with zero, as fractions of the way: the part
-/// of 0 … 1 in which A f² + 2 B f + C ≤ 0. Empty (first > last) if nowhere.
+/// The part of the straight line from a to b that is compatible with zero, as fractions of its
+/// length: the part of 0 … 1 in which A f² + 2 B f + C ≤ 0. Empty (first > last) if there is none.
 struct Compatible {
     double first = 1.0, last = 0.0;
 };
@@ -54,7 +56,7 @@ Compatible compatible_with_zero(const RotationPoint& a, const RotationPoint& b) 
     return found;
 }
 
-/// The middle one of the zeros of the polyline through these points.
+/// The middle zero of the polyline through these points.
 double middle_zero(std::span<const RotationPoint> points) {
     std::vector<double> zeros;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -66,7 +68,8 @@ double middle_zero(std::span<const RotationPoint> points) {
     return zeros[zeros.size() / 2];
 }
 
-/// Of a bracket: its first and last sign are certain and opposite, the others undetermined.
+/// From the points of a bracket: the first and the last sign are certain and opposite, the others
+/// undetermined.
 SignChange sign_change(std::span<const RotationPoint> points) {
     SignChange change{points.front().discs, points.back().discs, points.front().mean > 0.0};
     change.lower = change.before;
@@ -83,7 +86,7 @@ SignChange sign_change(std::span<const RotationPoint> points) {
         upper = from + width * here.last;
     }
     change.discs = middle_zero(points);
-    // Rounding could part an interval of exact points, which has no width, from its zero.
+    // The interval of exact points has no width; rounding could move its zero out of it.
     change.lower = std::fmin(lower, change.discs);
     change.upper = std::fmax(upper, change.discs);
     change.error = 0.5 * (change.upper - change.lower) / z;
@@ -92,7 +95,7 @@ SignChange sign_change(std::span<const RotationPoint> points) {
 
 std::vector<SignChange> sign_changes(const std::vector<RotationPoint>& points) {
     std::vector<SignChange> changes;
-    std::size_t last = points.size();  // whose sign is certain
+    std::size_t last = points.size();  // index of the last point with a certain sign
     for (std::size_t k = 0; k < points.size(); ++k) {
         const int sign = sign_of(points[k]);
         if (sign == 0) continue;
@@ -103,7 +106,7 @@ std::vector<SignChange> sign_changes(const std::vector<RotationPoint>& points) {
     return changes;
 }
 
-/// Of points without a change to counterrotation.
+/// The verdict for points without a change to counterrotation.
 Crossing::Verdict one_sign(const std::vector<RotationPoint>& points) {
     const auto all = [&](int sign) {
         return points.size() > 1 &&
@@ -133,7 +136,7 @@ std::vector<double> Crossing::undetermined_after() const {
 
 Crossing find_crossing(std::span<const RotationPoint> given) {
     Crossing crossing;
-    const std::vector<RotationPoint> points = usable(given);
+    const std::vector<RotationPoint> points = usable_points(given);
     crossing.points = points.size();
     crossing.changes = sign_changes(points);
     for (const RotationPoint& p : points)

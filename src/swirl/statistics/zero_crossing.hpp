@@ -21,12 +21,12 @@
 // polyline. It lies within the bracket, since the signs at both ends are certain. The error is the
 // half width of the interval divided by z.
 //
-// Coarse tables. If two points of a bracket are more than one apart, nothing is known of the curve
-// between them. Then the bracket is all that is reported: N_c and its error are not known, and the
-// interval is the bracket.
+// Coarse tables. If two points of a bracket are more than one apart, the curve between them is not
+// known. Then only the bracket is reported: N_c and its error are NaN, and the interval is the
+// bracket.
 //
 // One sign throughout is claimed only if every point certainly has it. Units: those of N. Limits:
-// points without a finite mean and a finite, non-negative error are left out; an exact point (error
+// points without a finite mean and a finite, non-negative error are omitted; an exact point (error
 // 0) has a certain sign unless its mean is 0. Errors count as those of normal deviates;
 // replicates.hpp widens those of few runs.
 #pragma once
@@ -44,10 +44,11 @@ struct RotationPoint {
     double mean, error;  // ϖ/Ω
 };
 
-/// Errors that make a sign certain: of many points one or two are off by two.
+/// Number of errors from zero that makes a sign certain. Two would not do: among many points, one or
+/// two are off by two errors.
 inline constexpr double certain_sign = 3.0;
 
-/// One change of sign, of a curve that need not be monotonic.
+/// One change of sign of a curve, which need not be monotonic.
 struct SignChange {
     double before, after;     // the bracket
     bool to_counterrotation;  // else back to rotation
@@ -68,10 +69,10 @@ struct Crossing {
     };
     Verdict verdict = Verdict::undecided;
     std::size_t points = 0;  // with a mean and an error
-    /// Of the last change to counterrotation. N_c is not known if that is a bracket of a table.
+    /// Of the last change to counterrotation; NaN if its bracket comes from a coarse table.
     double discs = not_available, error = not_available;
     double lower = not_available, upper = not_available;
-    std::vector<SignChange> changes = {};   // all that are certain, in the order of N
+    std::vector<SignChange> changes = {};   // the certain ones, in the order of N
     std::vector<double> undetermined = {};  // N whose sign is not certain, in order
 
     /// The last change to counterrotation; nullptr if there is none.

@@ -105,7 +105,7 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingSearc
         fmt::format("between N = {:.0f} and {:.0f} the lowest is ϖ/Ω = {} at N = {:.0f}",
                     search.points().front().discs, search.points().back().discs,
                     with_error(lowest->mean, lowest->error), lowest->discs);
-    const char* const words = rotation_rates[search.rate].words;
+    const char* const words = rotation_rates[search.rate].description;
     switch (c.verdict) {
         case Crossing::Verdict::crosses:
             if (!c.last()->resolved())
@@ -187,7 +187,7 @@ std::string other_rates_report(const Crossings& crossings, std::size_t without) 
     for (std::size_t r = 0; some && r < crossings.size(); ++r)
         if (r != without && crossings[r].points > 0)
             text += fmt::format("{}{} ({})", text.empty() ? " By the other rates: " : ", ",
-                                crossing_words(crossings[r]), rotation_rates[r].words);
+                                crossing_words(crossings[r]), rotation_rates[r].description);
     return text.empty() ? text : text + ".";
 }
 

@@ -36,7 +36,7 @@ InitialState container(std::size_t discs, const Surface& disc_surface,
     return scene;
 }
 
-TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
+TEST(MeasuredContainer, TheEnergyBudgetClosesToRounding) {
     for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.5, 0.97, 0.3}}) {
         Simulation simulation(container(30, surface, surface));
         Snapshot s = simulation.snapshot();
@@ -45,7 +45,7 @@ TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
         for (int k = 0; k < 100000; ++k) {
             const Event event = simulation.step();
             simulation.refresh(s, event);
-            budget.sample(event, s);
+            budget.sample_event(event, s);
         }
         // 10⁵ additions to sums of order 10⁴, each wrong by half an ulp of that: 10⁻¹² · √10⁵.
         EXPECT_NEAR(budget.accounted(), kinetic_energy(s) - before, 1e-8);
@@ -54,7 +54,7 @@ TEST(MeasuredDish, TheEnergyBudgetClosesToRounding) {
     }
 }
 
-TEST(MeasuredDish, TractionObeysCoulombAndRatesAddUp) {
+TEST(MeasuredContainer, TractionObeysCoulombAndRatesAddUp) {
     const double mu = 0.3;
     Simulation simulation(container(40, {mu, 1.0, 0.0}, {mu, 1.0, 0.0}));
     simulation.advance_to(3, 0.0);
@@ -65,11 +65,11 @@ TEST(MeasuredDish, TractionObeysCoulombAndRatesAddUp) {
     while (simulation.periods() < 23) {
         const Event event = simulation.step();
         simulation.refresh(s, event);
-        stress.sample(event, s);
-        rates.sample(event);
+        stress.sample_event(event, s);
+        rates.sample_event(event);
         if (simulation.periods() == event.periods) continue;
-        stress.close_block(s.period);
-        rates.close_block(s.period, s.size());
+        stress.close_event_block(s.period);
+        rates.close_event_block(s.period, s.size());
     }
     for (std::size_t k = 0; k < stress.slices(); ++k)
         EXPECT_LE(std::abs(stress.traction(k).mean), mu * stress.pressure(k).mean + 1e-14);
@@ -100,7 +100,7 @@ double nearest_to_the_centre_of_mass(const Snapshot& s) {
 }
 
 // The centre of mass that is followed from event to event is that of the discs.
-TEST(MeasuredDish, ALookAfterEveryEventSeesWhatALookAtAllDiscsSees) {
+TEST(MeasuredContainer, FollowedRotationEqualsThatOfAllDiscs) {
     InitialState mixture = container(30, Surface{0.7}, Surface{0.4});
     for (std::size_t i = 0; i < mixture.discs.size(); ++i) mixture.discs[i].mass = 0.3 + double(i);
     InitialState circle = container(28, Surface{1.0}, Surface{1.0});
@@ -176,8 +176,8 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
         }
         simulation.refresh(s, event);
         seen.rotation.sample(s, event);
-        seen.collisions.sample(event, s);
-        seen.frustration.sample(event, s);
+        seen.collisions.sample_event(event, s);
+        seen.frustration.sample_event(event, s);
         if (simulation.periods() == event.periods) continue;
         next = 0;
         seen.rotation.close_block();
@@ -190,7 +190,7 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
     return seen;
 }
 
-TEST(MeasuredDish, TheMeanOfTheProfileIsTheRotationLessOmega) {
+TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
     const Seen seen = watch(28, {1.0, 1.0, 0.0}, 10);
     double sum = 0.0, visits = 0.0;
     for (std::size_t k = 0; k < seen.profile.slices(); ++k) {
@@ -205,7 +205,7 @@ TEST(MeasuredDish, TheMeanOfTheProfileIsTheRotationLessOmega) {
     EXPECT_NEAR(rotation, seen.rotation.estimates().by_time.mean, 1e-12);
 }
 
-TEST(MeasuredDish, SlowThePaperOnPinnedDiscsHolds) {
+TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
     const Seen few = watch(24, {1.0, 1.0, 0.0}, 300), many = watch(48, {1.0, 1.0, 0.0}, 300);
     // "The slip parameter of the particles in the pinned region approaches 1 as N is increased."
     EXPECT_GT(many.slip.pinned_region().mean, 0.95);

@@ -1,0 +1,233 @@
+// The contract between an observation and its measurements: one concept for each kind of sampling.
+//
+// A measurement is a class in this folder with a row in measurement_list.hpp. Observation
+// (observation.hpp) finds at compile time which of the functions below the class has, and calls
+// each of them when it is due. A measurement needs
+//
+//   - at least one sampling function: sample, sample_in_lab, sample_within_period,
+//     sample_across_periods, sample_by_event or sample_event;
+//   - close_block() or close_event_block(), called at the end of every period;
+//   - merge(other), which adds the closed blocks of an independent run;
+//   - fields(visitor), which visits everything that a checkpoint must store;
+//   - report(visitor) or report(visitor, pinned_loose): see measurement_report.hpp.
+//
+// Each name stands for one function; none of them is overloaded. SamplingContract rejects a class
+// that has a function of one of these names with another signature, and a class without a sampling
+// function. A function with any other name is an ordinary function that nothing calls.
+#pragma once
+
+#include <cstddef>
+
+#include "swirl/measure/long_residence.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/voronoi.hpp"
+#include "swirl/physics/event.hpp"
+#include "swirl/physics/snapshot.hpp"
+
+namespace swirl {
+
+/// sample(view, cells, pinned): at every 100th sample, with the Voronoi cells of that frame. If
+/// pinned discs are followed, the frame is that of seven samples ago.
+template <class M>
+concept SamplesCells = requires(M& m, const MFrameView& view, const Voronoi& cells,
+                                PinnedFlags pinned) {
+    m.sample(view, cells, pinned);
+};
+
+/// sample(view, pinned): at every sample, with the frame of seven samples ago and the discs that
+/// were pinned then. Which discs are pinned is not known sooner.
+template <class M>
+concept SamplesPinned = requires(M& m, const MFrameView& view, PinnedFlags pinned) {
+    m.sample(view, pinned);
+};
+
+/// sample(view): at every sample, with the present frame in the M-frame.
+template <class M>
+concept SamplesMFrame =
+    !SamplesCells<M> && !SamplesPinned<M> && requires(M & m, const MFrameView& view) {
+    m.sample(view);
+};
+
+/// sample_residences(residences): after every sample. `residences` knows which discs were on a
+/// long residence at the wall some time ago.
+template <class M>
+concept SamplesResidences = requires(M& m, const LongResidences& residences) {
+    m.sample_residences(residences);
+};
+
+/// sample_in_lab(snapshot): at every sample, in the lab frame.
+template <class M>
+concept SamplesLab = requires(M& m, const Snapshot& lab) {
+    m.sample_in_lab(lab);
+};
+
+/// sample_within_period(snapshot): at every 7th sample, in the lab frame.
+template <class M>
+concept SamplesWithinPeriod = requires(M& m, const Snapshot& lab) {
+    m.sample_within_period(lab);
+};
+
+/// sample_across_periods(snapshot): at the first sample of every block, in the lab frame.
+template <class M>
+concept SamplesAcrossPeriods = requires(M& m, const Snapshot& lab) {
+    m.sample_across_periods(lab);
+};
+
+/// begin_tracks(): the discs of the next sample are not those of the last. Needed together with
+/// sample_within_period or sample_across_periods.
+template <class M>
+concept BeginsTracks = requires(M& m) {
+    m.begin_tracks();
+};
+
+/// sample_by_event(view): the state after every 32nd event, in the M-frame.
+template <class M>
+concept SamplesByEvent = requires(M& m, const MFrameView& view) {
+    m.sample_by_event(view);
+};
+
+/// sample_event(event): after every event.
+template <class M>
+concept SamplesEvents = requires(M& m, const Event& event) {
+    m.sample_event(event);
+};
+
+/// sample_event(event, after): after every event, with the state after it.
+template <class M>
+concept SamplesEventStates = requires(M& m, const Event& event, const Snapshot& after) {
+    m.sample_event(event, after);
+};
+
+/// close_block(): at the end of every period.
+template <class M>
+concept ClosesBlocks = requires(M& m) {
+    m.close_block();
+};
+
+/// close_event_block(duration): at the end of every period, for the events in it. It is not called
+/// if no event was ever sampled: then even "no collisions" is not known.
+template <class M>
+concept ClosesEventBlocks = requires(M& m, double duration) {
+    m.close_event_block(duration);
+};
+
+/// close_event_block(duration, discs): the same, with the number of discs.
+template <class M>
+concept ClosesEventBlocksOfDiscs = requires(M& m, double duration, std::size_t discs) {
+    m.close_event_block(duration, discs);
+};
+
+/// add_energy(missing): once, at the end. ½⟨u²⟩ of a disc is larger by `missing` than its smoothed
+/// velocities give.
+template <class M>
+concept AddsEnergy = requires(M& m, double missing) {
+    m.add_energy(missing);
+};
+
+/// report(visitor): the results (measurement_report.hpp).
+template <class M>
+concept Reports = requires(const M& m, Report& report) {
+    m.report(report);
+};
+
+/// report(visitor, pinned_loose): the results, with those of the tracks of pinned discs.
+template <class M>
+concept ReportsTracks = requires(const M& m, Report& report, const PinnedLoose& tracks) {
+    m.report(report, tracks);
+};
+
+/// Measurements that need frames: positions and velocities at equal time steps.
+template <class M>
+concept SamplesFrames = SamplesMFrame<M> || SamplesPinned<M> || SamplesCells<M> || SamplesLab<M> ||
+    SamplesWithinPeriod<M> || SamplesAcrossPeriods<M>;
+template <class M>
+concept SamplesAnything =
+    SamplesFrames<M> || SamplesByEvent<M> || SamplesEvents<M> || SamplesEventStates<M>;
+
+namespace has_member {
+
+// A class that inherits the same name from two bases cannot name it: the name is ambiguous. So M
+// has a member `name`, whatever it is, exactly if Both<M>::name cannot be formed.
+#define SWIRL_HAS_MEMBER(name)         \
+    namespace name##_detail {          \
+        struct Other {                 \
+            int name;                  \
+        };                             \
+        template <class M>             \
+        struct Both : M, Other {};     \
+    }                                  \
+    template <class M>                 \
+    concept name = !requires {         \
+        &name##_detail::Both<M>::name; \
+    };
+
+SWIRL_HAS_MEMBER(sample)
+SWIRL_HAS_MEMBER(sample_residences)
+SWIRL_HAS_MEMBER(sample_in_lab)
+SWIRL_HAS_MEMBER(sample_within_period)
+SWIRL_HAS_MEMBER(sample_across_periods)
+SWIRL_HAS_MEMBER(begin_tracks)
+SWIRL_HAS_MEMBER(sample_by_event)
+SWIRL_HAS_MEMBER(sample_event)
+SWIRL_HAS_MEMBER(close_block)
+SWIRL_HAS_MEMBER(close_event_block)
+SWIRL_HAS_MEMBER(add_energy)
+SWIRL_HAS_MEMBER(fields)
+#undef SWIRL_HAS_MEMBER
+
+}  // namespace has_member
+
+/// Fails to compile if M breaks the contract. The compiler names M next to the message.
+template <class M>
+struct SamplingContract {
+    static_assert(!has_member::sample<M> || SamplesMFrame<M> || SamplesPinned<M> || SamplesCells<M>,
+                  "'sample' must be callable as sample(const MFrameView&), "
+                  "sample(const MFrameView&, PinnedFlags) or "
+                  "sample(const MFrameView&, const Voronoi&, PinnedFlags)");
+    static_assert(!has_member::sample_residences<M> || SamplesResidences<M>,
+                  "'sample_residences' must be callable as "
+                  "sample_residences(const LongResidences&)");
+    static_assert(!has_member::sample_in_lab<M> || SamplesLab<M>,
+                  "'sample_in_lab' must be callable as sample_in_lab(const Snapshot&)");
+    static_assert(!has_member::sample_within_period<M> || SamplesWithinPeriod<M>,
+                  "'sample_within_period' must be callable as "
+                  "sample_within_period(const Snapshot&)");
+    static_assert(!has_member::sample_across_periods<M> || SamplesAcrossPeriods<M>,
+                  "'sample_across_periods' must be callable as "
+                  "sample_across_periods(const Snapshot&)");
+    static_assert(!has_member::begin_tracks<M> || BeginsTracks<M>,
+                  "'begin_tracks' must be callable as begin_tracks()");
+    static_assert(BeginsTracks<M> || !(SamplesWithinPeriod<M> || SamplesAcrossPeriods<M>),
+                  "a class with sample_within_period or sample_across_periods needs "
+                  "'begin_tracks'");
+    static_assert(!has_member::sample_by_event<M> || SamplesByEvent<M>,
+                  "'sample_by_event' must be callable as sample_by_event(const MFrameView&)");
+    static_assert(!has_member::sample_event<M> || SamplesEvents<M> || SamplesEventStates<M>,
+                  "'sample_event' must be callable as sample_event(const Event&) or "
+                  "sample_event(const Event&, const Snapshot&)");
+    static_assert(!has_member::close_block<M> || ClosesBlocks<M>,
+                  "'close_block' must be callable as close_block()");
+    static_assert(!has_member::close_event_block<M> || ClosesEventBlocks<M> ||
+                      ClosesEventBlocksOfDiscs<M>,
+                  "'close_event_block' must be callable as close_event_block(double) or "
+                  "close_event_block(double, std::size_t)");
+    static_assert(ClosesBlocks<M> || ClosesEventBlocks<M> || ClosesEventBlocksOfDiscs<M>,
+                  "a measurement needs 'close_block' or 'close_event_block'");
+    static_assert(!has_member::add_energy<M> || AddsEnergy<M>,
+                  "'add_energy' must be callable as add_energy(double)");
+    static_assert(
+        requires(M & m, const M& other) { m.merge(other); },
+        "'merge' must be callable as merge(const M&)");
+    static_assert(has_member::fields<M>, "a measurement needs a member template 'fields'");
+    static_assert(Reports<M> || ReportsTracks<M>,
+                  "'report' must be callable as report(visitor) const or "
+                  "report(visitor, const PinnedLoose&) const");
+    static_assert(SamplesAnything<M>,
+                  "a measurement needs a sampling function: sample, sample_in_lab, "
+                  "sample_within_period, sample_across_periods, sample_by_event or sample_event");
+    static constexpr bool holds = true;
+};
+
+}  // namespace swirl
