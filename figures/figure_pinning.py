@@ -31,7 +31,7 @@ def main():
                             linewidth=1.1, label=label)
                 told.append((here[0][name + "_resultant"], here[0][name + "_mean"], color))
             axes.set_title(f"$N = {discs:.0f}$, {WHICH[which]}: resultant "
-                           f"{told[0][0]:.2f} (SI), {told[1][0]:.2f} (stays)",
+                           f"{told[0][0]:.2f} (SI), {told[1][0]:.2f} (residences)",
                            fontsize=style.SMALLEST + 0.5, pad=11)
             for _, mean, color in told:
                 # Above the axes, where no curve is.

@@ -126,7 +126,7 @@ CAPTIONS = {
     "pinning": "How the places at which discs become pinned (above) and free (below) are distributed over the "
                "angle θ, for few discs and for many. Red, dashed: by the criterion of the SI as it stands, a disc "
                "is pinned while it flies along the wall, however far from it, and becomes pinned where it turns "
-               "sharply. Blue: a disc is pinned resident in the layer at the wall, its rim within half a radius "
+               "sharply. Blue: a disc is pinned while it is resident in the layer at the wall, its rim within half a radius "
                "of it, that lasts at least 40/511 of a swirl. Triangles: mean directions. The resultant is the "
                "length of the mean of unit vectors towards the places: 1 if all are one, 0 if they have no mean "
                "direction. Claims on the pinned region go by the residences.",

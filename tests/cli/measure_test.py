@@ -1,4 +1,4 @@
-"""Tracks with a known answer: a simulated dish, seen by a camera that we make, and measured."""
+"""Tracks with a known result: a simulated container, sampled as by a camera, and measured."""
 
 import json
 import math
@@ -20,7 +20,7 @@ class MeasureTest(InFolder):
         cls.table = None
 
     def answer(self):
-        """What the engine's own frames say, and the positions in disc radii: {frame: {disc: (x, y)}}."""
+        """Results from the engine's own frames, and the positions in disc radii: {frame: {disc: (x, y)}}."""
         if MeasureTest.table is None:
             recording = self.path("t.h5")
             done = swirl("run", "--discs", DISCS, "--periods", SWIRLS, "--frames", FRAMES,
@@ -66,7 +66,7 @@ class MeasureTest(InFolder):
         return json.loads(done.stdout)
 
     def assert_like_the_exact(self, found, tolerance=0.01):
-        """Not a statistical matter: the same motion, seen through differences of positions."""
+        """The same motion, with velocities from differences of positions: no statistical error."""
         exact = self.answer()[0]
         for name in ("by_time", "rigid_by_time"):
             self.assertAlmostEqual(found["rotation"][name]["mean"], exact["rotation"][name]["mean"],
@@ -77,13 +77,13 @@ class MeasureTest(InFolder):
         for name, delta in (("becoming_pinned", 3.0), ("becoming_free", 3.0)):
             self.assertAlmostEqual(found["measured"]["pinned"][name]["mean"],
                                    exact["measured"]["pinned"][name]["mean"], delta=delta)
-        # A collision in the middle of two steps is smeared: some energy is missed, and never found.
+        # A collision between two frames is averaged: some energy is always lost, never gained.
         share = (found["measured"]["temperature"]["granular"]["mean"] /
                  exact["measured"]["temperature"]["granular"]["mean"])
         self.assertTrue(0.85 < share < 1.0, share)
         return found
 
-    def test_the_numbers_of_a_run_come_back_in_its_units(self):
+    def test_results_equal_those_of_the_run(self):
         _, flow, table = self.answer()
         self.write(table)
         found = self.assert_like_the_exact(self.measured("--tables", self.path("tables")))
@@ -99,9 +99,9 @@ class MeasureTest(InFolder):
                     differences += (float(a) - float(b)) ** 2
         self.assertLess(differences, 0.01 ** 2 * squares)
 
-    def test_a_film_in_the_mirror_gives_the_same(self):
+    def test_mirrored_tracks_give_the_same_results(self):
         self.write(self.answer()[2], mirrored=True)
-        # There the dish was at the left of the swirl centre at frame 0, and ran clockwise.
+        # In the mirror the container begins left of the swirl centre and moves clockwise.
         found = self.assert_like_the_exact(self.measured("--clockwise", phase=180))
         self.assertAlmostEqual(found["camera"]["fitting_phase"], 180.0, delta=3.0)
 
@@ -141,25 +141,25 @@ class MeasureTest(InFolder):
                        "--container-radius", RADIUS, "--phase", 6)
         self.assertIn("fit the container better with --phase", report.stdout)
 
-    def test_lost_frames_and_exchanged_names_are_mended(self):
+    def test_dropped_frames_and_swapped_ids_are_repaired(self):
         table = {k: dict(f) for k, f in self.answer()[2].items()}
         for k in list(table):
             if k > 3000:
                 table[k] = dict(table[k])
-                table[k][100] = table[k].pop(7)        # found again under another name
-                table[k][3], table[k][4] = table[k][4], table[k][3]  # and these exchanged
+                table[k][100] = table[k].pop(7)        # found again with another ID
+                table[k][3], table[k][4] = table[k][4], table[k][3]  # identity swap
         for k in (900, 5000, 5001, 5002, 9000):
-            del table[k]                                # frames lost
+            del table[k]                                # dropped frames
         for k in range(7000, 7004):
-            del table[k][9]                             # a disc lost for a moment
-        table[8000][77] = (0.0, 0.0)                    # a flash
+            del table[k][9]                             # a disc missing in four frames
+        table[8000][77] = (0.0, 0.0)                    # a spurious detection
         self.write(table)
         found = self.assert_like_the_exact(self.measured())
         camera = found["camera"]
         self.assertEqual((camera["renamed"], camera["filled_positions"], camera["dropped_positions"],
                           camera["breaks"]), (3, 5 * DISCS + 4, 1, 0))
 
-    def test_discs_that_come_and_go_cost_frames_and_not_the_film(self):
+    def test_discs_may_appear_and_disappear(self):
         table = {k: dict(f) for k, f in self.answer()[2].items()}
         for disc, (begin, end) in enumerate(((2000, 2040), (8000, 8100), (12000, 12008))):
             for k in range(begin, end):
@@ -169,9 +169,9 @@ class MeasureTest(InFolder):
         self.write(table)
         found = self.assert_like_the_exact(self.measured())
         self.assertEqual(found["camera"]["breaks"], 6)
-        self.assertIn("come or go", found["remark"])
+        self.assertIn("appear or disappear", found["remark"])
 
-    def test_frames_at_the_corners_alone_say_that_they_see_no_rolling(self):
+    def test_frames_at_the_vertices_alone_warn_that_rolling_is_invisible(self):
         for frames, remark in ((30, "No sphere rolls in any of the frames"), (31, "")):
             recording = self.path(f"{frames}.h5")
             done = swirl("run", "--preset", "experiment", "--discs", 8, "--periods", 2, "--frames", frames,
@@ -184,13 +184,13 @@ class MeasureTest(InFolder):
         said = swirl("measure", self.path("30.h5"), "--measure", "rolling").stdout
         self.assertIn("One with 511 frames per swirl would tell", said)
 
-    def test_a_single_frame_tells_no_rotation(self):
+    def test_a_single_frame_gives_no_rotation(self):
         self.write({0: self.answer()[2][0]})
         self.rejected("a single frame", skip=0, measure="density")
 
-    def test_discs_that_are_never_the_same_tell_nothing_of_tracks(self):
-        # Everybody gets a new name every ten frames, and nobody is where somebody was: every second
-        # stretch of ten is lost.
+    def test_discs_with_changing_ids_have_no_tracks(self):
+        # Every disc gets a new ID every ten frames, at a position where no disc was: every second group
+        # of ten frames is dropped.
         table = {}
         for k, frame in self.answer()[2].items():
             if k < 2000 and k // 10 % 2 == 0:

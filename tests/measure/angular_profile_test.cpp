@@ -67,7 +67,7 @@ TEST(AngularProfile, IsNaNWithoutDiscsAndForOneDisc) {
     for (std::size_t k = 0; k < 8; ++k) EXPECT_TRUE(std::isnan(profile.normalised(k).mean));
 }
 
-/// Discs at places of the M-frame with velocities relative to the container.
+/// Discs at these positions in the M-frame, with velocities relative to the container.
 Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
     Snapshot s = empty_container(0.2);
     const MFrame f = m_frame(s);
@@ -76,9 +76,10 @@ Snapshot discs_at(const std::vector<std::pair<Vec2, Vec2>>& discs) {
     return s;
 }
 
-// Two discs that move alike turn at the rate 0 about their centre of mass (½, 0), so at −Ω in the
-// M-frame, where their speed is that of the frame's turning, Ω·½·|(5, 0)|. The wall at (±R, 0) has
-// the velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓ ½).
+// Two discs with the same velocity rotate at the rate 0 about their centre of mass (½, 0), so at −Ω
+// in the M-frame. There their speed is that of the frame's rotation, Ω·½·|(5, 0)|. The wall at
+// (±R, 0) has the velocity −(0.5, 0.2) relative to the centre of mass, and passes it at ∓0.2/(R ∓
+// ½).
 TEST(AngularProfile, UsesTheVelocityOfTheCentreOfMass) {
     AngularProfile profile(2);
     profile.sample(discs_at({{{3.0, 1e-9}, {0.5, 0.2}}, {{-2.0, -1e-9}, {0.5, 0.2}}}));
@@ -87,7 +88,7 @@ TEST(AngularProfile, UsesTheVelocityOfTheCentreOfMass) {
     for (const std::size_t k : {0u, 1u}) {
         const double sign = k == 0 ? 1.0 : -1.0;
         EXPECT_NEAR(profile.plain(k).mean, -1.0, 1e-12);
-        // The places are 10⁻⁹ beside the axis.
+        // The positions are 10⁻⁹ off the axis.
         EXPECT_NEAR(profile.wall(k).mean, -sign * 0.2 / (R - sign * 0.5) / omega - 1.0, 1e-8);
         EXPECT_NEAR(profile.distance(k).mean, 2.5, 1e-8);
         EXPECT_NEAR(profile.speed(k).mean, 2.5 * omega, 1e-8);

@@ -7,7 +7,7 @@
 namespace swirl {
 namespace {
 
-/// A dish whose discs are at these places of the M-frame and rest in it.
+/// A container with discs at rest at these positions in the M-frame.
 Snapshot resting_at(const std::vector<Vec2>& places, double u = 0.0) {
     Snapshot s = empty_container(u);
     const MFrame frame = m_frame(s);
@@ -22,24 +22,24 @@ TEST(ClusterCentre, CentreLeftOfMHasASmallerTheta) {
         const Vec2 c{-2.0, -2.0 * std::sqrt(3.0)};
         centre.sample(resting_at({c + Vec2{1.5, 0.0}, c - Vec2{1.5, 0.0}}, u));
         centre.close_block();
-        EXPECT_NEAR(centre.x().mean, -2.0, 1e-9);
-        EXPECT_NEAR(centre.distance().mean, 4.0, 1e-9);
+        EXPECT_NEAR(row_of(centre, "x").mean, -2.0, 1e-9);
+        EXPECT_NEAR(row_of(centre, "distance").mean, 4.0, 1e-9);
         EXPECT_NEAR(centre.direction().angle().mean * degrees_per_radian, 240.0, 1e-9);
-        EXPECT_EQ(centre.left().mean, 1.0);
+        EXPECT_EQ(row_of(centre, "left").mean, 1.0);
     }
 }
 
 TEST(ClusterCentre, ElongationIsTheRatioOfTheAxes) {
     ClusterCentre centre(1);
-    // Mean squares 9/2 and 1/2: three times as long as wide, however it lies.
+    // Mean squares 9/2 and 1/2: three times as long as wide, in any direction.
     const Vec2 along = unit_circle(0.1), across = perpendicular(along);
     centre.sample(resting_at({3.0 * along, -3.0 * along, across, -1.0 * across}));
     centre.close_block();
-    EXPECT_NEAR(centre.elongation().mean, 3.0, 1e-9);
+    EXPECT_NEAR(row_of(centre, "elongation").mean, 3.0, 1e-9);
     ClusterCentre line(1);
     line.sample(resting_at({3.0 * along, -3.0 * along, 0.0 * along}));
     line.close_block();
-    EXPECT_TRUE(std::isnan(line.elongation().mean));
+    EXPECT_TRUE(std::isnan(row_of(line, "elongation").mean));
 }
 
 TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
@@ -48,22 +48,22 @@ TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     ClusterCentre at_M(1);
     at_M.sample(s);
     at_M.close_block();
-    EXPECT_NEAR(at_M.centrifugal().mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
-    EXPECT_NEAR(at_M.coriolis().mean, 0.0, 1e-9);
-    // At rest relative to the container: with the wall's −Ω about C.
+    EXPECT_NEAR(row_of(at_M, "centrifugal").mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
+    EXPECT_NEAR(row_of(at_M, "coriolis").mean, 0.0, 1e-9);
+    // At rest relative to the container: it rotates with the wall, at −Ω about C.
     Snapshot dragged = empty_container();
     add_disc(dragged, dragged.container_centre + Vec2{0.0, 5.0}, dragged.container_velocity);
     ClusterCentre with_wall(1);
     with_wall.sample(dragged);
     with_wall.close_block();
-    EXPECT_NEAR(with_wall.coriolis().mean, 2.0 * omega * omega * 5.0, 1e-9);
+    EXPECT_NEAR(row_of(with_wall, "coriolis").mean, 2.0 * omega * omega * 5.0, 1e-9);
 }
 
 TEST(ClusterCentre, IsNaNWithoutSamples) {
     ClusterCentre centre(1);
     centre.sample(empty_container());
     centre.close_block();
-    EXPECT_TRUE(std::isnan(centre.x().mean));
+    EXPECT_TRUE(std::isnan(row_of(centre, "x").mean));
     EXPECT_TRUE(std::isnan(centre.direction().angle().mean));
 }
 
@@ -77,9 +77,9 @@ TEST(ClusterCentre, MergedEqualsOneLongRun) {
         both.close_block();
     }
     a.merge(b);
-    EXPECT_NEAR(a.x().mean, both.x().mean, 1e-12);
+    EXPECT_NEAR(row_of(a, "x").mean, row_of(both, "x").mean, 1e-12);
     EXPECT_NEAR(a.direction().angle().mean, both.direction().angle().mean, 1e-12);
-    EXPECT_EQ(a.elongation().blocks, both.elongation().blocks);
+    EXPECT_EQ(row_of(a, "elongation").blocks, row_of(both, "elongation").blocks);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 const double omega = 2.0 * pi / paper_period;
 
-/// N discs turning rigidly at `rate` about a point that moves.
+/// N discs that rotate rigidly at `rate` about a moving point.
 Snapshot rigid_cluster(std::size_t n, double rate, std::uint64_t seed) {
     Snapshot s = random_discs(n, seed);
     for (std::size_t i = 0; i < n; ++i) {
@@ -22,7 +22,7 @@ Snapshot rigid_cluster(std::size_t n, double rate, std::uint64_t seed) {
     return s;
 }
 
-/// The definition, written as plainly as it is stated.
+/// The definition, written out.
 RotationSample by_definition(const Snapshot& s) {
     Vec2 r{0, 0}, v{0, 0};
     double mass = 0.0;
@@ -43,7 +43,7 @@ RotationSample by_definition(const Snapshot& s) {
     return {individual / static_cast<double>(s.size()), angular / square};
 }
 
-/// What just happened, if it is not known: then the centre of mass is looked for anew.
+/// An event after which the centre of mass is summed up again.
 const Event anything{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
 const Event collision{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {}, 0.0};
 
@@ -63,7 +63,7 @@ TEST(ClusterRotation, AgreesWithItsDefinitionForEveryNumberAndAnyMasses) {
         for (std::size_t i = 0; i < n; ++i) s.mass[i] = 2.0 + noise();
         const RotationSample expected = by_definition(s), sample = cluster_rotation(s);
         const RotationSample earlier = cluster_rotation(held_earlier(s));
-        // Other order of additions; one disc near the centre of mass magnifies rounding.
+        // Another order of additions; a disc near the centre of mass magnifies rounding.
         EXPECT_NEAR(sample.individual, expected.individual, 1e-12) << n;
         EXPECT_NEAR(sample.rigid, expected.rigid, 1e-14) << n;
         EXPECT_NEAR(earlier.individual, expected.individual, 1e-12) << n;
@@ -71,7 +71,7 @@ TEST(ClusterRotation, AgreesWithItsDefinitionForEveryNumberAndAnyMasses) {
     }
 }
 
-/// Spheres on a floor, accelerated, each held at a time of its own.
+/// Accelerated spheres on a floor; each state belongs to another time.
 Snapshot pushed_spheres(std::size_t n, std::uint64_t seed) {
     Snapshot s = held_earlier(random_discs(n, seed));
     s.resize_for_spheres(n);
@@ -86,7 +86,7 @@ TEST(ClusterRotation, UsesTheAccelerationOfSpheres) {
     for (std::size_t n = 2; n <= 60; ++n) {
         const Snapshot s = pushed_spheres(n, n);
         const RotationSample expected = by_definition(s), sample = cluster_rotation(s);
-        // As above.
+        // Another order of additions; a disc near the centre of mass magnifies rounding.
         EXPECT_NEAR(sample.individual, expected.individual, 1e-11) << n;
         EXPECT_NEAR(sample.rigid, expected.rigid, 1e-13) << n;
         for (const Width width : {Width::baseline, Width::avx2, Width::avx512}) {
@@ -133,7 +133,7 @@ TEST(ClusterRotation, IndividualMeanOmitsADiscOnTheCentreOfMass) {
                 add_disc(s, p, 0.25 * perpendicular(p));
             }
             // The centre of mass is a sum of up to 46 rounded positions of size 4, so it lies
-            // 10⁻¹⁵ beside the disc, well within 2⁻⁴⁰ container radii.
+            // 10⁻¹⁵ away from the disc, well within 2⁻⁴⁰ container radii.
             EXPECT_NEAR(cluster_rotation(s).individual, 0.25, 1e-14) << others;
             EXPECT_NEAR(cluster_rotation(s).rigid, 0.25, 1e-14) << others;
             ClusterRotation rotation;
@@ -142,8 +142,8 @@ TEST(ClusterRotation, IndividualMeanOmitsADiscOnTheCentreOfMass) {
     }
 }
 
-// The same with a disc there that moves through the centre of mass: about the ring's rate in the
-// mean, as Σ r = 0 on a ring, but r × v/r² of that disc would be 10¹⁵.
+// A disc moves through the centre of mass of a ring. The mean is about the ring's rate, since
+// Σ r = 0 on a ring, but r × v/r² of that disc would be 10¹⁵.
 TEST(ClusterRotation, OmitsADiscOnTheCentreOfMassAtAnyIndex) {
     constexpr int others = 46;
     for (int place = 0; place <= others; ++place) {
@@ -173,7 +173,7 @@ TEST(ClusterRotation, SampleByTimeEqualsFirstSampleAfterAnEvent) {
     }
 }
 
-/// Gives disc i a push, as the wall would.
+/// Gives disc i an impulse, as the wall would.
 Event push(Snapshot& s, std::size_t i, const Vec2& normal, double along, double across) {
     const Vec2 tangent{normal.y, -normal.x};
     Disc d = s.disc(i).at(s.clock);
@@ -195,7 +195,7 @@ TEST(ClusterRotation, FollowsTheCentreOfMassThroughWallImpulses) {
             const auto i = static_cast<std::size_t>(0.5 * (1.0 + noise()) * double(n));
             const Event event = push(s, i, unit_circle(noise()), noise(), noise());
             const RotationSample seen = rotation.sample(s, event), found = cluster_rotation(s);
-            // A hundred pushes, each rounded to 10⁻¹⁵; a disc near the centre magnifies it.
+            // A hundred impulses, each rounded to 10⁻¹⁵; a disc near the centre magnifies it.
             EXPECT_NEAR(seen.individual, found.individual, 1e-10) << n;
             EXPECT_NEAR(seen.rigid, found.rigid, 1e-12) << n;
         }
@@ -282,7 +282,7 @@ TEST(ClusterRotation, MergedEqualsOneLongRun) {
         (block < 4 ? first : second).close_block();
     }
     first.merge(second);
-    // Equal but for the order of a few additions.
+    // Only the order of a few additions differs.
     EXPECT_NEAR(first.estimates().by_event.mean, whole.estimates().by_event.mean, 1e-14);
     EXPECT_NEAR(first.estimates().rigid_by_time.mean, whole.estimates().rigid_by_time.mean, 1e-14);
     EXPECT_EQ(first.by_event().size(), 10u);

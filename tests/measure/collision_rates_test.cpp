@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "measure/snapshots.hpp"
+
 namespace swirl {
 namespace {
 
@@ -17,8 +19,8 @@ TEST(CollisionRates, CountPerDiscAndTime) {
         for (int k = 0; k < 30; ++k) rates.sample_event(event_of(EventKind::path_vertex));
         rates.close_event_block(4.0, 5);
     }
-    EXPECT_DOUBLE_EQ(rates.disc_disc().mean, 60.0 / 20.0);
-    EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 20.0 / 20.0);
+    EXPECT_DOUBLE_EQ(row_of(rates, "disc_disc_rate").mean, 60.0 / 20.0);
+    EXPECT_DOUBLE_EQ(row_of(rates, "disc_wall_rate").mean, 20.0 / 20.0);
     EXPECT_DOUBLE_EQ(rates.mean_free_time().mean, 20.0 / 80.0);
     EXPECT_NEAR(rates.mean_free_time().error, 0.0, 1e-15);
 }
@@ -30,21 +32,21 @@ TEST(CollisionRates, ErrorOfTheMeanFreeTimeFollowsFromTheRate) {
         for (int k = 0; k < hits; ++k) rates.sample_event(event_of(EventKind::disc_wall));
         rates.close_event_block(1.0, 1);
     }
-    EXPECT_DOUBLE_EQ(rates.disc_wall().mean, 2.0);
-    EXPECT_DOUBLE_EQ(rates.disc_wall().error, 1.0);
+    EXPECT_DOUBLE_EQ(row_of(rates, "disc_wall_rate").mean, 2.0);
+    EXPECT_DOUBLE_EQ(row_of(rates, "disc_wall_rate").error, 1.0);
     EXPECT_DOUBLE_EQ(rates.mean_free_time().mean, 0.5);
     EXPECT_DOUBLE_EQ(rates.mean_free_time().error, 0.25);
 }
 
 TEST(CollisionRates, AreNaNWithoutTimeOrDiscsAndZeroWithoutCollisions) {
     CollisionRates rates;
-    EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
+    EXPECT_TRUE(std::isnan(row_of(rates, "disc_disc_rate").mean));
     rates.sample_event(event_of(EventKind::disc_disc));
     rates.close_event_block(4.0, 0);
-    EXPECT_TRUE(std::isnan(rates.disc_disc().mean));
+    EXPECT_TRUE(std::isnan(row_of(rates, "disc_disc_rate").mean));
     CollisionRates quiet;
     quiet.close_event_block(4.0, 5);
-    EXPECT_EQ(quiet.disc_disc().mean, 0.0);
+    EXPECT_EQ(row_of(quiet, "disc_disc_rate").mean, 0.0);
     EXPECT_TRUE(std::isinf(quiet.mean_free_time().mean));
 }
 
@@ -59,7 +61,7 @@ TEST(CollisionRates, MergedEqualsOneLongRun) {
         (block < 4 ? first : second).close_event_block(2.0, 3);
     }
     first.merge(second);
-    EXPECT_DOUBLE_EQ(first.disc_disc().mean, whole.disc_disc().mean);
+    EXPECT_DOUBLE_EQ(row_of(first, "disc_disc_rate").mean, row_of(whole, "disc_disc_rate").mean);
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ TEST(ContainerFit, ClosestPairEqualsThatOfAllPairs) {
     }
 }
 
-/// Discs all round at the wall of a dish that began at this angle and runs in this sense, with the
-/// container said to be elsewhere.
+/// Discs all along the wall of a container that began at this angle and moves in this direction.
+/// The snapshots give another position of the container.
 FittingPhase seen(double degrees, double sense) {
     FittingPhase fit;
     for (int k = 0; k < 50; ++k) {

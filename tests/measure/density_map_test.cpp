@@ -13,7 +13,7 @@ constexpr double R = paper_container_radius;
 
 TEST(DensityMap, UniformPointsGiveAFlatMap) {
     DensityMap map(R, 10);
-    // A lattice of points, 5 × 5 in every cell, seen at many phases of the swirl.
+    // A lattice of points, 5 × 5 in every cell, sampled at many phases of the period.
     for (int k = 0; k < 8; ++k) {
         Snapshot s = empty_container(k / 8.0);
         const MFrame f = m_frame(s);

@@ -63,8 +63,9 @@ TEST(Diffusion, GrowsWithTheLagForARandomWalk) {
 }
 
 TEST(Diffusion, OverlappingDisplacementsCountAsOneSample) {
-    // The scatter over many walks against the error that each states, for a lag of four periods
-    // (one sample each): √L is an upper bound for what overlapping does (√(2L/3) for a free walk).
+    // The scatter over many walks, compared with the error that each reports, for a lag of four
+    // periods (one sample each). √L is an upper bound of the effect of overlap (√(2L/3) for a free
+    // walk).
     double stated = 0.0, sum = 0.0, squares = 0.0;
     constexpr int walks = 200;
     for (int walk = 0; walk < walks; ++walk) {
@@ -85,7 +86,7 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOneSample) {
         squares += e.mean * e.mean / walks;
     }
     const double scatter = std::sqrt(squares - sum * sum);
-    // A fifth on either side: 200 walks know their scatter to 5 %, and the bound is 22 % above.
+    // Within a fifth: the scatter of 200 walks is accurate to 5 %, and the bound is 22 % above.
     EXPECT_GT(stated, 0.95 * scatter);
     EXPECT_LT(stated, 1.5 * scatter);
 }

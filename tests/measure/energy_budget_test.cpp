@@ -10,8 +10,8 @@
 namespace swirl {
 namespace {
 
-/// Two random discs of random mass collide, or one and the wall; the law of physics/ decides. Gives
-/// the change of K that the snapshots show.
+/// Two random discs of random mass, or one and the wall, collide by the collision law. Returns the
+/// change of K between the snapshots.
 struct Case {
     Snapshot after;
     Event event;
@@ -95,27 +95,27 @@ TEST(EnergyBudget, PowersArePerTimeAndTotalsAccumulate) {
         change += c.change;
         budget.close_event_block(2.0);
     }
-    EXPECT_NEAR(budget.wall_power().mean, work / 20.0, 1e-15);
+    EXPECT_NEAR(row_of(budget, "wall_power").mean, work / 20.0, 1e-15);
     EXPECT_NEAR(budget.accounted(), change, 1e-13);
-    EXPECT_EQ(budget.disc_friction_power().mean, 0.0);
-    EXPECT_GT(budget.wall_friction_power().mean, 0.0);
-    EXPECT_GT(budget.inelastic_power().mean, 0.0);
-    EXPECT_TRUE(std::isnan(EnergyBudget().wall_power().mean));
+    EXPECT_EQ(row_of(budget, "disc_friction_power").mean, 0.0);
+    EXPECT_GT(row_of(budget, "wall_friction_power").mean, 0.0);
+    EXPECT_GT(row_of(budget, "inelastic_power").mean, 0.0);
+    EXPECT_TRUE(std::isnan(row_of(EnergyBudget(), "wall_power").mean));
     EnergyBudget twice = budget;
     twice.merge(budget);
-    EXPECT_NEAR(twice.wall_power().mean, budget.wall_power().mean, 1e-15);
+    EXPECT_NEAR(row_of(twice, "wall_power").mean, row_of(budget, "wall_power").mean, 1e-15);
     EXPECT_NEAR(twice.total_work(), 2.0 * work, 1e-13);
 }
 
 TEST(EnergyBudget, PathVertexChangesNothing) {
     EnergyBudget budget;
     budget.sample_event({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {1.0, 1.0, false}, 0.0},
-                  random_discs(2, 1));
+                        random_discs(2, 1));
     EXPECT_EQ(budget.accounted(), 0.0);
 }
 
-// The kick goes along the normal as it is, also where that is no unit vector by rounding; here it
-// is too long by a thousandth, so that an error of the budget shows.
+// The impulse acts along the given normal, even if its length is not exactly 1 by rounding. Here it
+// is too long by a thousandth, so that an error of the budget is visible.
 TEST(EnergyBudget, ClosesForANormalOfAnotherLengthThanOne) {
     const Vec2 n{1.001, 0.0};
     constexpr double J = 0.9;

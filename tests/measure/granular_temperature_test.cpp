@@ -19,8 +19,8 @@ Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2
         const Vec2 p = grid.centre_of(c);
         const Vec2 flow = 0.4 * perpendicular(p);
         add_disc(s, f.lab_position(p),
-                 s.container_velocity + f.rotate_back(flow + sign * Vec2{0.3, 0.4}), 1.0 + 2.0 * sign,
-                 1.0, mass);
+                 s.container_velocity + f.rotate_back(flow + sign * Vec2{0.3, 0.4}),
+                 1.0 + 2.0 * sign, 1.0, mass);
     }
     return s;
 }

@@ -12,7 +12,7 @@
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // of a period
+constexpr int samples = 511;  // per period
 
 /// One disc, in the wall's layer or inside, at the k-th sample.
 MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {
@@ -23,8 +23,8 @@ MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {
     return MFrameView(s);
 }
 
-/// At which of `count` samples the disc is found to be on a long stay, each asked for as soon as
-/// that is known.
+/// The samples, of `count`, at which the disc is on a long residence. Each is read as soon as it is
+/// known.
 std::vector<int> found(int count, const std::function<bool(int)>& at_wall) {
     LongResidences residences;
     std::vector<int> result;
@@ -64,7 +64,7 @@ TEST(LongResidences, ShareEqualsThatOfWallResidences) {
     WallResidences residences;
     for (int k = 0; k < 3000; ++k) residences.sample(at_sample(k, at_wall(k)));
     residences.close_block();
-    // Up to what is not known at the end.
+    // Except for the samples at the end, which are not yet known.
     EXPECT_NEAR(residences.share().mean * 3000, double(found(3000, at_wall).size()), 41.0);
 }
 
@@ -77,14 +77,14 @@ TEST(LongResidences, OtherDiscsOrDescendingTimesRestart) {
         EXPECT_TRUE(residences.resident(0, before));
         if (how == 0) residences.begin_tracks();
         residences.sample(how == 1 ? at_sample(60, true, 2) : at_sample(how == 2 ? 5 : 60, true));
-        // It never will be known: nobody waits for it.
+        // It will never be known, so no measurement waits for it.
         EXPECT_TRUE(residences.is_known(before)) << how;
         EXPECT_FALSE(residences.resident(0, before)) << how;
         EXPECT_FALSE(residences.resident(7, at_sample(60, true).time));
     }
 }
 
-// R = 8.6. Of a disc of radius 2 the layer begins at 8.6 − 1.5·2 = 5.6, of one of radius ½ at 7.85.
+// R = 8.6. For a disc of radius 2 the layer begins at 8.6 − 1.5·2 = 5.6, for radius ½ at 7.85.
 TEST(WallLayer, IsOneAndAHalfOfTheDiscsOwnRadii) {
     Snapshot s = empty_container();
     for (const auto& [radius, distance] :

@@ -99,7 +99,7 @@ TEST(Observation, RowsAndColumnsAreCompleteWithoutSamples) {
         }
         for (const ReportTable& table : report.tables)
             for (const ReportColumn& column : table.columns) {
-                EXPECT_STRNE(column.name, "") << name;
+                EXPECT_NE(column.name, "") << name;
                 EXPECT_STRNE(column.unit, "") << column.name;
             }
     }
@@ -117,7 +117,7 @@ TEST(Observation, MergedHasTheBlocksOfBoth) {
         return report_of(reports, "temperature").rows.front().estimate;
     };
     EXPECT_EQ(mean(merged).blocks, 5u);
-    // The same samples, added up in another order.
+    // The same samples, added in another order.
     EXPECT_NEAR(mean(merged).mean, mean(expected).mean, 1e-12);
 }
 
@@ -133,7 +133,7 @@ std::vector<double> numbers_in(const Report& report) {
     return numbers;
 }
 
-// What is made for the others it does not need.
+// A measurement does not depend on what is computed for others.
 TEST(Observation, AMeasurementReportsTheSameAloneAndAmongAll) {
     for (const bool same_discs : {true, false}) {
         const Snapshot s = random_discs(12, 7);
@@ -162,8 +162,8 @@ TEST(Observation, WithoutTracksCellsAreThoseOfThePresentFrame) {
     EXPECT_TRUE(std::isnan(packing.rows[1].estimate.mean));
 }
 
-// Twelve discs, of which one is another from the middle on: what the tracks say is that of two
-// shorter recordings.
+// Twelve discs, of which one is replaced in the middle: the tracks give the results of two shorter
+// recordings.
 TEST(Observation, NewDiscsBeginNewTracks) {
     const auto moving = [](double time, double begin) {
         Snapshot s = empty_container();
@@ -182,7 +182,7 @@ TEST(Observation, NewDiscsBeginNewTracks) {
         observation.close_block();
         const auto reports = observation.report();
         const ReportTable& diffusion = report_of(reports, "diffusion").tables.front();
-        // Nobody has moved by more than 2π · 6 · 28/511 = 2.1.
+        // No disc has moved by more than 2π · 6 · 28/511 = 2.1.
         double longest = 0.0;
         for (std::size_t r = 0; r < diffusion.rows(); ++r)
             longest = std::max(longest, diffusion.at(r, 1));

@@ -13,7 +13,7 @@ constexpr int frames = 511;
 constexpr double degree = pi / 180.0;
 const double omega = 2.0 * pi / paper_period;
 
-/// The dish at frame `k`, with discs where path(k) has them in the M-frame.
+/// The container at frame `k`, with discs at path(k) in the M-frame.
 template <class Path>
 Snapshot frame_of(int k, std::size_t discs, Path&& path) {
     Snapshot s = empty_container(static_cast<double>(k % frames) / frames);
@@ -23,9 +23,8 @@ Snapshot frame_of(int k, std::size_t discs, Path&& path) {
     return s;
 }
 
-/// Clockwise along the wall with it, from θ = 180° to 60°, where it leaves the wall smoothly and
-/// falls to 240°; there it turns sharply back up along the wall to 180°. A caricature of the
-/// paper's cycle.
+/// A simplified form of the paper's cycle: clockwise along the wall with its speed from θ = 180° to
+/// 60°, then smoothly off the wall and down to 240°, then a sharp turn back along the wall to 180°.
 Vec2 cycle(int k) {
     const double r = 7.0;
     const int along = static_cast<int>(120.0 / 360.0 * frames);  // with the wall's own speed
@@ -74,12 +73,12 @@ TEST(PinnedLoose, FindsTheAnglesOfAKnownCycle) {
         pinning.sample(frame_of(k, 1, [](std::size_t, int t) { return cycle(t); }));
         if (k % frames == frames - 1) pinning.close_block();
     }
-    // It has to fall for a while before its direction is 10° off.
+    // Its direction is 10° off only some time after it left the wall.
     EXPECT_NEAR(pinning.becoming_free().angle().mean, 52.0 * degree, 10.0 * degree);
     EXPECT_GT(pinning.becoming_free().concentration(), 0.99);
     // The only sharp turn of the cycle.
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 240.0 * degree, 2.0 * degree);
-    // It comes to 240° from below: all turns are in the slices beside it.
+    // It reaches 240° from below: all turns are in the two slices next to it.
     EXPECT_EQ(pinning.pinned_positions().share(23) + pinning.pinned_positions().share(24), 1.0);
     EXPECT_GT(pinning.free_positions().share(4) + pinning.free_positions().share(5), 0.99);
     EXPECT_EQ(pinning.breaks(), 0.0);
@@ -137,12 +136,12 @@ TEST(PinnedLoose, UnevenTimesBreakTheTracks) {
     EXPECT_EQ(pinning.breaks(), 2.0);
     for (int k = 26; k < 50; ++k) pinning.sample(frame_of(k, 1, circle));
     EXPECT_TRUE(pinning.is_known());
-    pinning.begin_tracks();  // one disc again, but another
+    pinning.begin_tracks();  // one disc, but a different one
     pinning.sample(frame_of(50, 1, circle));
     EXPECT_EQ(pinning.breaks(), 3.0);
     EXPECT_FALSE(pinning.is_known());
     EXPECT_EQ(pinning.pinned().at(0), 0);
-    pinning.sample(frame_of(51, 3, circle));  // other discs
+    pinning.sample(frame_of(51, 3, circle));  // another number of discs
     EXPECT_EQ(pinning.pinned().size(), 3u);
     pinning.sample(empty_container());
     EXPECT_TRUE(pinning.pinned().empty());
@@ -192,7 +191,7 @@ TEST(PinnedByCollisions, LongestFlightOfAPeriodCounts) {
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
     EXPECT_NEAR(pinning.becoming_free().angle().mean, 0.25 * 2.0 * pi, 1e-14);
     EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.70 * 2.0 * pi, 1e-14);
-    pinning.close_block();  // a swirl without a collision adds nothing
+    pinning.close_block();  // a period without a collision adds nothing
     EXPECT_EQ(pinning.becoming_free().count(), 1.0);
 }
 

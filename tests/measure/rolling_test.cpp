@@ -35,13 +35,13 @@ TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
     // Slides with its whole velocity over the floor, 0.5; at the wall.
     add_sphere(s, C + Vec2{0.0, s.container_radius - 1.05}, u + Vec2{0.3, 0.4}, {0.0, 0.0});
     const Rolling r = seen(s);
-    EXPECT_DOUBLE_EQ(r.rolling_share().mean, 2.0 / 3.0);
-    EXPECT_DOUBLE_EQ(r.wall_rolling_share().mean, 0.0);
-    EXPECT_NEAR(r.floor_slip().mean, 0.5 / 3.0, 1e-15);
+    EXPECT_DOUBLE_EQ(row_of(r, "rolling_share").mean, 2.0 / 3.0);
+    EXPECT_DOUBLE_EQ(row_of(r, "wall_rolling_share").mean, 0.0);
+    EXPECT_NEAR(row_of(r, "floor_slip").mean, 0.5 / 3.0, 1e-15);
 }
 
-// Side by side over the floor: alike, and no rubbing along the contact. One behind the other: the
-// contact rubs with both speeds. Towards each other: it does not rub at all.
+// Side by side over the floor: they roll alike, and nothing slips along the line of centres. One
+// behind the other: the contact slips with both speeds. Towards each other: it does not slip.
 TEST(Rolling, CorrelationsOfAPairAreExact) {
     const auto pair = [](const Vec2& a, const Vec2& b) {
         Snapshot s = empty_container();
@@ -52,17 +52,16 @@ TEST(Rolling, CorrelationsOfAPairAreExact) {
     };
     const Rolling beside = pair({0.0, 0.5}, {0.0, 0.5}), behind = pair({0.5, 0.0}, {0.5, 0.0}),
                   towards = pair({0.5, 0.0}, {-0.5, 0.0});
-    EXPECT_NEAR(beside.axis_correlation().mean, 1.0, 1e-15);
-    EXPECT_TRUE(std::isnan(beside.contact_correlation().mean));
-    EXPECT_NEAR(behind.axis_correlation().mean, 1.0, 1e-15);
-    EXPECT_NEAR(behind.contact_correlation().mean, 1.0, 1e-15);
-    EXPECT_NEAR(towards.axis_correlation().mean, -1.0, 1e-15);
-    EXPECT_NEAR(towards.contact_correlation().mean, -1.0, 1e-15);
+    EXPECT_NEAR(row_of(beside, "axis_correlation").mean, 1.0, 1e-15);
+    EXPECT_TRUE(std::isnan(row_of(beside, "contact_correlation").mean));
+    EXPECT_NEAR(row_of(behind, "axis_correlation").mean, 1.0, 1e-15);
+    EXPECT_NEAR(row_of(behind, "contact_correlation").mean, 1.0, 1e-15);
+    EXPECT_NEAR(row_of(towards, "axis_correlation").mean, -1.0, 1e-15);
+    EXPECT_NEAR(row_of(towards, "contact_correlation").mean, -1.0, 1e-15);
 }
 
-// A rolling sphere meets the wall head-on: nothing slips but vertically, and with as much friction
-// as it takes 2/7 of its spin are left. What it had more, ½ I ω² (1 − 4/49), is lost, the part that
-// lifted it with it.
+// A rolling sphere hits the wall head-on: it slips only vertically. With sufficient friction 2/7 of
+// its spin remain. The energy ½ I ω² (1 − 4/49) is lost, including the part that lifted the sphere.
 TEST(Rolling, VerticalFrictionAtTheWallDissipatesTheEnergyOfTheSpin) {
     Snapshot s = empty_container();
     const Vec2 n{1.0, 0.0};
@@ -75,16 +74,18 @@ TEST(Rolling, VerticalFrictionAtTheWallDissipatesTheEnergyOfTheSpin) {
     r.sample_in_lab(s);
     r.sample_event({0, s.clock, EventKind::disc_wall, 0, 0, n, J, 0.0}, s);
     r.close_event_block(2.0, 1);
-    EXPECT_NEAR(r.vertical_power_at_wall().mean, 0.5 * 0.4 * 0.64 * (45.0 / 49.0) / 2.0, 1e-15);
-    EXPECT_DOUBLE_EQ(r.vertical_share_at_wall().mean, 1.0);
-    EXPECT_NEAR(r.vertical_friction_at_wall().mean, std::abs(J.vertical) / J.normal, 1e-15);
-    EXPECT_TRUE(std::isnan(r.vertical_share().mean));
+    EXPECT_NEAR(row_of(r, "vertical_power_at_wall").mean, 0.5 * 0.4 * 0.64 * (45.0 / 49.0) / 2.0,
+                1e-15);
+    EXPECT_DOUBLE_EQ(row_of(r, "vertical_share_at_wall").mean, 1.0);
+    EXPECT_NEAR(row_of(r, "vertical_friction_at_wall").mean, std::abs(J.vertical) / J.normal,
+                1e-15);
+    EXPECT_TRUE(std::isnan(row_of(r, "vertical_share").mean));
 }
 
 TEST(Rolling, IsNaNForDiscs) {
     const Rolling r = seen(random_discs(9, 1));
-    EXPECT_TRUE(std::isnan(r.rolling_share().mean));
-    EXPECT_TRUE(std::isnan(r.vertical_power().mean));
+    EXPECT_TRUE(std::isnan(row_of(r, "rolling_share").mean));
+    EXPECT_TRUE(std::isnan(row_of(r, "vertical_power").mean));
 }
 
 }  // namespace

@@ -1,14 +1,29 @@
 // Snapshots with known answers, for the tests of measure/.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "swirl/measure/measurement_report.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
+
+/// A row of the report of a measurement.
+template <class Measurement>
+Estimate row_of(const Measurement& measurement, std::string_view name) {
+    Report report;
+    measurement.report(report);
+    for (const ReportRow& row : report.rows)
+        if (row.name == name) return row.estimate;
+    ADD_FAILURE() << "no row " << name;
+    return {};
+}
 
 /// Numbers in (−1, 1), the same everywhere (xorshift64*).
 class Noise {
@@ -25,7 +40,7 @@ class Noise {
     std::uint64_t state_;
 };
 
-/// The paper's dish, at the moment when the container is at the angle 2πu on its circle.
+/// The paper's container at the angle 2πu on its circle.
 inline Snapshot empty_container(double u = 0.0) {
     Snapshot s;
     s.period = paper_period;
@@ -45,7 +60,7 @@ inline void add_disc(Snapshot& s, const Vec2& position, const Vec2& velocity, do
     s.set(i, {position, velocity, 0.0, spin, s.clock, radius, mass, 10.0 * mass});
 }
 
-/// The same system with states held at other times, each disc its own: nothing a sample may notice.
+/// The same system with each disc's state stored at another time. No sample may depend on it.
 inline Snapshot held_earlier(const Snapshot& s, std::uint64_t seed = 1) {
     Snapshot t = s;
     Noise noise(seed);
@@ -56,7 +71,7 @@ inline Snapshot held_earlier(const Snapshot& s, std::uint64_t seed = 1) {
     return t;
 }
 
-/// Points and velocities all over the dish.
+/// Random positions and velocities in the whole container.
 inline Snapshot random_discs(std::size_t n, std::uint64_t seed, double u = 0.0) {
     Snapshot s = empty_container(u);
     Noise noise(seed);

@@ -37,18 +37,18 @@ TEST(SpinFrustration, GearsHaveMinusOneAndNoTriangles) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(gears());
     frustration.close_block();
-    EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
-    EXPECT_EQ(frustration.triangles().mean, 0.0);
-    EXPECT_NEAR(frustration.coordination().mean, 24.0 / 9.0, 1e-15);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, -1.0, 1e-15);
+    EXPECT_EQ(row_of(frustration, "triangles").mean, 0.0);
+    EXPECT_NEAR(row_of(frustration, "coordination").mean, 24.0 / 9.0, 1e-15);
 }
 
 TEST(SpinFrustration, IsOneForARigidlyRotatingTriangularBody) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(hexagon(0.3));
     frustration.close_block();
-    EXPECT_NEAR(frustration.correlation().mean, 1.0, 1e-15);
-    EXPECT_EQ(frustration.triangles().mean, 1.0);
-    EXPECT_NEAR(frustration.coordination().mean, 24.0 / 7.0, 1e-15);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, 1.0, 1e-15);
+    EXPECT_EQ(row_of(frustration, "triangles").mean, 1.0);
+    EXPECT_NEAR(row_of(frustration, "coordination").mean, 24.0 / 7.0, 1e-15);
 }
 
 TEST(SpinFrustration, IsZeroForIndependentSpins) {
@@ -60,8 +60,9 @@ TEST(SpinFrustration, IsZeroForIndependentSpins) {
         frustration.sample(s);
         frustration.close_block();
     }
-    EXPECT_NEAR(frustration.correlation().mean, 0.0, 4.0 * frustration.correlation().error);
-    EXPECT_LT(frustration.correlation().error, 0.02);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, 0.0,
+                4.0 * row_of(frustration, "spin_correlation").error);
+    EXPECT_LT(row_of(frustration, "spin_correlation").error, 0.02);
 }
 
 TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
@@ -73,15 +74,16 @@ TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(s, pinned);
     frustration.close_block();
-    EXPECT_NEAR(frustration.wall_spin().mean, 1.0, 1e-15);
-    EXPECT_EQ(frustration.pinned_wall_spin().mean, 0.0);
-    EXPECT_TRUE(std::isnan(frustration.correlation().mean));
+    EXPECT_NEAR(row_of(frustration, "wall_spin").mean, 1.0, 1e-15);
+    EXPECT_EQ(row_of(frustration, "pinned_wall_spin").mean, 0.0);
+    EXPECT_TRUE(std::isnan(row_of(frustration, "spin_correlation").mean));
 }
 
 TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     SpinFrustration frustration(0.1, 1);
     const auto collide = [&](EventKind kind, bool sticks) {
-        frustration.sample_event(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0}, gears());
+        frustration.sample_event(Event{0, 0.0, kind, 0, 0, {1.0, 0.0}, {1.0, 0.1, sticks}, 0.0},
+                                 gears());
     };
     collide(EventKind::disc_disc, true);
     collide(EventKind::disc_disc, true);
@@ -90,29 +92,29 @@ TEST(SpinFrustration, CountsTheCollisionsThatStick) {
     collide(EventKind::disc_wall, true);
     collide(EventKind::path_vertex, false);
     frustration.close_block();
-    EXPECT_EQ(frustration.disc_sticking().mean, 0.5);
-    EXPECT_EQ(frustration.wall_sticking().mean, 1.0);
+    EXPECT_EQ(row_of(frustration, "disc_sticking").mean, 0.5);
+    EXPECT_EQ(row_of(frustration, "wall_sticking").mean, 1.0);
 }
 
 TEST(SpinFrustration, IsNaNForMissingSpinsAndWithoutDiscs) {
     SpinFrustration frustration(0.1, 1);
     frustration.sample(empty_container());
     frustration.close_block();
-    EXPECT_TRUE(std::isnan(frustration.wall_spin().mean));
-    EXPECT_TRUE(std::isnan(frustration.triangles().mean));
+    EXPECT_TRUE(std::isnan(row_of(frustration, "wall_spin").mean));
+    EXPECT_TRUE(std::isnan(row_of(frustration, "triangles").mean));
     Snapshot s = hexagon(0.3);
     s.spin[2] = not_available;
     frustration.sample(s);
     frustration.close_block();
-    EXPECT_TRUE(std::isnan(frustration.correlation().mean));
-    EXPECT_EQ(frustration.triangles().mean, 1.0);
+    EXPECT_TRUE(std::isnan(row_of(frustration, "spin_correlation").mean));
+    EXPECT_EQ(row_of(frustration, "triangles").mean, 1.0);
 }
 
 TEST(SpinFrustration, UsesEvery64thSample) {
     SpinFrustration frustration;
     for (int k = 0; k < 128; ++k) frustration.sample(k % 64 == 0 ? gears() : hexagon(0.3));
     frustration.close_block();
-    EXPECT_NEAR(frustration.correlation().mean, -1.0, 1e-15);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, -1.0, 1e-15);
 }
 
 TEST(TouchingPairs, EqualThoseOfAnExhaustiveSearch) {
@@ -137,7 +139,7 @@ TEST(TouchingPairs, EqualThoseOfAnExhaustiveSearch) {
     }
 }
 
-// Two hard hits of gears and one soft one of discs that spin alike: (−2·2 + 1·1)/(2·2 + 1·1).
+// Two strong collisions of gears and a weak one of discs that spin alike: (−2·2 + 1·1)/(2·2 + 1·1).
 TEST(SpinFrustration, CollisionsAreWeightedWithTheirImpulse) {
     SpinFrustration frustration;
     Snapshot pair = empty_container();
@@ -152,10 +154,11 @@ TEST(SpinFrustration, CollisionsAreWeightedWithTheirImpulse) {
     hit.kind = EventKind::disc_wall;  // the wall does not spin
     frustration.sample_event(hit, pair);
     frustration.close_block();
-    EXPECT_NEAR(frustration.correlation_by_impulse().mean, -0.6, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "correlation_by_impulse").mean, -0.6, 1e-12);
 }
 
-/// Three in a chain along the wall that stay there, and one more that touches the last from inside.
+/// Three discs in a chain along the wall, where they stay, and a fourth that touches the last from
+/// inside.
 Snapshot along_the_wall(int k) {
     Snapshot s = empty_container(k / 511.0);
     const MFrame f = m_frame(s);
@@ -179,13 +182,13 @@ TEST(SpinFrustration, ResidentSpinIsKnownAfterTheMinimumLength) {
         frustration.sample(along_the_wall(k));
         frustration.sample_residences(residences);
         frustration.close_block();
-        EXPECT_EQ(std::isnan(frustration.resident_spin().mean), k < 40) << k;
+        EXPECT_EQ(std::isnan(row_of(frustration, "resident_spin").mean), k < 40) << k;
     }
-    EXPECT_NEAR(frustration.resident_spin().mean, 0.5, 1e-12);
-    // The fourth, which spins like its neighbour, is on no stay.
-    EXPECT_NEAR(frustration.along_wall().mean, -1.0, 1e-12);
-    EXPECT_NEAR(frustration.resident_correlation().mean, -1.0 / 3.0, 1e-12);
-    EXPECT_NEAR(frustration.correlation().mean, -1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "resident_spin").mean, 0.5, 1e-12);
+    // The fourth, which spins like its neighbour, is not resident.
+    EXPECT_NEAR(row_of(frustration, "along_wall").mean, -1.0, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "resident_correlation").mean, -1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, -1.0 / 3.0, 1e-12);
 }
 
 TEST(SpinFrustration, PairsOfPinnedDiscsAreSeparate) {
@@ -196,8 +199,8 @@ TEST(SpinFrustration, PairsOfPinnedDiscsAreSeparate) {
     add_disc(chain, {4.1, 0.0}, {}, -0.5);
     frustration.sample(chain, std::vector<std::uint8_t>{1, 1, 0});
     frustration.close_block();
-    EXPECT_NEAR(frustration.pinned_correlation().mean, -1.0, 1e-12);
-    EXPECT_NEAR(frustration.correlation().mean, 0.0, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "pinned_correlation").mean, -1.0, 1e-12);
+    EXPECT_NEAR(row_of(frustration, "spin_correlation").mean, 0.0, 1e-12);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double R = paper_container_radius;
 
-/// A triangular lattice of touching discs, as many rings as `rings`, about C.
+/// A triangular lattice of touching discs, `rings` rings about C.
 Snapshot lattice(int rings) {
     Snapshot s = empty_container(0.15);
     s.container_radius = 2.0 * rings + 1.0;
@@ -50,7 +50,7 @@ TEST(Voronoi, CellsFillTheContainer) {
 }
 
 TEST(Voronoi, EveryPointBelongsToTheDiscOfSmallestPower) {
-    // Areas against a fine lattice of points.
+    // Areas compared with a fine lattice of points.
     Snapshot s = random_discs(9, 5, 0.3);
     Noise noise(5);
     for (double& r : s.radius) r = 1.0 + 0.5 * noise();
@@ -76,7 +76,7 @@ TEST(Voronoi, EveryPointBelongsToTheDiscOfSmallestPower) {
             }
             counted[best] += step * step;
         }
-    // Of the lattice: a cell's border of length ~10 misses about step × √length of area.
+    // Error of the lattice: along a border of length ~10 it misses an area of about step × √length.
     for (std::size_t i = 0; i < s.size(); ++i) EXPECT_NEAR(cells.area(i), counted[i], 0.1);
 }
 
@@ -103,7 +103,7 @@ TEST(Voronoi, OneDiscHasTheWholeContainer) {
     cells.find(s);
     EXPECT_NEAR(cells.area(0), pi * R * R, 1e-12);
     EXPECT_EQ(cells.begin(0), cells.end(0));
-    add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // on one point
+    add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // at the same point
     add_disc(s, {not_available, 2.0}, {0.0, 0.0});
     cells.find(s);
     EXPECT_NEAR(cells.area(1), pi * R * R, 1e-12);
@@ -167,14 +167,14 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
         return std::pair{order.six().mean, order.six_pinned().mean};
     };
     EXPECT_EQ(share(lattice(2)).first, 1.0);
-    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // which are pinned is not known
+    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // without pinned flags
     // In a ring of five, one disc has five neighbours and five have three.
     Snapshot five = empty_container(0.15);
     add_disc(five, five.container_centre, {0.0, 0.0});
     for (int k = 0; k < 5; ++k)
         add_disc(five, five.container_centre + 2.5 * unit_circle(k / 5.0), {0.0, 0.0});
     EXPECT_EQ(share(five).first, 0.0);
-    // Of the pinned: the centre alone, and one at the wall, which does not count.
+    // Pinned: the centre, and a disc at the wall, which does not count.
     std::vector<std::uint8_t> pinned(19, 0);
     pinned[centre_of(MFrameView(lattice(2)))] = pinned[0] = 1;
     EXPECT_EQ(share(lattice(2), pinned).second, 1.0);

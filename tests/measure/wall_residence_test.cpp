@@ -7,9 +7,9 @@
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // of a period
+constexpr int samples = 511;  // per period
 
-/// A disc at a place of the M-frame, at the k-th sample.
+/// A disc at a position in the M-frame, at the k-th sample.
 Snapshot at_sample(int k, const std::vector<Vec2>& places) {
     Snapshot s = empty_container(double(k % samples) / samples);
     s.periods = k / samples;
@@ -18,7 +18,7 @@ Snapshot at_sample(int k, const std::vector<Vec2>& places) {
     return s;
 }
 
-/// Goes round clockwise once a period, at the wall from 240° to 120° and inside otherwise.
+/// Moves around clockwise once per period, at the wall from 240° to 120° and inside otherwise.
 Vec2 rounds(int k, double from = 240.0, double to = 120.0) {
     const double theta = std::fmod(3600.0 - 360.0 * (k % samples) / samples, 360.0);
     const bool at_wall = theta <= from && theta >= to;
@@ -36,14 +36,14 @@ TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
     EXPECT_NEAR(residences.becoming_free().angle().mean * degrees_per_radian, 120.0, a_sample);
     EXPECT_NEAR(residences.becoming_free().concentration(), 1.0, 1e-9);
     EXPECT_EQ(residences.becoming_free().count(), 10.0);
-    // All of the stay counts, from its first sample on: 120° of 360°.
+    // The whole residence counts, from its first sample on: 120° of 360°.
     EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples);
     EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
 }
 
 TEST(WallResidences, ShortOnesDoNotCount) {
     WallResidences residences;
-    // 20° are 28 samples: enough for the least of the thresholds, not for the standard.
+    // 20° are 28 samples: enough for the lowest threshold, not for the standard.
     for (int k = 0; k < 3 * samples; ++k)
         residences.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
     residences.close_block();
@@ -53,7 +53,7 @@ TEST(WallResidences, ShortOnesDoNotCount) {
     EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
-// The least length is 40 steps: from the first to the last of 41 samples.
+// The minimum length is 40 steps: from the first to the last of 41 samples.
 TEST(WallResidences, MinimumLengthIsInclusive) {
     for (const int length : {41, 40}) {
         WallResidences residences;
@@ -68,13 +68,13 @@ TEST(WallResidences, MinimumLengthIsInclusive) {
     }
 }
 
-// What the SI's criterion takes for pinned: along the wall, but far from it.
+// Pinned by the SI's criterion: it moves along the wall, but far from it.
 TEST(WallResidences, DiscFarFromTheWallIsNotPinned) {
     WallResidences residences;
     for (int k = 0; k < 2 * samples; ++k)
         residences.sample(at_sample(k, {7.0 * unit_circle(1.0 - double(k % samples) / samples)}));
     residences.close_block();
-    EXPECT_EQ(residences.share().mean, 0.0);            // r > 7.1 is asked for
+    EXPECT_EQ(residences.share().mean, 0.0);            // needs r > 7.1
     EXPECT_NEAR(residences.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
 }
 

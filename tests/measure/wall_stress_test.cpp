@@ -11,7 +11,7 @@ namespace {
 
 constexpr double R = paper_container_radius;
 
-/// A disc hits the wall at the angle 2πu_M in the M-frame, at phase u of the swirl.
+/// A disc hits the wall at the angle 2πu_M in the M-frame, at phase u of the period.
 void hit(WallStress& stress, double u, double u_M, const Impulse& J) {
     Snapshot s = empty_container(u);
     const MFrame f = m_frame(s);
@@ -39,8 +39,10 @@ TEST(WallStress, CountsOnlyWallCollisionsAndIsNaNWithoutTime) {
     WallStress stress(R, 8);
     EXPECT_TRUE(std::isnan(stress.pressure(0).mean));
     Snapshot s = random_discs(2, 1);
-    stress.sample_event({0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
-    stress.sample_event({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {9.0, 9.0, false}, 0.0}, s);
+    stress.sample_event({0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {9.0, 9.0, false}, 0.0},
+                        s);
+    stress.sample_event({0, 0.0, EventKind::path_vertex, 0, 0, {1.0, 0.0}, {9.0, 9.0, false}, 0.0},
+                        s);
     stress.close_event_block(1.0);
     EXPECT_EQ(stress.mean_pressure().mean, 0.0);
     EXPECT_EQ(stress.mean_traction().mean, 0.0);

@@ -8,24 +8,26 @@
 namespace swirl {
 namespace {
 
-constexpr std::uint64_t never_stands = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t always_progresses = std::numeric_limits<std::uint64_t>::max();
 
-/// When a collapse is found in a run whose time stands still after so many events, and that is
-/// looked at after every 250 of them.
-std::string found(std::size_t discs, std::uint64_t stands, std::uint64_t end) {
+/// The event at which a collapse is found in a run that makes no progress after `stops_after`
+/// events. The run is checked after every 250 events.
+std::string found(std::size_t discs, std::uint64_t stops_after, std::uint64_t end) {
     RunMark now{0, 0.0};
     CollapseWatch watch(discs, now);
     while (now.events < end) {
         now.events += 250;
-        if (now.events <= stands) now.periods += 0.001;
+        if (now.events <= stops_after) now.periods += 0.001;
         if (watch.check(now)) return std::to_string(now.events);
     }
     return watch.check_at_end(now) ? "at the end" : "never";
 }
 
-TEST(Collapse, IsNotFoundInARunThatProgresses) { EXPECT_EQ(found(48, never_stands, 1'000'000), "never"); }
+TEST(Collapse, IsNotFoundInARunThatProgresses) {
+    EXPECT_EQ(found(48, always_progresses, 1'000'000), "never");
+}
 
-// Windows of 20,000 events, or of 200 for each disc; the one in which time stops has moved on.
+// Windows of 20,000 events, or of 200 per disc. The window in which time stops contains progress.
 TEST(Collapse, IsFoundInTheFirstWindowWithoutProgress) {
     EXPECT_EQ(found(48, 0, 1'000'000), "20000");
     EXPECT_EQ(found(48, 100'000, 1'000'000), "120000");
@@ -38,8 +40,8 @@ TEST(Collapse, IsFoundAtTheEndWithAtLeast500Events) {
     EXPECT_EQ(found(48, 100'000, 100'250), "never");
 }
 
-// 10⁸ events per disc and swirl: of two discs 20,000 events in a ten-thousandth of a swirl are as
-// many, and one disc more makes them too few.
+// 10⁸ events per disc and period: for two discs, 20,000 events in a ten-thousandth of a period.
+// With three discs these are too few.
 TEST(Collapse, ThresholdIsEventsPerDiscAndPeriod) {
     const RunMark begin{0, 0.0}, now{20'000, 0.99e-4};
     EXPECT_TRUE(CollapseWatch(2, begin).check(now));

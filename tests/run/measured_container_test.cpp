@@ -1,9 +1,10 @@
-// The measurements on the engine's own dish: what has to come out whatever the trajectory, and
-// (label slow) the bands in which the paper's claims must lie.
+// The measurements on runs of the engine: results that hold for every trajectory and, with the
+// label `slow`, the ranges in which the paper's claims must lie.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "measure/snapshots.hpp"
 #include "swirl/engine/placement.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/angular_profile.hpp"
@@ -78,10 +79,10 @@ TEST(MeasuredContainer, TractionObeysCoulombAndRatesAddUp) {
     EXPECT_GT(stress.pressure(26).mean, 10.0 * stress.pressure(8).mean);
     const double per_disc_and_time = 40.0 * 20.0 * paper_period;
     const EventCounts after = simulation.events();
-    EXPECT_NEAR(rates.disc_disc().mean,
+    EXPECT_NEAR(row_of(rates, "disc_disc_rate").mean,
                 2.0 * static_cast<double>(after.disc_disc - before.disc_disc) / per_disc_and_time,
                 1e-12);
-    EXPECT_NEAR(rates.disc_wall().mean,
+    EXPECT_NEAR(row_of(rates, "disc_wall_rate").mean,
                 static_cast<double>(after.disc_wall - before.disc_wall) / per_disc_and_time, 1e-12);
 }
 
@@ -99,7 +100,7 @@ double nearest_to_the_centre_of_mass(const Snapshot& s) {
     return std::sqrt(nearest);
 }
 
-// The centre of mass that is followed from event to event is that of the discs.
+// The centre of mass followed from event to event equals the one summed over the discs.
 TEST(MeasuredContainer, FollowedRotationEqualsThatOfAllDiscs) {
     InitialState mixture = container(30, Surface{0.7}, Surface{0.4});
     for (std::size_t i = 0; i < mixture.discs.size(); ++i) mixture.discs[i].mass = 0.3 + double(i);
@@ -122,11 +123,11 @@ TEST(MeasuredContainer, FollowedRotationEqualsThatOfAllDiscs) {
             worst = std::fmax(worst, std::fabs(seen.individual - found.individual) * near * near);
             worst_rigid = std::fmax(worst_rigid, std::fabs(seen.rigid - found.rigid));
         }
-        // From one vertex of the path to the next, on a circle a swirl, the velocity of the centre
-        // is the sum of up to a thousand pushes, each rounded, as are the discs' own velocities
-        // and their mean: √1000 · 10⁻¹⁷ and, after a swirl's time of 12, δ = 4·10⁻¹⁵ in
-        // position. At the distance r it turns into a wrong angular velocity of about δ u/r², with
-        // speeds u of order 1.
+        // Between two vertices of the path (on a circle, within a period) the velocity of the
+        // centre is the sum of up to a thousand impulses. They are rounded, like the velocities of
+        // the discs and their mean: √1000 · 10⁻¹⁷ and, after a period of 12, δ = 4·10⁻¹⁵ in
+        // position. At the distance r this gives an error of the angular velocity of about δ u/r²,
+        // with speeds u of order 1.
         EXPECT_LT(worst, 1e-14);
         EXPECT_LT(worst_rigid, 1e-14);
     }
@@ -139,8 +140,8 @@ struct Seen {
     Slip slip{8};
     SpinFrustration frustration{0.1, 8};
     AngularProfile profile{36};
-    /// Of the discs that the profile leaves out, within their radius of the centre of mass: how
-    /// many there were, and the sum of their ϖ_i/Ω.
+    /// The discs that the profile omits, within their radius of the centre of mass: their number
+    /// and the sum of their ϖ_i/Ω.
     double near = 0.0, near_rotation = 0.0;
 };
 
@@ -208,28 +209,33 @@ TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
 TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
     const Seen few = watch(24, {1.0, 1.0, 0.0}, 300), many = watch(48, {1.0, 1.0, 0.0}, 300);
     // "The slip parameter of the particles in the pinned region approaches 1 as N is increased."
-    EXPECT_GT(many.slip.pinned_region().mean, 0.95);
-    EXPECT_LT(many.slip.pinned_region().mean, 1.02);
-    EXPECT_LT(few.slip.pinned_region().mean, many.slip.pinned_region().mean - 0.05);
+    EXPECT_GT(row_of(many.slip, "pinned_region").mean, 0.95);
+    EXPECT_LT(row_of(many.slip, "pinned_region").mean, 1.02);
+    EXPECT_LT(row_of(few.slip, "pinned_region").mean,
+              row_of(many.slip, "pinned_region").mean - 0.05);
     // "The local rotation of individual particles along the wall in the pinned area decreases."
-    EXPECT_LT(many.frustration.pinned_wall_spin().mean,
-              0.7 * few.frustration.pinned_wall_spin().mean);
+    EXPECT_LT(row_of(many.frustration, "pinned_wall_spin").mean,
+              0.7 * row_of(few.frustration, "pinned_wall_spin").mean);
     // More of the discs are pinned, and they are earlier in their clockwise cycle (larger θ).
     EXPECT_GT(many.tracks.share().mean, 2.0 * few.tracks.share().mean);
     EXPECT_GT(many.tracks.becoming_pinned().angle().mean,
               few.tracks.becoming_pinned().angle().mean + 0.5);
-    // Each of these by far more than the errors from the blocks of periods, which are there.
+    // The differences are far larger than the errors from the blocks of periods.
     const auto apart = [](const Estimate& a, const Estimate& b) {
         return std::abs(a.mean - b.mean) / std::hypot(a.error, b.error);
     };
-    EXPECT_GT(apart(few.slip.pinned_region(), many.slip.pinned_region()), 10.0);
-    EXPECT_GT(apart(few.frustration.pinned_wall_spin(), many.frustration.pinned_wall_spin()), 10.0);
+    EXPECT_GT(apart(row_of(few.slip, "pinned_region"), row_of(many.slip, "pinned_region")), 10.0);
+    EXPECT_GT(apart(row_of(few.frustration, "pinned_wall_spin"),
+                    row_of(many.frustration, "pinned_wall_spin")),
+              10.0);
     EXPECT_GT(apart(few.tracks.share(), many.tracks.share()), 10.0);
     EXPECT_GT(apart(few.tracks.becoming_pinned().angle(), many.tracks.becoming_pinned().angle()),
               10.0);
-    // With N more of the contacts are frustrated.
-    EXPECT_GT(apart(few.frustration.triangles(), many.frustration.triangles()), 10.0);
-    EXPECT_GT(many.frustration.triangles().mean, few.frustration.triangles().mean);
+    // More contacts are frustrated at larger N.
+    EXPECT_GT(apart(row_of(few.frustration, "triangles"), row_of(many.frustration, "triangles")),
+              10.0);
+    EXPECT_GT(row_of(many.frustration, "triangles").mean,
+              row_of(few.frustration, "triangles").mean);
     // Rotation at low N, counterrotation at high N, in both averages and both estimators.
     for (const Estimate& e :
          {few.rotation.estimates().by_event, few.rotation.estimates().rigid_by_time})

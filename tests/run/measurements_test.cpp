@@ -56,8 +56,9 @@ TEST(Measurements, Take511SamplesPerPeriodAfterTheWarmUp) {
 }
 
 TEST(Measurements, TheRotationOfTheProfileIsThatOfTheRun) {
-    // ϖ_M = ϖ − Ω; the slices' means weighted with their visits make the mean over the discs. The
-    // run looks 64 times a period, the profile 511 times: they agree within the error.
+    // ϖ_M = ϖ − Ω; the means of the slices, weighted with their visits, give the mean over the
+    // discs. The run samples 64 times per period, the profile 511 times: they agree within the
+    // error.
     const MeasuredRun done = measured_run(short_run(), {"profile"});
     const auto& profile = done.measured["profile"];
     double total = 0.0;
@@ -127,12 +128,12 @@ TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {
 
 TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
     const auto table = measured_run(short_run(), {"diffusion"}).measured["diffusion"];
-    // 64 of 73 parts of a swirl; of 25 swirls, lags of 1, 2, 4, 8, 16.
+    // 64 of 73 parts of a period; in 25 periods, lags of 1, 2, 4, 8, 16.
     ASSERT_EQ(table["lag"].size(), 12u);
     EXPECT_NEAR(table["lag"][0].get<double>(), paper_period / 73.0, 1e-9);
     EXPECT_NEAR(table["lag"][7].get<double>(), paper_period, 1e-9);
     EXPECT_NEAR(table["lag"][11].get<double>(), 16.0 * paper_period, 1e-9);
-    // At the shortest lag discs fly almost straight; at none do they leave the dish.
+    // At the shortest lag discs fly almost straight; at no lag do they leave the container.
     const double flight = table["displacement"][0].get<double>();
     EXPECT_NEAR(table["displacement"][1].get<double>() / flight, 4.0, 0.5);
     for (const auto& square : table["displacement"])
@@ -152,7 +153,7 @@ TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
     const MeasuredRun done = measured_run(config, everything());
     EXPECT_EQ(mean_of(done.measured["collisions"]["disc_disc_rate"]), 0.0);
     EXPECT_TRUE(std::isnan(done.measured["order"]["all"]["mean"].get<double>()));
-    // The whole dish is its cell.
+    // Its cell is the whole container.
     EXPECT_NEAR(mean_of(done.measured["packing"]["all"]),
                 1.0 / (paper_container_radius * paper_container_radius), 1e-12);
 }

@@ -1,5 +1,5 @@
-// Every measurement of the list, with every number that it reports: two dishes observed apart and
-// merged are one observation of both. Whoever forgets a member in merge() finds it here.
+// Every number of every measurement: two containers observed separately and merged give the results
+// of one observation of both. A member missing in merge() fails here.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -10,9 +10,9 @@
 namespace swirl {
 namespace {
 
-/// Some measurements look at every 7th or 100th sample, those of the pinned at every 64th for
-/// which it is known who is pinned (not the first and last seven), one at every 32nd event. Both
-/// observations must look at the same ones: a dish lasts for a multiple of these.
+/// Some measurements use every 7th or 100th sample. Those of pinned discs use every 64th sample for
+/// which the pinned discs are known (not the first and last seven). One uses every 32nd event. Both
+/// observations must use the same samples, so the length of a run is a multiple of these.
 struct Part {
     bool of_the_pinned;
     int periods, samples;
@@ -37,7 +37,7 @@ RunConfig container(const Part& part, std::uint64_t seed) {
     return config;
 }
 
-/// All of a run from its first event on, period by period.
+/// A whole run from its first event, period by period.
 void observe(const Part& part, std::uint64_t seed, std::initializer_list<Observation*> observers) {
     swirl::Run run(container(part, seed));
     SampleTimes times = run.sample_times(part.samples);
@@ -48,7 +48,8 @@ void observe(const Part& part, std::uint64_t seed, std::initializer_list<Observa
         const std::int64_t periods = run.event().periods;
         run.pass_event();
         const bool last = run.snapshot().periods == part.periods;
-        // The corner that ends the last period is seen once, or until the number is round.
+        // The vertex that ends the last period is handed over once or more, until the number is a
+        // multiple.
         do
             for (Observation* o : observers) o->sample(run.event(), run.snapshot());
         while (++events % events_per_sample != 0 && last);
@@ -57,8 +58,8 @@ void observe(const Part& part, std::uint64_t seed, std::initializer_list<Observa
     }
 }
 
-/// Means are the same up to the order of the additions; errors take account of how a block
-/// resembles the one before, and the first of the second dish has none before it.
+/// Means agree up to the order of additions. Errors use the correlation of a block with the
+/// previous one, and the first block of the second container has none.
 void expect_same(double merged, double whole, const std::string& what) {
     if (std::isnan(whole) || std::isnan(merged)) {
         EXPECT_EQ(std::isnan(whole), std::isnan(merged)) << what;
@@ -89,7 +90,7 @@ TEST_P(MergedObservation, EqualsOneObservationOfBothContainers) {
         const Report &a = merged[m].report, &b = expected[m].report;
         for (std::size_t k = 0; k < b.rows.size(); ++k) {
             const std::string name = merged[m].name + "." + b.rows[k].name;
-            // From the one dish to the other the energy jumps, and no collision accounts for it.
+            // Between the two containers the energy jumps, and no collision accounts for it.
             if (name == "energy.unaccounted_share") continue;
             expect_same(a.rows[k].estimate.mean, b.rows[k].estimate.mean, name);
             expect_same(a.rows[k].estimate.error, b.rows[k].estimate.error, name + " error");
@@ -109,7 +110,7 @@ TEST_P(MergedObservation, EqualsOneObservationOfBothContainers) {
                                 std::to_string(v / columns));
         }
     }
-    // It must not be that all agree because nothing was seen.
+    // The numbers must not agree merely because there are no samples.
     EXPECT_GT(known, 15u);
 }
 

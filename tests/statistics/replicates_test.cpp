@@ -111,9 +111,9 @@ TEST(Ensemble, ExactRunsThatAgreeAreExact) {
     EXPECT_FALSE(ensemble(runs).disagree);
 }
 
-// How often the 95 % interval holds the truth, over 4000 repetitions: a binomial deviate with a
-// standard deviation of 0.35 %. The maximum of two estimates is on the safe side, so what is asked
-// is not less than 93.5 %, also where blocks understate the error.
+// Share of 4000 repetitions in which the 95 % interval contains the true value: binomial, with a
+// standard deviation of 0.35 %. The maximum of two estimates is on the safe side. So the test
+// requires at least 93.5 %, also if the blocks underestimate the error.
 TEST(Ensemble, IntervalHasNominalCoverageIfSeedsAgree) {
     Random random(17);
     for (const int seeds : {2, 3, 8})
@@ -128,14 +128,14 @@ TEST(Ensemble, IntervalHasNominalCoverageIfSeedsAgree) {
                 held += std::fabs(e.mean) <= 1.96 * e.error ? 1 : 0;
             }
             const double share = double(held) / repetitions;
-            // Two runs cannot tell an error that is understated by 2 from chance.
+            // Two runs cannot distinguish an error that is too small by a factor of 2 from chance.
             const double minimum = understated == 1.0 ? 0.935 : seeds == 8 ? 0.90 : 0.75;
             EXPECT_GT(share, minimum) << seeds << " seeds, understated by " << understated;
         }
 }
 
-// Two runs disagree, and a third is too uncertain to say: what its blocks say is not forgotten.
-// V_w = (2 · 0.01² + 10²)/9.
+// Two runs disagree, and a third is too uncertain to decide: the error from its blocks still
+// counts. V_w = (2 · 0.01² + 10²)/9.
 TEST(Ensemble, ErrorIsAtLeastThatOfTheBlocksIfSeedsDisagree) {
     const std::vector<Estimate> runs{run_of(0.0, 0.01), run_of(1.0, 0.01), run_of(0.5, 10.0)};
     const Ensemble all = ensemble(runs);
@@ -143,13 +143,13 @@ TEST(Ensemble, ErrorIsAtLeastThatOfTheBlocksIfSeedsDisagree) {
     EXPECT_GE(all.estimate.error, std::sqrt((2e-4 + 100.0) / 9.0));
 }
 
-/// Of many repetitions the shares whose truth, 0, is within 1.96 errors, and beyond three.
+/// Shares of the repetitions in which the true value, 0, is within 1.96 errors, and beyond three.
 struct Shares {
     double held = 0.0, beyond_three = 0.0;
 };
 
-/// Runs with these lengths, whose blocks say an error of 1/√(length) of the longest's, and whose
-/// seeds differ by `between` besides.
+/// Runs with these lengths. Their blocks give an error proportional to 1/√length; in addition, the
+/// seeds differ by `between`.
 Shares shares_of(const std::vector<double>& lengths, double between, bool with_errors,
                  Random& random) {
     const int repetitions = 4000;
@@ -168,21 +168,22 @@ Shares shares_of(const std::vector<double>& lengths, double between, bool with_e
     return shares;
 }
 
-// A long run draws the mean to itself, so its distance from the mean says little of its error. The
-// standard deviation of a share is 0.35 %.
+// A long run pulls the mean towards itself, so its distance from the mean contains little about its
+// error. The standard deviation of a share is 0.35 %.
 TEST(Ensemble, CoverageHoldsForUnequalLengths) {
     Random random(18);
     for (const std::vector<double>& lengths : std::vector<std::vector<double>>{
              {295, 8}, {295, 295, 8}, {100, 50, 20}, {400, 100, 100}, {400, 400, 400, 100, 100}}) {
         EXPECT_GT(shares_of(lengths, 30.0, false, random).held, 0.935)
             << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
-        // Where the blocks say all, and the short run is just uncertain, too.
+        // Also if the blocks contain the whole error, and the short run is merely uncertain.
         EXPECT_GT(shares_of(lengths, 0.0, true, random).held, 0.935)
             << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
     }
 }
 
-// What the header says of few seeds whose differences are of the size of their errors.
+// The coverage that the header documents for few seeds with differences of the size of their
+// errors.
 TEST(Ensemble, CoverageOfFewSeedsIsAsDocumented) {
     struct Said {
         std::size_t seeds;
@@ -197,13 +198,13 @@ TEST(Ensemble, CoverageOfFewSeedsIsAsDocumented) {
             worst.held = std::min(worst.held, s.held);
             worst.beyond_three = std::max(worst.beyond_three, s.beyond_three);
         }
-        // The last digit said, and two standard deviations, √(p (1 − p)/4000).
+        // The last documented digit, and two standard deviations, √(p (1 − p)/4000).
         EXPECT_NEAR(worst.held, said.held, 0.02) << said.seeds;
         EXPECT_NEAR(worst.beyond_three, said.beyond_three, 0.015) << said.seeds;
     }
 }
 
-// Whichever comes first: a direction is the nearest of those that differ by whole turns.
+// Independent of the order: angles that differ by whole turns are the same direction.
 TEST(Ensemble, DirectionsOnBothSidesOfZeroAverageToZero) {
     for (const auto& [first, second] : {std::pair{10.0, 350.0}, std::pair{350.0, 10.0}}) {
         const std::vector<Estimate> runs{run_of(first, 20.0), run_of(second, 20.0)};

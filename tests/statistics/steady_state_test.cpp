@@ -25,7 +25,7 @@ std::vector<double> correlated_noise(std::size_t blocks, double a, std::uint64_t
     return all;
 }
 
-/// How many of 200 such series have this verdict, with `shape(block)` added.
+/// The number of 200 such series, with `shape(block)` added, that have this verdict.
 template <class Shape>
 int count(Verdict verdict, std::size_t blocks, double a, const Shape& shape) {
     int found = 0;
@@ -48,8 +48,8 @@ TEST(SteadyState, SteadySeriesAreSteady) {
 }
 
 // A jump by three standard deviations of the blocks, or 16 errors of the difference where one part
-// has a tenth of the run. The old test cut the blocks before the jump off, though the average
-// rested on them.
+// has a tenth of the run. A test that dropped the blocks before the jump would miss it, though the
+// average contains them.
 TEST(SteadyState, AJumpDoesNotHideItself) {
     for (const std::size_t at : {100u, 300u, 500u, 900u}) {
         const auto jump = [at](std::size_t b) { return b < at ? 3.0 : 0.0; };
@@ -75,7 +75,7 @@ TEST(SteadyState, ChangeOfTheNoiseDoesNotHideAJump) {
 TEST(SteadyState, GradualChangeIsADrift) {
     const auto line = [](std::size_t b) { return 0.004 * double(b); };
     EXPECT_GE(count(Verdict::drifting, 1000, 0.5, line), 195);
-    // A beginning that ends slowly would enlarge its own error.
+    // A slow transient would enlarge its own error.
     const auto saturation = [](std::size_t b) { return -20.0 * std::exp(-double(b) / 40.0); };
     EXPECT_GE(count(Verdict::drifting, 300, 0.0, saturation), 195);
 }
@@ -89,7 +89,7 @@ TEST(SteadyState, TwoStatesAreFoundIfTheyLast) {
     EXPECT_EQ(states.changes, 16u);  // 1000/60 = 16.7 visits: 17 begin
     EXPECT_NEAR(states.low, 0.0, 0.1);
     EXPECT_NEAR(states.high, 5.0, 0.1);
-    // One block far away is no state.
+    // A single outlier is not a state.
     blocks = correlated_noise(1000, 0.3, 8);
     blocks[500] = -300.0;
     EXPECT_EQ(find_steady_state(blocks).verdict, Verdict::steady);
@@ -103,7 +103,7 @@ TEST(Mser5, MinimisesTheSquaredStandardErrorAndNotTheVariance) {
     for (int batch = 0; batch < 10; ++batch)
         blocks.insert(blocks.end(), 5, (batch % 2 == 0 ? 1.0 : -1.0) * (batch < 5 ? 1.1 : 1.0));
     EXPECT_EQ(mser5_truncation(blocks), 0u);
-    // A beginning far from the rest is cut off.
+    // A beginning far from the remainder is cut off.
     for (int block = 0; block < 10; ++block) blocks[static_cast<std::size_t>(block)] += 100.0;
     EXPECT_EQ(mser5_truncation(blocks), 10u);
 }
@@ -120,8 +120,8 @@ TEST(BeginningIsForgotten, OnlyAfterATransientHasEnded) {
             if (t % 10 == 0 && beginning_is_forgotten(blocks)) forgotten = blocks.size();
         }
         early += forgotten > 0 && forgotten < 120 ? 1 : 0;  // still 13 % to go
-        // MSER-5 sees the transient until it is lost in the noise after some 300, and wants
-        // less than half cut off.
+        // MSER-5 sees the transient until it vanishes in the noise after some 300 blocks, and then
+        // cuts off less than half.
         late += forgotten == 0 || forgotten > 900 ? 1 : 0;
     }
     EXPECT_EQ(early, 0);
@@ -137,7 +137,7 @@ TEST(BeginningIsForgotten, AtOnceWithoutATransient) {
         EXPECT_FALSE(beginning_is_forgotten(std::span(blocks).first(49)));
         waited += beginning_is_forgotten(blocks) ? 0 : 1;
     }
-    EXPECT_LE(waited, 30);  // a false alarm costs ten swirls more
+    EXPECT_LE(waited, 30);  // a false alarm costs ten more periods
 }
 
 TEST(WithoutTrend, StraightLineHasNoResiduals) {

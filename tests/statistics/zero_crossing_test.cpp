@@ -45,11 +45,11 @@ TEST(Crossing, IsTheZeroBetweenTwoNeighbours) {
     EXPECT_NEAR(c.error, 0.1 * std::hypot(0.6, 0.4), 0.05 * c.error);
 }
 
-// A straight line through three points on either side was biased by the bending, and its answer and
-// interval depended on which points the range held: 47.85 and 47.6 to 48.0 for one, 47.46 for
+// A straight line through three points on each side would be biased by the bending. Its zero and
+// interval would depend on the points in the range: 47.85 and 47.6 to 48.0 for one, 47.46 for
 // another.
 TEST(Crossing, DoesNotDependOnTheRangeOfTheTable) {
-    // A curve that bends, as that of μ = 0.3 does.
+    // A curve that bends like that of μ = 0.3.
     std::vector<RotationPoint> points{
         {44, 0.0254, 0.0003},  {45, 0.0186, 0.0003},  {46, 0.0113, 0.0003},  {47, 0.0037, 0.0002},
         {48, -0.0034, 0.0005}, {49, -0.0081, 0.0004}, {50, -0.0130, 0.0004}, {51, -0.0170, 0.0005}};
@@ -105,7 +105,7 @@ TEST(Crossing, IntervalContainsTheZeroAndLiesInTheBracket) {
     }
 }
 
-/// How many of 95 % intervals hold the zero, of tables with this error at every point.
+/// Share of the tables, with this error at every point, whose 95 % interval contains the zero.
 double coverage(double zero, double bend, double error, int seeds = 0) {
     constexpr int tables = 4000;
     // The curve bends, but N is a whole number: its zero is that between the neighbours.
@@ -162,7 +162,7 @@ TEST(Crossing, CoverageHoldsForErrorsFromThreeRuns) {
     }
 }
 
-// The middle of 40 and 48 had been given as 44 ± 2.3.
+// Not 44 ± 2.3, the middle of 40 and 48.
 TEST(Crossing, CoarseTableGivesABracket) {
     const std::vector<RotationPoint> coarse{
         {24, 0.05, 0.001}, {36, 0.01, 0.001}, {40, -0.01, 0.001}, {48, -0.04, 0.001}};
@@ -253,7 +253,7 @@ TEST(Crossing, InvalidPointsAreOmitted) {
     EXPECT_EQ(find_crossing(one).verdict, Crossing::Verdict::undecided);
 }
 
-// Of a curve that comes back: 1, 2, 3 changes.
+// A curve that returns: 1, 2, 3 changes.
 TEST(SignChanges, AllOfThemAreFoundInOrderAndTheLastIsNc) {
     const std::vector<RotationPoint> points{
         {21, 0.06, 0.002}, {22, -0.02, 0.002}, {28, -0.03, 0.002}, {29, 0.05, 0.002},
@@ -265,7 +265,7 @@ TEST(SignChanges, AllOfThemAreFoundInOrderAndTheLastIsNc) {
     EXPECT_TRUE(c.changes[2].to_counterrotation);
     EXPECT_NEAR(c.changes[0].discs, 21.75, 1e-9);
     EXPECT_NEAR(c.changes[1].discs, 28.375, 1e-9);
-    // The undetermined one between 30 and 32 takes part.
+    // The undetermined one between 30 and 32 counts.
     EXPECT_EQ(c.changes[2].before, 30.0);
     EXPECT_EQ(c.changes[2].after, 32.0);
     EXPECT_NEAR(c.changes[2].discs, 31.0 + 0.001 / 0.041, 1e-9);
@@ -273,7 +273,7 @@ TEST(SignChanges, AllOfThemAreFoundInOrderAndTheLastIsNc) {
     EXPECT_EQ(c.discs, c.changes[2].discs);
 }
 
-// A hump of one or two errors above zero made no change, and nothing said so.
+// A hump of one or two errors above zero is not a change, but it must be listed.
 TEST(SignChanges, AnUndeterminedHumpBeyondNcIsListed) {
     std::vector<RotationPoint> points{{19, 0.02, 0.002},  {20, -0.02, 0.002}, {26, -0.03, 0.002},
                                       {28, 0.004, 0.002}, {30, 0.002, 0.002}, {32, -0.03, 0.002}};

@@ -156,7 +156,7 @@ class Tracks(Recording):
 
     @property
     def remarks(self) -> list[str]:
-        """What was mended, what noise the places have, and what does not quite fit the dish."""
+        """Repairs of the tracks, the noise of the positions, and what does not quite fit the container."""
         return self._frames.remarks.splitlines()
 
     def __repr__(self) -> str:

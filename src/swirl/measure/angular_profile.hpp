@@ -58,21 +58,14 @@ class AngularProfile {
                           "angular velocity about the centre of mass, in slices of θ",
                           {{"theta", "°"},
                            {"visits", "1"},
-                           {"varpi_m", "Ω"},
-                           {"varpi_m_error", "Ω"},
+                           {"varpi_m", "Ω", with_error_column},
                            {"wall", "Ω"},
-                           {"normalised", "1"},
-                           {"normalised_error", "1"},
-                           {"distance", "r"},
-                           {"distance_error", "r"},
-                           {"speed", "v"},
-                           {"speed_error", "v"}}};
-        for (std::size_t s = 0; s < slices(); ++s) {
-            const Estimate own = plain(s), ratio = normalised(s), away = distance(s),
-                           fast = speed(s);
-            table.add({theta(s) * degrees_per_radian, visits(s), own.mean, own.error, wall(s).mean,
-                       ratio.mean, ratio.error, away.mean, away.error, fast.mean, fast.error});
-        }
+                           {"normalised", "1", with_error_column},
+                           {"distance", "r", with_error_column},
+                           {"speed", "v", with_error_column}}};
+        for (std::size_t s = 0; s < slices(); ++s)
+            table.add(theta(s) * degrees_per_radian, visits(s), plain(s), wall(s).mean,
+                      normalised(s), distance(s), speed(s));
         visit(std::move(table));
     }
     void merge(const AngularProfile& other) { cells_.merge(other.cells_); }

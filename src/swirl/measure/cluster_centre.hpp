@@ -70,28 +70,25 @@ class ClusterCentre : public BlockAverages<ClusterCentre> {
             elongation_.add(square_root((mean + difference) / (mean - difference)));
     }
 
-    Estimate x() const { return x_.estimate(); }
-    Estimate y() const { return y_.estimate(); }
-    Estimate distance() const { return distance_.estimate(); }
     const CircularMean& direction() const { return direction_; }
-    Estimate left() const { return left_.estimate(); }
-    Estimate elongation() const { return elongation_.estimate(); }
-    Estimate centrifugal() const { return centrifugal_.estimate(); }
-    Estimate coriolis() const { return coriolis_.estimate(); }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"x", "r", "centre of mass in the M-frame; left of M is negative", x()});
-        visit(ReportRow{"y", "r", "centre of mass in the M-frame; M is at −R", y()});
-        visit(ReportRow{"distance", "r", "distance of the centre of mass from C", distance()});
+        visit(ReportRow{"x", "r", "centre of mass in the M-frame; left of M is negative",
+                        x_.estimate()});
+        visit(ReportRow{"y", "r", "centre of mass in the M-frame; M is at −R", y_.estimate()});
+        visit(ReportRow{"distance", "r", "distance of the centre of mass from C",
+                        distance_.estimate()});
         visit(direction_row("theta", "direction of the centre of mass; it lags by 270° − θ",
                             direction_));
-        visit(ReportRow{"left", "1", "share of the discs left of the line from C to M", left()});
+        visit(ReportRow{"left", "1", "share of the discs left of the line from C to M",
+                        left_.estimate()});
         visit(ReportRow{"elongation", "1", "ratio of the cluster's length to its width",
-                        elongation()});
+                        elongation_.estimate()});
         visit(ReportRow{"centrifugal", "v²/r", "centrifugal force on a disc, per mass",
-                        centrifugal()});
-        visit(ReportRow{"coriolis", "v²/r", "Coriolis force on a disc, per mass", coriolis()});
+                        centrifugal_.estimate()});
+        visit(ReportRow{"coriolis", "v²/r", "Coriolis force on a disc, per mass",
+                        coriolis_.estimate()});
         const auto maximum = [&](const char* name, const char* description, double value) {
             const Estimate e{.mean = samples_ > 0 ? value : not_available};
             visit(ReportRow{name, "v²/r", description, e, {}, false});

@@ -26,8 +26,8 @@
 // centre of mass, by −J/M; between two such impulses it moves uniformly. At every path vertex it is
 // summed up again, which removes the accumulated rounding. (A floor accelerates spheres all the
 // time; there the centre of mass is summed up for every sample.) Eight discs are processed in
-// parallel, always with eight partial sums added in the same order. So the result does not depend on
-// the vector width of the processor.
+// parallel, always with eight partial sums added in the same order. So the result does not depend
+// on the vector width of the processor.
 #pragma once
 
 #include <array>
@@ -56,10 +56,10 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::b
 /// samples fall on different phases of a side.
 inline constexpr int rotation_samples = 64;
 
-/// A sample reads all discs, an event about eight. In a container larger than any of the paper's, one
-/// sample after every event would dominate the run: 9/10 of its time with 2,000 discs. Consecutive
-/// samples differ by the change of two discs. One sample per several events has the same mean, and
-/// costs as much per event as reading 64 discs.
+/// A sample reads all discs, an event about eight. In a container larger than any of the paper's,
+/// one sample after every event would dominate the run: 9/10 of its time with 2,000 discs.
+/// Consecutive samples differ by the change of two discs. One sample per several events has the
+/// same mean, and costs as much per event as reading 64 discs.
 constexpr std::uint64_t events_per_rotation_sample(std::size_t discs) {
     constexpr std::size_t always_sampled = 128, read_per_event = 64;
     return discs <= always_sampled ? 1 : (discs + read_per_event - 1) / read_per_event;
@@ -112,8 +112,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
             follow_centre(snapshot, event);
     }
     /// One sample of the average by event, after an event passed to follow(). It is fastest just
-    /// before the snapshot is updated for the next event: a wide load waits for narrow stores to the
-    /// same address that came shortly before.
+    /// before the snapshot is updated for the next event: a wide load waits for narrow stores to
+    /// the same address that came shortly before.
     RotationSample sample(const Snapshot& snapshot);
     RotationSample sample(const Snapshot& snapshot, const Event& event) {
         follow(snapshot, event);
@@ -122,8 +122,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     /// One sample of the average by time; call it at equal time steps.
     RotationSample sample_by_time(const Snapshot& snapshot);
 
-    /// Call at the end of every period. The samples since the last call become a block; an open block
-    /// does not count.
+    /// Call at the end of every period. The samples since the last call become a block; an open
+    /// block does not count.
     void close_block();
 
     RotationEstimates estimates() const;

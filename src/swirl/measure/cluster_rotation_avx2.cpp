@@ -1,4 +1,4 @@
-// The kernel of cluster_rotation.hpp for AVX2. Empty where the compiler was not told to use it.
+// The kernel of cluster_rotation.hpp for AVX2. Empty if the compiler does not use it.
 #if defined(__AVX2__)
 #define SWIRL_ROTATION_KERNEL
 #include "swirl/measure/cluster_rotation_kernel.hpp"

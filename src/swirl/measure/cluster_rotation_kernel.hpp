@@ -1,7 +1,7 @@
 // The inner loop of cluster_rotation.hpp, compiled once for each width of vector registers
-// (cmake/engine.cmake). For every width, eight discs are processed in parallel by the same operations,
-// exactly rounded and never fused, and the eight partial sums are added in the same order. So all
-// widths give bitwise the same result.
+// (cmake/engine.cmake). For every width, eight discs are processed in parallel by the same
+// operations, exactly rounded and never fused, and the eight partial sums are added in the same
+// order. So all widths give bitwise the same result.
 //
 // The interface has only plain pointers and doubles. An inline function of the standard library,
 // compiled here for a wide register, could be the copy that the linker keeps for the whole program,
@@ -41,8 +41,8 @@ struct RotationAcceleration {
     const double *ax, *ay;
 };
 
-/// The kernel for one vector width and at least eight discs. The columns of the snapshot are separate
-/// arguments, since then they stay in registers.
+/// The kernel for one vector width and at least eight discs. The columns of the snapshot are
+/// separate arguments, since then they stay in registers.
 struct RotationKernel {
     /// The centre of mass at `clock`.
     RotationCentre (*centre)(const double* x, const double* y, const double* vx, const double* vy,
@@ -260,8 +260,8 @@ struct RateSums {
 // Lane k of `last_lanes + left` is 1 for the last `left` of eight lanes.
 constexpr double last_lanes[2 * lanes] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
-/// If the number of discs is not a multiple of eight, the last `left` discs are loaded together with
-/// those before them, which then have weight 0.
+/// If the number of discs is not a multiple of eight, the last `left` discs are loaded together
+/// with those before them, which then have weight 0.
 struct Rows {
     std::ptrdiff_t left, whole, last;
 

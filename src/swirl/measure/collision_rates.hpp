@@ -35,8 +35,6 @@ class CollisionRates : public MergedAverages<CollisionRates> {
         rate_.add(disc_ + wall_, weight);
         disc_ = wall_ = 0.0;
     }
-    Estimate disc_disc() const { return disc_rate_.estimate(); }
-    Estimate disc_wall() const { return wall_rate_.estimate(); }
     Estimate mean_free_time() const {
         Estimate e = rate_.estimate();
         e.error /= e.mean * e.mean;
@@ -47,9 +45,9 @@ class CollisionRates : public MergedAverages<CollisionRates> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         visit(ReportRow{"disc_disc_rate", "v/r", "collisions of a disc with discs per time",
-                        disc_disc()});
+                        disc_rate_.estimate()});
         visit(ReportRow{"disc_wall_rate", "v/r", "collisions of a disc with the wall per time",
-                        disc_wall()});
+                        wall_rate_.estimate()});
         visit(ReportRow{"mean_free_time", "r/v", "time from one collision of a disc to its next",
                         mean_free_time()});
     }

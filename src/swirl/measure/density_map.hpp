@@ -75,14 +75,11 @@ class DensityMaps : public BlockAverages<DensityMaps> {
                           "discs per area, in cells of the container's bounding square",
                           {{"x", "r"},
                            {"y", "r"},
-                           {"by_time", "1/r²"},
-                           {"by_time_error", "1/r²"},
-                           {"by_event", "1/r²"},
-                           {"by_event_error", "1/r²"}}};
+                           {"by_time", "1/r²", with_error_column},
+                           {"by_event", "1/r²", with_error_column}}};
         for (std::size_t c = 0; c < by_time_.grid().cells(); ++c) {
             const Vec2 p = by_time_.grid().centre_of(c);
-            const Estimate time = by_time_.density(c), event = by_event_.density(c);
-            table.add({p.x, p.y, time.mean, time.error, event.mean, event.error});
+            table.add(p.x, p.y, by_time_.density(c), by_event_.density(c));
         }
         visit(std::move(table));
     }

@@ -153,19 +153,14 @@ class DiffusionLags {
         ReportTable table{"",
                           "squared displacement and rotation of a disc against the lag",
                           {{"lag", "r/v"},
-                           {"displacement", "r²"},
-                           {"displacement_error", "r²"},
-                           {"rotation", "rad"},
-                           {"rotation_error", "rad"},
-                           {"rotation_variance", "rad²"},
-                           {"rotation_variance_error", "rad²"}}};
+                           {"displacement", "r²", with_error_column},
+                           {"rotation", "rad", with_error_column},
+                           {"rotation_variance", "rad²", with_error_column}}};
         for (const Diffusion* d : {&within_, &across_})
             for (std::size_t k = 0; k < d->lags(); ++k) {
-                const Estimate moved = d->square_displacement(k), rotation = d->mean_rotation(k),
-                               variance = d->rotation_variance(k);
-                if (moved.blocks == 0 || std::isnan(moved.mean)) continue;
-                table.add({d->lag(k), moved.mean, moved.error, rotation.mean, rotation.error,
-                           variance.mean, variance.error});
+                const Estimate displacement = d->square_displacement(k);
+                if (displacement.blocks == 0 || std::isnan(displacement.mean)) continue;
+                table.add(d->lag(k), displacement, d->mean_rotation(k), d->rotation_variance(k));
             }
         visit(std::move(table));
     }

@@ -47,8 +47,8 @@ inline ReportTable positions_table(const char* description, const DirectionHisto
                                    const DirectionHistogram& free) {
     ReportTable table{"positions", description, {{"theta", "°"}, {"pinned", "1"}, {"free", "1"}}};
     for (std::size_t k = 0; k < DirectionHistogram::slices; ++k)
-        table.add({360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
-                   pinned.share(k), free.share(k)});
+        table.add(360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
+                  pinned.share(k), free.share(k));
     return table;
 }
 

@@ -117,7 +117,7 @@ void EnergyBudget::merge(const EnergyBudget& other) {
     add(total_, other.total_);
     begun_ = begun_ || other.begun_;
     max_difference_ = std::fmax(max_difference_, other.max_difference_);
-    MergedAverages::merge(other);
+    ReportedAverages::merge(other);
 }
 
 }  // namespace swirl

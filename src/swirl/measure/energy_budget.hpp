@@ -18,9 +18,9 @@
 //
 // Spheres (collision_law.hpp): L_t also has the vertical part −J_z (s_z + s'_z)/2, of the planar
 // motion, so it includes the energy that lifts one of them. A contact on a floor may return energy
-// that was stored by pressing, so L_n may be negative there. Between collisions the floor acts, with
-// the velocity u, which is constant on a segment of the path. With P the momentum of all spheres,
-// and ΔP and ΔK their changes from event to event without those in the collision,
+// that was stored by pressing, so L_n may be negative there. Between collisions the floor acts,
+// with the velocity u, which is constant on a segment of the path. With P the momentum of all
+// spheres, and ΔP and ΔK their changes from event to event without those in the collision,
 //
 //   W_f = u·ΔP                work of the moving floor
 //   L_f = W_f − ΔK            loss by sliding on the floor, Σ μ_f m g ∫|c| dt ≥ 0, and by rolling
@@ -56,26 +56,25 @@ EnergyChange energy_change(const Event& event, const Snapshot& after);
 /// K of a snapshot, lab frame.
 double kinetic_energy(const Snapshot& snapshot);
 
-class EnergyBudget : public MergedAverages<EnergyBudget> {
+class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
   public:
-    static auto averages(auto& s) {
-        return std::tie(s.work_, s.disc_friction_, s.wall_friction_, s.inelastic_, s.floor_work_,
-                        s.floor_friction_);
+    static auto rows(auto& s) {
+        return std::tuple{
+            AverageRow{"wall_power", "m v³/r", "work of the wall per time", s.work_},
+            AverageRow{"disc_friction_power", "m v³/r", "lost in friction between discs",
+                       s.disc_friction_},
+            AverageRow{"wall_friction_power", "m v³/r", "lost in friction at the wall",
+                       s.wall_friction_},
+            AverageRow{"inelastic_power", "m v³/r", "lost in inelastic collisions", s.inelastic_},
+            AverageRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
+                       s.floor_work_},
+            AverageRow{"floor_friction_power", "m v³/r",
+                       "lost on the floor by sliding and rolling resistance", s.floor_friction_}};
     }
 
     void sample_event(const Event& event, const Snapshot& after);
     /// `duration`: the time in which the events since the last call happened.
     void close_event_block(double duration);
-
-    /// Power of the wall; power lost in friction between discs and at the wall, and in inelastic
-    /// collisions.
-    Estimate wall_power() const { return work_.estimate(); }
-    Estimate disc_friction_power() const { return disc_friction_.estimate(); }
-    Estimate wall_friction_power() const { return wall_friction_.estimate(); }
-    Estimate inelastic_power() const { return inelastic_.estimate(); }
-    /// Power of the floor, and power lost in sliding and rolling on it; for spheres on a floor.
-    Estimate floor_power() const { return floor_work_.estimate(); }
-    Estimate floor_friction_power() const { return floor_friction_.estimate(); }
 
     /// Since the beginning, including the open block.
     double total_work() const { return total_.work; }
@@ -90,18 +89,7 @@ class EnergyBudget : public MergedAverages<EnergyBudget> {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"wall_power", "m v³/r", "work of the wall per time", wall_power()});
-        visit(ReportRow{"disc_friction_power", "m v³/r", "lost in friction between discs",
-                        disc_friction_power()});
-        visit(ReportRow{"wall_friction_power", "m v³/r", "lost in friction at the wall",
-                        wall_friction_power()});
-        visit(ReportRow{"inelastic_power", "m v³/r", "lost in inelastic collisions",
-                        inelastic_power()});
-        visit(ReportRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
-                        floor_power()});
-        visit(ReportRow{"floor_friction_power", "m v³/r",
-                        "lost on the floor by sliding and rolling resistance",
-                        floor_friction_power()});
+        ReportedAverages::report(visit);
         visit(ReportRow{.name = "unaccounted_share",
                         .unit = "1",
                         .description = "share of the energy that is not accounted for",

@@ -49,14 +49,11 @@ class FlowMap {
                           {{"x", "r"},
                            {"y", "r"},
                            {"visits", "1"},
-                           {"u_x", "v"},
-                           {"u_x_error", "v"},
-                           {"u_y", "v"},
-                           {"u_y_error", "v"}}};
+                           {"u_x", "v", with_error_column},
+                           {"u_y", "v", with_error_column}}};
         for (std::size_t c = 0; c < grid_.cells(); ++c) {
             const Vec2 p = grid_.centre_of(c);
-            const Estimate x = flow_x(c), y = flow_y(c);
-            table.add({p.x, p.y, visits(c), x.mean, x.error, y.mean, y.error});
+            table.add(p.x, p.y, visits(c), flow_x(c), flow_y(c));
         }
         visit(std::move(table));
     }

@@ -1,8 +1,8 @@
 // Which discs are on a long residence in the layer at the wall, for every disc and every moment.
 // wall_residence.hpp has the definition.
 //
-// A residence is known to be a long one only when it has lasted long enough; then all of it is long,
-// from its first sample on. So a measurement stores what it saw at time t and asks later:
+// A residence is known to be a long one only when it has lasted long enough; then all of it is
+// long, from its first sample on. So a measurement stores what it saw at time t and asks later:
 //
 //     is_known(t)     it is known which discs were on a long residence at time t, or it never will
 //                     be

@@ -3,8 +3,8 @@
 //   ρ(ring) = ⟨number of disc centres in the ring⟩ / area of the ring
 //
 // in discs per unit area. The rings about C are equally wide, from 0 to R. Σ ρ × area is the number
-// of discs. Multiplied by the area of a disc, ρ is the packing fraction of a container that has this
-// density everywhere.
+// of discs. Multiplied by the area of a disc, ρ is the packing fraction of a container that has
+// this density everywhere.
 //
 // Units: 1/length². Normalisation: per sample. Errors: from blocks of periods. Limits: no samples:
 // NaN. A centre outside the container (a camera's error) is counted in no ring.
@@ -42,16 +42,12 @@ class RadialDensity {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        ReportTable table{"",
-                          "discs per area, in rings about the container's centre",
-                          {{"inner_radius", "r"},
-                           {"outer_radius", "r"},
-                           {"density", "1/r²"},
-                           {"density_error", "1/r²"}}};
-        for (std::size_t ring = 0; ring < rings(); ++ring) {
-            const Estimate e = density(ring);
-            table.add({inner_radius(ring), outer_radius(ring), e.mean, e.error});
-        }
+        ReportTable table{
+            "",
+            "discs per area, in rings about the container's centre",
+            {{"inner_radius", "r"}, {"outer_radius", "r"}, {"density", "1/r²", with_error_column}}};
+        for (std::size_t ring = 0; ring < rings(); ++ring)
+            table.add(inner_radius(ring), outer_radius(ring), density(ring));
         visit(std::move(table));
     }
     void merge(const RadialDensity& other) { counts_.merge(other.counts_); }

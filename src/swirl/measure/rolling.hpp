@@ -9,8 +9,8 @@
 //   axis correlation  Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
 //                     where neighbours roll alike
 //   contact rolling   the same for h = ω_x n_y − ω_y n_x, the rolling along the line of centres. It
-//                     is −1 for two spheres that roll on each other without slip. It is 1 where both
-//                     roll the same way and their surfaces slip with the sum of their speeds;
+//                     is −1 for two spheres that roll on each other without slip. It is 1 where
+//                     both roll the same way and their surfaces slip with the sum of their speeds;
 //                     spheres that roll together over a floor have 1. That is the frustration: the
 //                     floor requires 1, the contact −1, and both at once are impossible
 //
@@ -40,10 +40,22 @@
 
 namespace swirl {
 
-class Rolling : public BlockAverages<Rolling> {
+class Rolling : public ReportedAverages<Rolling> {
   public:
-    static auto averages(auto& s) {
-        return std::tie(s.rolls_, s.rolls_at_wall_, s.slip_, s.axes_, s.contacts_);
+    static auto rows(auto& s) {
+        return std::tuple{
+            AverageRow{"rolling_share", "1", "share of the spheres that roll on the floor",
+                       s.rolls_},
+            AverageRow{"wall_rolling_share", "1", "share of the spheres at the wall that roll",
+                       s.rolls_at_wall_},
+            AverageRow{"floor_slip", "v", "magnitude of the slip on the floor", s.slip_},
+            AverageRow{"axis_correlation", "1",
+                       "correlation of touching spheres' horizontal spins: 1 if they roll alike",
+                       s.axes_},
+            AverageRow{"contact_correlation", "1",
+                       "correlation of their rolling along the line of centres: −1 without slip, 1 "
+                       "if they slip with both speeds",
+                       s.contacts_}};
     }
 
     explicit Rolling(double gap = 0.1, int every = 7) : gap_(gap), every_(every) {}
@@ -53,48 +65,26 @@ class Rolling : public BlockAverages<Rolling> {
     /// `duration`: the time in which the events since the last call happened.
     void close_event_block(double duration, std::size_t spheres);
 
-    Estimate rolling_share() const { return rolls_.estimate(); }
-    Estimate wall_rolling_share() const { return rolls_at_wall_.estimate(); }
-    Estimate floor_slip() const { return slip_.estimate(); }
-    Estimate axis_correlation() const { return axes_.estimate(); }
-    Estimate contact_correlation() const { return contacts_.estimate(); }
-    Estimate vertical_share() const { return between_.share.estimate(); }
-    Estimate vertical_share_at_wall() const { return at_wall_.share.estimate(); }
-    Estimate vertical_friction() const { return between_.friction.estimate(); }
-    Estimate vertical_friction_at_wall() const { return at_wall_.friction.estimate(); }
-    Estimate vertical_power() const { return between_.power.estimate(); }
-    Estimate vertical_power_at_wall() const { return at_wall_.power.estimate(); }
-
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"rolling_share", "1", "share of the spheres that roll on the floor",
-                        rolling_share()});
-        visit(ReportRow{"wall_rolling_share", "1", "share of the spheres at the wall that roll",
-                        wall_rolling_share()});
-        visit(ReportRow{"floor_slip", "v", "|slip| on the floor", floor_slip()});
-        visit(ReportRow{"axis_correlation", "1",
-                        "correlation of touching spheres' horizontal spins: 1 if they roll alike",
-                        axis_correlation()});
-        visit(ReportRow{"contact_correlation", "1",
-                        "correlation of their rolling along the line of centres: −1 without slip, "
-                        "1 if they slip with both speeds",
-                        contact_correlation()});
+        ReportedAverages::report(visit);
         visit(ReportRow{"vertical_share", "1", "vertical share of friction between spheres",
-                        vertical_share()});
+                        between_.share.estimate()});
         visit(ReportRow{"vertical_share_at_wall", "1", "the same at the wall",
-                        vertical_share_at_wall()});
+                        at_wall_.share.estimate()});
         visit(ReportRow{"vertical_friction", "1",
                         "ratio of vertical to normal impulse between spheres, at most μ",
-                        vertical_friction()});
+                        between_.friction.estimate()});
         visit(ReportRow{"vertical_friction_at_wall", "1", "the same at the wall",
-                        vertical_friction_at_wall()});
+                        at_wall_.friction.estimate()});
         visit(ReportRow{"vertical_power", "m v³/r",
-                        "lost by a sphere to vertical friction between spheres", vertical_power()});
+                        "lost by a sphere to vertical friction between spheres",
+                        between_.power.estimate()});
         visit(ReportRow{"vertical_power_at_wall", "m v³/r", "the same at the wall",
-                        vertical_power_at_wall()});
+                        at_wall_.power.estimate()});
     }
     void merge(const Rolling& other) {
-        BlockAverages::merge(other);
+        ReportedAverages::merge(other);
         between_.merge(other.between_);
         at_wall_.merge(other.at_wall_);
     }

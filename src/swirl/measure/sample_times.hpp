@@ -23,8 +23,9 @@ class SampleTimes {
     SampleTimes(int per_period, double period, double interval = 0.0)
         : per_period_(per_period), period_(period), interval_(interval) {}
 
-    /// Sets the clock and the container of the snapshot to the next sample time up to `clock` within
-    /// its period; false if there is none left. Called before every event; usually there is none.
+    /// Sets the clock and the container of the snapshot to the next sample time up to `clock`
+    /// within its period; false if there is none left. Called before every event; usually there is
+    /// none.
     SWIRL_INLINE bool next(Snapshot& s, const ContainerPath& path, double clock) {
         if (s.periods == periods_ && due_ > clock) return false;
         return advance(s, path, clock);

@@ -126,6 +126,12 @@ concept AddsEnergy = requires(M& m, double missing) {
     m.add_energy(missing);
 };
 
+/// merge(other): adds the closed blocks of an independent run.
+template <class M>
+concept Merges = requires(M& m, const M& other) {
+    m.merge(other);
+};
+
 /// report(visitor): the results (measurement_report.hpp).
 template <class M>
 concept Reports = requires(const M& m, Report& report) {
@@ -146,22 +152,20 @@ template <class M>
 concept SamplesAnything =
     SamplesFrames<M> || SamplesByEvent<M> || SamplesEvents<M> || SamplesEventStates<M>;
 
-namespace has_member {
-
-// A class that inherits the same name from two bases cannot name it: the name is ambiguous. So M
-// has a member `name`, whatever it is, exactly if Both<M>::name cannot be formed.
-#define SWIRL_HAS_MEMBER(name)         \
-    namespace name##_detail {          \
-        struct Other {                 \
-            int name;                  \
-        };                             \
-        template <class M>             \
-        struct Both : M, Other {};     \
-    }                                  \
-    template <class M>                 \
-    concept name = !requires {         \
-        &name##_detail::Both<M>::name; \
-    };
+// A class that inherits a name from two bases cannot use it: the name is ambiguous. So M has a
+// member `name`, whatever it is, exactly if Both<M>::name cannot be formed.
+#define SWIRL_HAS_MEMBER(name)      \
+    namespace has_##name {          \
+        struct Other {              \
+            int name;               \
+        };                          \
+        template <class M>          \
+        struct Both : M, Other {};  \
+        template <class M>          \
+        concept holds = !requires { \
+            &Both<M>::name;         \
+        };                          \
+    }
 
 SWIRL_HAS_MEMBER(sample)
 SWIRL_HAS_MEMBER(sample_residences)
@@ -177,57 +181,46 @@ SWIRL_HAS_MEMBER(add_energy)
 SWIRL_HAS_MEMBER(fields)
 #undef SWIRL_HAS_MEMBER
 
-}  // namespace has_member
+/// If M has a member `name`, one of the concepts must hold. The message gives the right signatures.
+#define SWIRL_CHECK_SIGNATURE(name, right, signatures) \
+    static_assert(!has_##name::holds<M> || (right), "'" #name "' must be callable as " signatures)
 
 /// Fails to compile if M breaks the contract. The compiler names M next to the message.
 template <class M>
 struct SamplingContract {
-    static_assert(!has_member::sample<M> || SamplesMFrame<M> || SamplesPinned<M> || SamplesCells<M>,
-                  "'sample' must be callable as sample(const MFrameView&), "
-                  "sample(const MFrameView&, PinnedFlags) or "
-                  "sample(const MFrameView&, const Voronoi&, PinnedFlags)");
-    static_assert(!has_member::sample_residences<M> || SamplesResidences<M>,
-                  "'sample_residences' must be callable as "
-                  "sample_residences(const LongResidences&)");
-    static_assert(!has_member::sample_in_lab<M> || SamplesLab<M>,
-                  "'sample_in_lab' must be callable as sample_in_lab(const Snapshot&)");
-    static_assert(!has_member::sample_within_period<M> || SamplesWithinPeriod<M>,
-                  "'sample_within_period' must be callable as "
-                  "sample_within_period(const Snapshot&)");
-    static_assert(!has_member::sample_across_periods<M> || SamplesAcrossPeriods<M>,
-                  "'sample_across_periods' must be callable as "
-                  "sample_across_periods(const Snapshot&)");
-    static_assert(!has_member::begin_tracks<M> || BeginsTracks<M>,
-                  "'begin_tracks' must be callable as begin_tracks()");
-    static_assert(BeginsTracks<M> || !(SamplesWithinPeriod<M> || SamplesAcrossPeriods<M>),
-                  "a class with sample_within_period or sample_across_periods needs "
-                  "'begin_tracks'");
-    static_assert(!has_member::sample_by_event<M> || SamplesByEvent<M>,
-                  "'sample_by_event' must be callable as sample_by_event(const MFrameView&)");
-    static_assert(!has_member::sample_event<M> || SamplesEvents<M> || SamplesEventStates<M>,
-                  "'sample_event' must be callable as sample_event(const Event&) or "
-                  "sample_event(const Event&, const Snapshot&)");
-    static_assert(!has_member::close_block<M> || ClosesBlocks<M>,
-                  "'close_block' must be callable as close_block()");
-    static_assert(!has_member::close_event_block<M> || ClosesEventBlocks<M> ||
-                      ClosesEventBlocksOfDiscs<M>,
-                  "'close_event_block' must be callable as close_event_block(double) or "
-                  "close_event_block(double, std::size_t)");
-    static_assert(ClosesBlocks<M> || ClosesEventBlocks<M> || ClosesEventBlocksOfDiscs<M>,
-                  "a measurement needs 'close_block' or 'close_event_block'");
-    static_assert(!has_member::add_energy<M> || AddsEnergy<M>,
-                  "'add_energy' must be callable as add_energy(double)");
-    static_assert(
-        requires(M & m, const M& other) { m.merge(other); },
-        "'merge' must be callable as merge(const M&)");
-    static_assert(has_member::fields<M>, "a measurement needs a member template 'fields'");
-    static_assert(Reports<M> || ReportsTracks<M>,
-                  "'report' must be callable as report(visitor) const or "
-                  "report(visitor, const PinnedLoose&) const");
+    SWIRL_CHECK_SIGNATURE(sample, SamplesMFrame<M> || SamplesPinned<M> || SamplesCells<M>,
+                          "sample(const MFrameView&), sample(const MFrameView&, PinnedFlags) or "
+                          "sample(const MFrameView&, const Voronoi&, PinnedFlags)");
+    SWIRL_CHECK_SIGNATURE(sample_residences, SamplesResidences<M>,
+                          "sample_residences(const LongResidences&)");
+    SWIRL_CHECK_SIGNATURE(sample_in_lab, SamplesLab<M>, "sample_in_lab(const Snapshot&)");
+    SWIRL_CHECK_SIGNATURE(sample_within_period, SamplesWithinPeriod<M>,
+                          "sample_within_period(const Snapshot&)");
+    SWIRL_CHECK_SIGNATURE(sample_across_periods, SamplesAcrossPeriods<M>,
+                          "sample_across_periods(const Snapshot&)");
+    SWIRL_CHECK_SIGNATURE(begin_tracks, BeginsTracks<M>, "begin_tracks()");
+    SWIRL_CHECK_SIGNATURE(sample_by_event, SamplesByEvent<M>, "sample_by_event(const MFrameView&)");
+    SWIRL_CHECK_SIGNATURE(sample_event, SamplesEvents<M> || SamplesEventStates<M>,
+                          "sample_event(const Event&) or "
+                          "sample_event(const Event&, const Snapshot&)");
+    SWIRL_CHECK_SIGNATURE(close_block, ClosesBlocks<M>, "close_block()");
+    SWIRL_CHECK_SIGNATURE(close_event_block, ClosesEventBlocks<M> || ClosesEventBlocksOfDiscs<M>,
+                          "close_event_block(double) or close_event_block(double, std::size_t)");
+    SWIRL_CHECK_SIGNATURE(add_energy, AddsEnergy<M>, "add_energy(double)");
     static_assert(SamplesAnything<M>,
                   "a measurement needs a sampling function: sample, sample_in_lab, "
                   "sample_within_period, sample_across_periods, sample_by_event or sample_event");
+    static_assert(BeginsTracks<M> || !(SamplesWithinPeriod<M> || SamplesAcrossPeriods<M>),
+                  "sample_within_period and sample_across_periods need 'begin_tracks'");
+    static_assert(ClosesBlocks<M> || ClosesEventBlocks<M> || ClosesEventBlocksOfDiscs<M>,
+                  "a measurement needs 'close_block' or 'close_event_block'");
+    static_assert(Merges<M>, "'merge' must be callable as merge(const M&)");
+    static_assert(has_fields::holds<M>, "a measurement needs a member template 'fields'");
+    static_assert(Reports<M> || ReportsTracks<M>,
+                  "'report' must be callable as report(visitor) const or "
+                  "report(visitor, const PinnedLoose&) const");
     static constexpr bool holds = true;
 };
+#undef SWIRL_CHECK_SIGNATURE
 
 }  // namespace swirl

@@ -45,10 +45,17 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
     return 1.0 - container_perimeter / cluster_perimeter;
 }
 
-class Slip : public BlockAverages<Slip> {
+class Slip : public ReportedAverages<Slip> {
   public:
-    static auto averages(auto& s) {
-        return std::tie(s.cluster_, s.pinned_, s.resident_, s.perimeter_, s.pancake_);
+    static auto rows(auto& s) {
+        return std::tuple{
+            AverageRow{"cluster", "1", "slip parameter s of all discs", s.cluster_},
+            AverageRow{"pinned_region", "1", "slip parameter s of the pinned discs", s.pinned_},
+            AverageRow{"resident", "1", "slip parameter s of the discs resident at the wall",
+                       s.resident_},
+            AverageRow{"cluster_perimeter", "r", "perimeter of the cluster", s.perimeter_},
+            AverageRow{"pancake", "Ω", "rotation of a pancake of that perimeter that does not slip",
+                       s.pancake_}};
     }
 
     explicit Slip(int every = 64) : every_(every) {}
@@ -57,25 +64,6 @@ class Slip : public BlockAverages<Slip> {
     void sample(const MFrameView& view, PinnedFlags pinned = {});
     void sample_residences(const LongResidences& residences);
 
-    Estimate cluster() const { return cluster_.estimate(); }
-    Estimate pinned_region() const { return pinned_.estimate(); }
-    Estimate resident() const { return resident_.estimate(); }
-    /// P_cluster, in units of the snapshot's length.
-    Estimate cluster_perimeter() const { return perimeter_.estimate(); }
-    /// ϖ/Ω of the pancake with the cluster's momentary perimeter, averaged.
-    Estimate pancake() const { return pancake_.estimate(); }
-
-    template <class Visitor>
-    void report(Visitor&& visit) const {
-        visit(ReportRow{"cluster", "1", "slip parameter s of all discs", cluster()});
-        visit(ReportRow{"pinned_region", "1", "slip parameter s of the pinned discs",
-                        pinned_region()});
-        visit(ReportRow{"resident", "1", "slip parameter s of the discs resident at the wall",
-                        resident()});
-        visit(ReportRow{"cluster_perimeter", "r", "perimeter of the cluster", cluster_perimeter()});
-        visit(ReportRow{"pancake", "Ω",
-                        "rotation of a pancake of that perimeter that does not slip", pancake()});
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);

@@ -40,13 +40,35 @@
 
 namespace swirl {
 
-class SpinFrustration : public BlockAverages<SpinFrustration> {
+class SpinFrustration : public ReportedAverages<SpinFrustration> {
   public:
-    static auto averages(auto& s) {
-        return std::tie(s.wall_spin_, s.pinned_wall_spin_, s.resident_spin_, s.correlation_,
-                        s.pinned_correlation_, s.resident_correlation_, s.along_wall_,
-                        s.by_impulse_, s.triangles_, s.coordination_, s.disc_sticking_,
-                        s.wall_sticking_);
+    static auto rows(auto& s) {
+        return std::tuple{
+            AverageRow{"wall_spin", "Ω", "magnitude of the spin of the discs at the wall",
+                       s.wall_spin_},
+            AverageRow{"pinned_wall_spin", "Ω",
+                       "magnitude of the spin of the pinned discs at the wall",
+                       s.pinned_wall_spin_},
+            AverageRow{"resident_spin", "Ω",
+                       "magnitude of the spin of the discs resident at the wall", s.resident_spin_},
+            AverageRow{"spin_correlation", "1", "spin correlation of touching discs: −1 for gears",
+                       s.correlation_},
+            AverageRow{"pinned_correlation", "1", "the same for two pinned discs",
+                       s.pinned_correlation_},
+            AverageRow{"resident_correlation", "1",
+                       "the same for a resident disc and any that it touches",
+                       s.resident_correlation_},
+            AverageRow{"along_wall", "1", "the same for two resident discs", s.along_wall_},
+            AverageRow{"correlation_by_impulse", "1",
+                       "the same over collisions, each weighted with its normal impulse",
+                       s.by_impulse_},
+            AverageRow{"triangles", "1", "share of the touching pairs with a common neighbour",
+                       s.triangles_},
+            AverageRow{"coordination", "1", "touching neighbours of a disc", s.coordination_},
+            AverageRow{"disc_sticking", "1", "share of the disc–disc collisions that stop the slip",
+                       s.disc_sticking_},
+            AverageRow{"wall_sticking", "1", "share of the disc–wall collisions that stop the slip",
+                       s.wall_sticking_}};
     }
 
     explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
@@ -64,46 +86,6 @@ class SpinFrustration : public BlockAverages<SpinFrustration> {
         share.add(event.impulse.sticks ? 1.0 : 0.0);
     }
 
-    Estimate wall_spin() const { return wall_spin_.estimate(); }
-    Estimate pinned_wall_spin() const { return pinned_wall_spin_.estimate(); }
-    Estimate resident_spin() const { return resident_spin_.estimate(); }
-    Estimate correlation() const { return correlation_.estimate(); }
-    Estimate pinned_correlation() const { return pinned_correlation_.estimate(); }
-    Estimate resident_correlation() const { return resident_correlation_.estimate(); }
-    Estimate along_wall() const { return along_wall_.estimate(); }
-    Estimate correlation_by_impulse() const { return by_impulse_.estimate(); }
-    Estimate triangles() const { return triangles_.estimate(); }
-    Estimate disc_sticking() const { return disc_sticking_.estimate(); }
-    Estimate wall_sticking() const { return wall_sticking_.estimate(); }
-    /// Touching neighbours of a disc, on average.
-    Estimate coordination() const { return coordination_.estimate(); }
-
-    template <class Visitor>
-    void report(Visitor&& visit) const {
-        visit(ReportRow{"wall_spin", "Ω", "|spin| of the discs at the wall", wall_spin()});
-        visit(ReportRow{"pinned_wall_spin", "Ω", "|spin| of the pinned discs at the wall",
-                        pinned_wall_spin()});
-        visit(ReportRow{"resident_spin", "Ω", "|spin| of the discs resident at the wall",
-                        resident_spin()});
-        visit(ReportRow{"spin_correlation", "1", "spin correlation of touching discs: −1 for gears",
-                        correlation()});
-        visit(ReportRow{"pinned_correlation", "1", "the same for two pinned discs",
-                        pinned_correlation()});
-        visit(ReportRow{"resident_correlation", "1",
-                        "the same for a resident disc and any that it touches",
-                        resident_correlation()});
-        visit(ReportRow{"along_wall", "1", "the same for two resident discs", along_wall()});
-        visit(ReportRow{"correlation_by_impulse", "1",
-                        "the same over collisions, each weighted with its normal impulse",
-                        correlation_by_impulse()});
-        visit(ReportRow{"triangles", "1", "share of the touching pairs with a common neighbour",
-                        triangles()});
-        visit(ReportRow{"coordination", "1", "touching neighbours of a disc", coordination()});
-        visit(ReportRow{"disc_sticking", "1",
-                        "share of the disc–disc collisions that stop the slip", disc_sticking()});
-        visit(ReportRow{"wall_sticking", "1",
-                        "share of the disc–wall collisions that stop the slip", wall_sticking()});
-    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(samples_);

@@ -19,7 +19,8 @@ struct Pair {
 
 class TouchingPairs {
   public:
-    /// All pairs with |r_i − r_j| − (R_i + R_j) < gap. Discs without a finite position touch no disc.
+    /// All pairs with |r_i − r_j| − (R_i + R_j) < gap. Discs without a finite position touch no
+    /// disc.
     const std::vector<Pair>& find(const MFrameView& view, double gap) {
         pairs_.clear();
         view.order_by_x(order_);

@@ -99,8 +99,8 @@ bool Voronoi::clip(const Vec2& centre, const Vec2& towards, double distance,
         if (da <= 0.0) next_.push_back(a);
         if ((da <= 0.0) == (db <= 0.0)) continue;
         const Vec2 cut = a.at + (da / (da - db)) * (b.at - a.at);
-        // Where the outline leaves the half-plane the new side begins; where it returns, the old one
-        // continues.
+        // Where the outline leaves the half-plane the new side begins; where it returns, the old
+        // one continues.
         next_.push_back({cut, da <= 0.0 ? neighbour : a.beyond});
     }
     cell_.swap(next_);

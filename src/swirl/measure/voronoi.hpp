@@ -1,10 +1,10 @@
 // The part of the container that belongs to each disc, and the neighbours of each disc.
 //
 // A disc's cell is where its power |x − r_i|² − R_i² is the smallest of all, cut off at the
-// container's wall. For equal discs this is the Voronoi diagram, for mixtures the radical one, whose
-// borders never cut a disc (Gellatly and Finney 1982, doi:10.1016/0022-3093(82)90093-X). The border
-// between i and j is the line across r_j − r_i = d at the distance t = (d² + R_i² − R_j²)/2d from
-// r_i.
+// container's wall. For equal discs this is the Voronoi diagram, for mixtures the radical one,
+// whose borders never cut a disc (Gellatly and Finney 1982, doi:10.1016/0022-3093(82)90093-X). The
+// border between i and j is the line across r_j − r_i = d at the distance t = (d² + R_i² − R_j²)/2d
+// from r_i.
 //
 //              ______
 //            /   |    \           each cell starts as an octagon around the container and is

@@ -79,23 +79,17 @@ class WallResidences {
                                 "the same for other layers and minimum lengths of a residence",
                                 {{"layer", "r"},
                                  {"min_length", "T"},
-                                 {"becoming_pinned", "°"},
-                                 {"becoming_pinned_error", "°"},
+                                 {"becoming_pinned", "°", with_error_column},
                                  {"pinned_concentration", "1"},
-                                 {"becoming_free", "°"},
-                                 {"becoming_free_error", "°"},
+                                 {"becoming_free", "°", with_error_column},
                                  {"free_concentration", "1"},
-                                 {"share", "1"},
-                                 {"share_error", "1"}}};
+                                 {"share", "1", with_error_column}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
             for (std::size_t d = 0; d < minimum.size(); ++d) {
                 const Averages& a = averages_[l][d];
-                const Estimate pinned = scaled(a.begin.angle(), degrees_per_radian),
-                               free = scaled(a.end.angle(), degrees_per_radian),
-                               on_wall = a.share.estimate();
-                sensitivity.add({layers[l], minimum[d], pinned.mean, pinned.error,
-                                 a.begin.concentration(), free.mean, free.error,
-                                 a.end.concentration(), on_wall.mean, on_wall.error});
+                sensitivity.add(layers[l], minimum[d], scaled(a.begin.angle(), degrees_per_radian),
+                                a.begin.concentration(), scaled(a.end.angle(), degrees_per_radian),
+                                a.end.concentration(), a.share.estimate());
             }
         visit(std::move(sensitivity));
         visit(positions_table("distribution over θ of becoming pinned and becoming free", begins_,

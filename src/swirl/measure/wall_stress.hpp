@@ -78,14 +78,10 @@ class WallStress : public MergedAverages<WallStress> {
         ReportTable table{"profile",
                           "pressure and traction in slices of θ",
                           {{"theta", "°"},
-                           {"pressure", "m v²/r²"},
-                           {"pressure_error", "m v²/r²"},
-                           {"traction", "m v²/r²"},
-                           {"traction_error", "m v²/r²"}}};
-        for (std::size_t s = 0; s < slices(); ++s) {
-            const Estimate p = pressure(s), t = traction(s);
-            table.add({theta(s) * degrees_per_radian, p.mean, p.error, t.mean, t.error});
-        }
+                           {"pressure", "m v²/r²", with_error_column},
+                           {"traction", "m v²/r²", with_error_column}}};
+        for (std::size_t s = 0; s < slices(); ++s)
+            table.add(theta(s) * degrees_per_radian, pressure(s), traction(s));
         visit(std::move(table));
     }
     template <class Visitor>

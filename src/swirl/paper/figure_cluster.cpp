@@ -233,7 +233,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
             "theta",          "visits",     "varpi_m",          "varpi_m_error",
             "wall",           "normalised", "normalised_error", "distance",
             "distance_error", "speed",      "speed_error"};
-        // Of the SI's criterion, of the collisions, and of stays in the wall layer.
+        // Of the SI's criterion, of the collisions, and of residences in the wall layer.
         const std::vector<std::string> angles{"pinned.becoming_pinned",
                                               "pinned.becoming_free",
                                               "pinned.becoming_pinned_by_collisions",

@@ -1,5 +1,5 @@
-// The measurements on recorded frames: of a trajectory, of a camera's tracks, or of a run sampled as
-// a camera would. Blocks are whole periods, as in a run.
+// The measurements on recorded frames: of a trajectory, of a camera's tracks, or of a run sampled
+// as a camera would. Blocks are whole periods, as in a run.
 #pragma once
 
 #include <atomic>
@@ -36,8 +36,8 @@ bool holds_tracks(const SnapshotSeries& series);
 /// tracks, none that follows a disc.
 std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked);
 
-/// The names must be measurable(). The first `skip` periods do not count. Throws Failure if no frame
-/// remains, and Interrupted.
+/// The names must be measurable(). The first `skip` periods do not count. Throws Failure if no
+/// frame remains, and Interrupted.
 MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
                               double skip = 0.0, const MeasuringControl& control = {});
 

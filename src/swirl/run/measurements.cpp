@@ -133,24 +133,24 @@ std::string measurement_help_text() {
 }
 
 std::string measurement_markdown() {
-    std::string kinds = "| name | what it is | definition |\n|---|---|---|\n";
+    std::string names = "| name | description | definition |\n|---|---|---|\n";
     for (const MeasurementKind& kind : measurement_kinds())
-        kinds += fmt::format("| {} | {} | [{}](../src/swirl/measure/{}) |\n", kind.name,
+        names += fmt::format("| {} | {} | [{}](../src/swirl/measure/{}) |\n", kind.name,
                              kind.description, kind.header, kind.header);
-    std::string rows = "| number | unit | what it is |\n|---|---|---|\n";
+    std::string rows = "| quantity | unit | description |\n|---|---|---|\n";
     const auto line = [&](const std::string& name, const ReportRow& row) {
         rows +=
             fmt::format("| {} | {} | {} |\n", full_name(name, row.name), row.unit, row.description);
     };
     RunResult().report(line);
-    std::string tables = "| table | columns (unit) | what it is |\n|---|---|---|\n";
+    std::string tables = "| table | columns (unit) | description |\n|---|---|---|\n";
     for (const auto& [name, report] : empty_reports()) {
         for (const ReportRow& row : report.rows) line(name, row);
         for (const ReportTable& table : report.tables)
             tables += fmt::format("| {} | {} | {} |\n", full_name(name, table.name),
                                   columns_text(table), table.description);
     }
-    return kinds + "\n" + rows + "\n" + tables;
+    return names + "\n" + rows + "\n" + tables;
 }
 
 Observation observation_of(const RunConfig& config, std::vector<std::string> names) {

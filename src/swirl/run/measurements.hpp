@@ -1,7 +1,7 @@
 // What is measured in a run (measure/observation.hpp), for people and for other programs: reads
 // lists of names, and writes reports as JSON, as CSV, as text and as the tables of
-// docs/measurements.md. All of it visits the rows and tables of the reports and knows no measurement
-// by name.
+// docs/measurements.md. All of it visits the rows and tables of the reports and knows no
+// measurement by name.
 //
 // JSON: a row is an object {"mean", "error", "effective_samples", "blocks", …} or a bare number, a
 // table an object of columns. Missing values are null.

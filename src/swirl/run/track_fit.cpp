@@ -99,11 +99,11 @@ std::string smoothing_text(const TrackSmoothing& s) {
                   s.bend, s.window)
             : fmt::format("and were smoothed over {:.1f} frames, to {:.2g} pixels", s.window,
                           s.place_error);
-    const char* const rounded =
-        s.window > longest_window
-            ? " This rounds sharp turns: it cannot be determined where discs become pinned, and the "
-              "temperature is too low by a fifth."
-            : "";
+    const char* const rounded = s.window > longest_window
+                                    ? " This rounds sharp turns: it cannot be determined where "
+                                      "discs become pinned, and the "
+                                      "temperature is too low by a fifth."
+                                    : "";
     return fmt::format(
         "Positions have a noise of {:.2g} pixels, {}. Between collisions, velocities are accurate "
         "to "

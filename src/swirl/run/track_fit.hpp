@@ -1,4 +1,5 @@
-// Whether a camera's tracks fit the container with the given parameters (measure/container_fit.hpp).
+// Whether a camera's tracks fit the container with the given parameters
+// (measure/container_fit.hpp).
 #pragma once
 
 #include <string>
@@ -17,7 +18,8 @@ struct TrackFit {
     double outside = 0.0;      // share of frames: a disc protrudes by more than a fifth of a radius
     double overlapping = 0.0;  // share of frames: two discs overlap by more than 15 %
     bool pairs_known = false;  // there are enough discs for two of them to touch at all times
-    // In nine of ten frames, of many, no disc is near the wall, or no two discs are near each other.
+    // In nine of ten frames, of many, no disc is near the wall, or no two discs are near each
+    // other.
     bool never_at_wall = false, never_touching = false;
     double wall_gap = 0.0;                    // radii, median over frames
     double closest_pair = 1.0;                // in sums of radii, median over frames
@@ -41,8 +43,8 @@ struct FittedSeries {
 /// The tracks as snapshots of a container, smoothed (io/track_smoothing.hpp).
 SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoothing& smoothing);
 
-/// The same, compared with the given parameters. Throws Failure, with a hint at the likely error, if
-/// more than the share `misfit` of the frames contradicts them.
+/// The same, compared with the given parameters. Throws Failure, with a hint at the likely error,
+/// if more than the share `misfit` of the frames contradicts them.
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit);
 
 }  // namespace swirl

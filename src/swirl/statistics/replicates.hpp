@@ -18,8 +18,8 @@
 // and τ² is the value for which it is B. For equal weights V_b is the familiar
 // Σ (m_i − m)² / (n (n − 1)). For unequal ones that would be too small, since a long run pulls m
 // towards itself. Both V estimate the variance of m. V_w is more precise, but misses correlations
-// longer than a run. V_b misses nothing, but is uncertain itself. The larger is at least as large as
-// each of them, so it is on the safe side.
+// longer than a run. V_b misses nothing, but is uncertain itself. The larger is at least as large
+// as each of them, so it is on the safe side.
 //
 // Do they agree? If they do, Q = Σ (m_i − m)²/e_i² is χ² with n − 1 degrees of freedom. The seeds
 // disagree if Q is above the quantile that corresponds to three standard deviations of a normal
@@ -30,9 +30,9 @@
 // Small numbers. The error is √V · t/1.96, with t the quantile of Student's t for 95 %. So
 // mean ± 1.96 errors contains the true value in 95 of 100 cases, however few runs there are, if the
 // blocks contain all correlations. If seeds differ by more than that, few of them cannot always
-// distinguish it from chance, and the interval contains the true value less often. The worst case is
-// a τ of two to five errors e_i: 74 of 100 cases with two runs, 84 with three, 89 with five and 92
-// with eight. The true value is then beyond three errors in up to 17, 8, 4 and 2 of 100 cases
+// distinguish it from chance, and the interval contains the true value less often. The worst case
+// is a τ of two to five errors e_i: 74 of 100 cases with two runs, 84 with three, 89 with five and
+// 92 with eight. The true value is then beyond three errors in up to 17, 8, 4 and 2 of 100 cases
 // (tests/statistics/replicates_test.cpp).
 //
 // Units: those of the mean. Limits: runs without a mean are omitted; a single run keeps its own
@@ -72,7 +72,8 @@ struct Between {
     double variance, freedom;
 };
 
-/// `p` are the shares of the runs in the total weight; `within` is V_w, 0 if the runs have no errors.
+/// `p` are the shares of the runs in the total weight; `within` is V_w, 0 if the runs have no
+/// errors.
 inline Between between_seeds(std::span<const Estimate> runs, std::span<const double> p, double mean,
                              double within) {
     const std::size_t n = runs.size();

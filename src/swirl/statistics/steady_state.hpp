@@ -30,13 +30,13 @@
 //
 // Warm-up while a run continues. The blocks so far are tested at intervals, from 50 of them on. The
 // end of the warm-up is that of MSER-5: blocks are averaged in fives, and the truncation d ≤ n/2
-// minimises the squared standard error of the remainder, Σ_{i>d}(Y_i − Ȳ_d)² / (n − d)² (White 1997,
-// doi:10.1177/003754979706900601; batches of five: White, Cobb, Spratt, Proceedings of the 2000
-// Winter Simulation Conference). The warm-up is over when MSER-5 cuts off less than the first half
-// and the remainder has no drift. For that, the first fifth of the remainder is compared with its
-// last half, each with its own correlated error: |z| ≤ 4 (of Student's t) with these errors, and
-// |z| ≤ 2 with the errors about straight lines. (Two, because waiting a little longer costs less
-// than beginning too early.) All blocks up to then are the warm-up.
+// minimises the squared standard error of the remainder, Σ_{i>d}(Y_i − Ȳ_d)² / (n − d)² (White
+// 1997, doi:10.1177/003754979706900601; batches of five: White, Cobb, Spratt, Proceedings of the
+// 2000 Winter Simulation Conference). The warm-up is over when MSER-5 cuts off less than the first
+// half and the remainder has no drift. For that, the first fifth of the remainder is compared with
+// its last half, each with its own correlated error: |z| ≤ 4 (of Student's t) with these errors,
+// and |z| ≤ 2 with the errors about straight lines. (Two, because waiting a little longer costs
+// less than beginning too early.) All blocks up to then are the warm-up.
 #pragma once
 
 #include <algorithm>

@@ -44,8 +44,8 @@ struct RotationPoint {
     double mean, error;  // ϖ/Ω
 };
 
-/// Number of errors from zero that makes a sign certain. Two would not do: among many points, one or
-/// two are off by two errors.
+/// Number of errors from zero that makes a sign certain. Two would not do: among many points, one
+/// or two are off by two errors.
 inline constexpr double certain_sign = 3.0;
 
 /// One change of sign of a curve, which need not be monotonic.
