@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 import unittest
 
-from program import SWIRL, InFolder, swirl
+from program import ONE_ERROR, SWIRL, InFolder, swirl
 
 # Call, exit code, words that the sentence must contain.
 CALLS = [
@@ -135,8 +135,7 @@ class BadCalls(unittest.TestCase):
                 done = swirl("run", *call.split(), timeout=60)
                 self.assertEqual(done.returncode, code, done.stderr)
                 self.assertEqual(done.stdout, "")
-                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-                self.assertTrue(done.stderr.startswith("swirl: "), done.stderr)
+                self.assertRegex(done.stderr, ONE_ERROR)
                 for word in words:
                     self.assertIn(word, done.stderr)
 
@@ -206,7 +205,7 @@ class WrongCalls(InFolder):
     def refused(self, *call, says):
         done = swirl(*call)
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertRegex(done.stderr, r"\Aswirl: [^\n]+\.\n\Z")
+        self.assertRegex(done.stderr, ONE_ERROR)
         self.assertIn(says, done.stderr)
 
     def test_a_sweep_that_slurm_cannot_take_leaves_no_folder(self):
@@ -220,7 +219,7 @@ class WrongCalls(InFolder):
         for call in (["verify"], ["export", "--to", "xyz"], ["movie"], ["run"]):
             done = swirl(call[0], self.folder, *call[1:])
             self.assertEqual(done.returncode, 1)
-            self.assertEqual(done.stderr, f"swirl: '{self.folder}' is a folder, but it must be the name of a "
+            self.assertEqual(done.stderr, f"error: '{self.folder}' is a folder, but it must be the name of a "
                              "file to read.\n")
 
     def test_tracks_that_were_cut_in_the_middle_of_a_number(self):
@@ -309,7 +308,7 @@ class UnwritableOutput(InFolder):
             done = subprocess.run(["sh", "-c", 'exec "$0" "$@" >&-', SWIRL, *call],
                                   capture_output=True, text=True, timeout=20)
             self.assertEqual(done.returncode, 1, call)
-            self.assertRegex(done.stderr, r"swirl: Writing to standard output failed: [^\n]+\.\n\Z")
+            self.assertRegex(done.stderr, r"error: Writing to standard output failed: [^\n]+\.\n\Z")
 
     def test_a_file_that_may_not_grow(self):
         def tiny_files():

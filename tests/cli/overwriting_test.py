@@ -10,7 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import SOURCE, SWIRL, InFolder, swirl, without_time
+from program import ONE_ERROR, SOURCE, SWIRL, InFolder, swirl, without_time
 
 
 class Overwriting(InFolder):
@@ -281,7 +281,7 @@ class Names(InFolder):
     def refused(self, *call, code=2, says="is the name of two files"):
         done = swirl(*call, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
-        self.assertRegex(done.stderr, r"\Aswirl: [^\n]+\.\n\Z")
+        self.assertRegex(done.stderr, ONE_ERROR)
         self.assertIn(says, done.stderr)
 
     def test_one_file_for_two_things_of_a_run(self):

@@ -12,6 +12,9 @@ SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
 
+# What the program prints when it fails: one sentence, and what to do about it if there is a remedy.
+ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
+
 
 def swirl(*arguments, timeout=100, **more):
     """Runs the program to its end; .returncode, .stdout and .stderr (text)."""

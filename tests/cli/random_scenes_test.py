@@ -13,7 +13,7 @@ import subprocess
 import sys
 import unittest
 
-from program import InFolder, SWIRL
+from program import ONE_ERROR, SWIRL, InFolder
 
 PROCESSOR_SECONDS = 10
 ADDRESS_SPACE = 3 << 30
@@ -100,7 +100,7 @@ class RandomScenes(InFolder):
                               cwd=self.folder, preexec_fn=limit, env=dict(os.environ, NO_COLOR="1"))
         call = "swirl run " + " ".join(options)
         if done.returncode in (1, 2):
-            self.assertRegex(done.stderr, r"\Aswirl: [^\n]+\.\n\Z", call)
+            self.assertRegex(done.stderr, ONE_ERROR, call)
             return False
         self.assertEqual(done.returncode, 0, f"{call}\n{done.stderr}")
         result = json.loads(done.stdout)

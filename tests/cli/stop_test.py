@@ -67,7 +67,7 @@ class Stop(InFolder):
                     continue
                 code, errors, used = started.stop(sent)
                 self.assertEqual(code, 130, errors)
-                self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
+                self.assertRegex(errors, r"error: [Ss]topped [^\n]*\.\n(hint: [^\n]+\n)?$")
                 self.assertLess(used, 1.0 + saving)
                 heard += 1
         return heard
@@ -123,7 +123,7 @@ class Stop(InFolder):
                 time.sleep(0.01)
             code, errors, _ = started.stop(sent)
             self.assertEqual(code, 130, errors)
-            self.assertRegex(errors, r"swirl: Stopped [^\n]*\.\n$")
+            self.assertRegex(errors, r"error: [Ss]topped [^\n]*\.\n(hint: [^\n]+\n)?$")
             self.assertIsNone(processor_seconds(int(pids[0])))
             os.remove(self.path(f"figures/{pids[0]}"))
 

@@ -144,7 +144,7 @@ class Faults(unittest.TestCase):
         self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
         said = [line for line in done.stderr.splitlines(keepends=True)
                 if not line.startswith("warning: ")]
-        self.assertTrue("".join(said).startswith("swirl: "), f"{where}: {done.stderr}")
+        self.assertTrue("".join(said).startswith("error: "), f"{where}: {done.stderr}")
 
     def fail_each(self, arguments, assert_right, most, assert_harmless=lambda where: None):
         for call in CALLS:

@@ -137,7 +137,7 @@ def test_what_is_wrong_is_said_in_the_words_of_the_command_line(bad):
     words = lambda text: re.sub(r"[-_]+", " ", text).split()
     said = words(str(raised.value))
     # Numbers are given to the command line as text, 2.5 and 2.50 are the same to Python.
-    assert said == words(done.stderr.removeprefix("swirl: "))
+    assert said == words(done.stderr.removeprefix("error: "))
     assert "--" not in str(raised.value)
 
 

@@ -144,6 +144,19 @@ void make_folder(const std::filesystem::path& folder) {
                                   last_error()));
 }
 
+namespace {
+
+/// Allocates nothing: it also reports that memory ran out.
+void print_message(const char* prefix, std::string_view text) {
+    std::fprintf(stderr, "%s: %.*s\n", prefix, static_cast<int>(text.size()), text.data());
+}
+
+}  // namespace
+
+void print_error(std::string_view text) { print_message("error", text); }
+void print_warning(std::string_view text) { print_message("warning", text); }
+void print_note(std::string_view text) { print_message("note", text); }
+
 void print_all(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
         return;

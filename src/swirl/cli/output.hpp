@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace swirl {
@@ -24,6 +25,12 @@ void write_output(const std::filesystem::path& file, const std::string& text);
 /// Makes the folder if it is not there; throws Failure if it cannot be written to, or WrongCall if
 /// its name is that of an option.
 void make_folder(const std::filesystem::path& folder);
+
+/// Write "error: TEXT", "warning: TEXT" or "note: TEXT" to standard error. A text may have a second
+/// line "hint: …" that says what to do. Warnings are printed with --quiet, too; notes are not.
+void print_error(std::string_view text);
+void print_warning(std::string_view text);
+void print_note(std::string_view text);
 
 /// Writes to standard output; throws Failure if that fails (a full disk).
 void print_all(const std::string& text);

@@ -16,13 +16,12 @@
 
 namespace {
 
-int complain(const char* sentence, int code) {
-    std::fprintf(stderr, "swirl: %s\n", sentence);
-    return code;
+int report_error(const char* text, int exit_code) {
+    swirl::print_error(text);
+    return exit_code;
 }
 
-constexpr const char* not_enough_memory =
-    "There is not enough memory for this; fewer discs need less.";
+constexpr const char* not_enough_memory = "not enough memory.\nhint: use fewer discs.";
 
 /// The libraries that hold JSON and read the command line ask for memory where nothing may be
 /// thrown, in destructors and the like; nobody can catch that, and g++ does not always tell here
@@ -36,7 +35,7 @@ constexpr const char* not_enough_memory =
     } catch (...) {
         out_of_memory = false;
     }
-    if (out_of_memory) std::_Exit(complain(not_enough_memory, 1));
+    if (out_of_memory) std::_Exit(report_error(not_enough_memory, 1));
     std::abort();
 }
 
@@ -75,14 +74,14 @@ int main(int argc, char** argv) {
     try {
         return main_or_throw(argc, argv);
     } catch (const swirl::UsageError& wrong) {
-        return complain(wrong.what(), 2);
+        return report_error(wrong.what(), 2);
     } catch (const swirl::Interrupted& interrupted) {
-        return complain(interrupted.what(), 130);
+        return report_error(interrupted.what(), 130);
     } catch (const swirl::Failure& failure) {
-        return complain(failure.what(), 1);
+        return report_error(failure.what(), 1);
     } catch (const std::bad_alloc&) {
-        return complain(not_enough_memory, 1);
+        return report_error(not_enough_memory, 1);
     } catch (const std::exception& unexpected) {
-        return complain(unexpected.what(), 1);
+        return report_error(unexpected.what(), 1);
     }
 }
