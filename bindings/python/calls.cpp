@@ -69,7 +69,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
         if (value.is_none()) continue;
         const auto name = py::cast<std::string>(key);
         const Parameter* const row = find_parameter(name);
-        if (row == nullptr || !row->can_be_given() || name != row->name) {
+        if (row == nullptr || !row->is_settable() || name != row->name) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
             throw py::type_error(fmt::format("There is no parameter '{}'{}", name,
                                              meant ? fmt::format("; did you mean '{}'?", *meant)

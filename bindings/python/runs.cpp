@@ -117,7 +117,7 @@ py::tuple run_once(const py::dict& given, const std::vector<std::string>& measur
     const MeasurementReports reports = observation.report();
     if (!reports.empty()) json["measured"] = measured_json(reports);
     return py::make_tuple(json.dump(2), reports_in_python(reports), listens.raised().object(),
-                          headline(result), report(result));
+                          headline(result), report(result) + warning_lines(result));
 }
 
 /// Rows of numbers, a row for every block, as series of their own.
@@ -161,7 +161,7 @@ RunFiles run_files(const py::dict& given) {
 py::list parameter_table() {
     py::list table;
     for (const Parameter& p : run_parameters)
-        if (p.can_be_given())
+        if (p.is_settable())
             table.append(py::make_tuple(p.name, p.symbol, p.unit, plain_sentence(p.description),
                                         default_of(p), p.lowest, p.highest, p.group));
     return table;

@@ -70,7 +70,7 @@ Extent xy(const Frames&) { return {2}; }
 
 py::tuple rotation_of(const Look& look) {
     const Snapshot s = look.snapshot();
-    const RotationSample sample = cluster_rotation(s, asked_width());
+    const RotationSample sample = cluster_rotation(s, selected_width());
     const double omega = 2.0 * pi / s.period;
     return py::make_tuple(sample.individual / omega, sample.rigid / omega);
 }
@@ -474,7 +474,7 @@ class Container {
         : config_(std::move(config)),
           own_(own),
           scene_(std::move(scene)),
-          simulation_(scene_, progress, asked_tuning(stop)) {
+          simulation_(scene_, progress, selected_tuning(stop)) {
         scene_.discs.clear();
         scene_.discs.shrink_to_fit();
     }

@@ -91,7 +91,7 @@ py::tuple collect(const std::string& folder) {
     const SweepStatus status = sweep_status(folder, plan);
     return py::make_tuple(collected.table.csv(), status.points, status.done, status.running,
                           status.failed, collected.disagreeing, collected.not_steady,
-                          collected.without_swirl);
+                          collected.without_period);
 }
 
 CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
@@ -104,7 +104,7 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
     if (!(tolerance > 0.0))
         throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
-    texts.try_emplace("events", events_of_a_search);
+    texts.try_emplace("events", default_search_events);
     texts["discs"] = std::to_string(maximum);  // only what is searched has to fit
     CrossingSettings settings;
     settings.rate = rate_named(rate);

@@ -159,9 +159,9 @@ Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& poi
 }
 
 /// From, to, step.
-std::string usual_json(const UsualSpan& usual) {
-    if (usual.step == 0.0) return "null";
-    return fmt::format("[{},{},{}]", usual.from, usual.to, usual.step);
+std::string slider_json(const SliderRange& slider) {
+    if (slider.step == 0.0) return "null";
+    return fmt::format("[{},{},{}]", slider.from, slider.to, slider.step);
 }
 
 std::string parameter_json(const Parameter& p) {
@@ -170,7 +170,7 @@ std::string parameter_json(const Parameter& p) {
         R"("lowest":{},"highest":{},"usual":{},"given":{}}})",
         quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
         quoted(p.group), quoted(default_of(p)), number(p.lowest), number(p.highest),
-        usual_json(p.usual), p.can_be_given());
+        slider_json(p.slider), p.is_settable());
 }
 
 }  // namespace
@@ -418,7 +418,7 @@ EXPORTED(result) std::uint32_t result() {
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, r.config);
-        if (p.said_only_if_set && std::holds_alternative<std::monostate>(value)) continue;
+        if (p.omitted_if_unset && std::holds_alternative<std::monostate>(value)) continue;
         given.add(p.name, std::visit(ValueJson(), value));
     }
     events.add("total", double(r.events.total()))

@@ -1,4 +1,4 @@
-"""swirl crossing over lists: a search for each combination, a table of them."""
+"""swirl crossing over lists: one search for each combination, and a table of all searches."""
 
 import csv
 import io
@@ -18,7 +18,7 @@ class Crossing(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def test_a_list_is_a_search_for_each_value(self):
+    def test_each_value_of_a_list_has_a_search(self):
         said = self.good(*AROUND, "--mu", "0.9,1", "--seed", 4, "--csv", self.path("N_c.csv"), "--json",
                          self.path("all.json"))
         self.assertIn("mu 0.9: ", said)
@@ -36,39 +36,39 @@ class Crossing(InFolder):
             self.assertEqual(int(row["runs"]), alone["runs"])
             self.assertEqual(int(row["events_in_all"]), alone["events"])
 
-    def test_lists_combine_and_a_file_may_hold_them(self):
+    def test_lists_combine_and_may_be_in_a_file(self):
         with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
             opened.write("mu_disc = [0.9, 1]\nmu_wall = \"0:1\"\n")
         table = list(csv.DictReader(io.StringIO(self.good(self.path("a.toml"), *FEW, "--csv", "-"))))
         self.assertEqual([(row["mu_disc"], row["mu_wall"]) for row in table],
                          [("0.9", "0"), ("0.9", "1"), ("1", "0"), ("1", "1")])
-        # So few discs rotate, whatever the friction.
+        # So few discs rotate for all friction coefficients.
         self.assertEqual([row["verdict"] for row in table], ["always rotates"] * 4)
         self.assertEqual([row["N_c"] for row in table], [""] * 4)
 
-    def test_a_close_look_tells_every_change_of_sense(self):
-        # So few discs do not change theirs; every second number is looked at.
+    def test_the_step_sets_the_numbers_of_the_coarse_scan(self):
+        # So few discs do not change their direction of rotation.
         found = json.loads(self.good("--from", 5, "--to", 8, "--step", 2, "--json", "-"))
         self.assertEqual(found["sign_changes"], [])
         self.assertLessEqual({5, 7, 8}, {point["discs"] for point in found["points"]})
 
-    def test_a_search_without_a_run_that_could_be_made_costs_the_others_nothing(self):
-        # Nearly inelastic discs collapse at once where no contact duration keeps them from it.
+    def test_a_search_whose_runs_all_fail_does_not_stop_the_others(self):
+        # Nearly inelastic discs collapse at once without a contact duration.
         done = swirl("crossing", "--restitution", "0.1,1", "--contact-duration", 0, *FEW, "--csv", "-", *SHORT)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("Of 1 of 2 searches no run could be made", done.stderr)
+        self.assertIn("every run failed in 1 of 2 searches", done.stderr)
         rows = list(csv.DictReader(io.StringIO(done.stdout)))
         self.assertEqual([row["verdict"] for row in rows], ["undecided", "always rotates"])
         self.assertEqual(rows[0]["runs"], "0")
         self.assertGreaterEqual(int(rows[0]["runs_failed"]), 3)
         self.assertEqual(rows[1]["runs_failed"], "0")
 
-    def test_a_later_search_that_cannot_be_is_refused_before_the_first(self):
+    def test_an_invalid_later_search_is_rejected_before_the_first(self):
         done = swirl("crossing", "--container-radius", "8.6,4", *AROUND, "--json", self.path("x.json"), *SHORT)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(self.left_behind(), [])
 
-    def test_only_what_is_searched_has_to_fit(self):
+    def test_only_the_searched_numbers_must_fit(self):
         # 48 discs, the default of a run, do not fit into this container.
         found = json.loads(self.good("--container-radius", 6.3, "--from", 8, "--to", 10, "--json", "-"))
         self.assertEqual(found["verdict"], "always rotates")
@@ -77,7 +77,7 @@ class Crossing(InFolder):
         self.assertIn("46 discs do not fit", done.stderr)
         self.assertNotIn("--discs", done.stderr)
 
-    def test_every_rate_has_a_crossing(self):
+    def test_every_rotation_rate_has_a_crossing(self):
         alone = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 1, "--json", "-"))
         both = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 2, "--json", "-"))
         self.assertEqual(alone["by_rate"], both["by_rate"])
@@ -87,7 +87,7 @@ class Crossing(InFolder):
         rigid = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--rate", "rigid_by_time", "--json", "-"))
         self.assertEqual(rigid["N_c"], rigid["by_rate"]["rigid_by_time"]["N_c"])
 
-    def test_what_cannot_be(self):
+    def test_invalid_options_are_rejected(self):
         for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"), (["--rate", "rigid"], "rigid_by_time"),
                             (["--threads", -1], "whole number"), (["--to", 10**9], "--to"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):

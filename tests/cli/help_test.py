@@ -1,4 +1,4 @@
-"""Every --help explains itself: a description, and examples that are real calls."""
+"""Every --help has descriptions, and examples with valid options."""
 
 import os
 import re
@@ -31,7 +31,7 @@ class Help(unittest.TestCase):
                 self.assertEqual(done.returncode, 0)
                 self.assertEqual(done.stderr, "")
                 self.assertTrue(examples(done.stdout), "no examples")
-                # Others may follow: what one does next.
+                # Examples of the next step may follow.
                 self.assertTrue(examples(done.stdout)[0].startswith(f"swirl {name}"))
                 for example in examples(done.stdout):
                     self.assertIn(example.split()[1], subcommands(), example)
@@ -64,11 +64,11 @@ class Help(unittest.TestCase):
         seen = 0
         for folder, _, files in os.walk(root):
             for file in files:
-                if file == "slurm.cpp":  # speaks to sbatch
+                if file == "slurm.cpp":  # has options of sbatch
                     continue
                 with open(os.path.join(folder, file), encoding="utf-8") as opened:
                     text = re.sub(r"//[^\n]*", "", opened.read())
-                # Adjacent literals are one sentence.
+                # Adjacent literals form one text.
                 for literal in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', text):
                     sentence = re.sub(r'"\s*"', "", literal)
                     command = re.search(r"command_(\w+)\.cpp", file)
@@ -86,14 +86,14 @@ class Help(unittest.TestCase):
                         self.assertIn(option, allowed, f"{file}: {sentence}")
         self.assertGreater(seen, 100)
 
-    def test_no_two_words_of_a_message_are_glued(self):
+    def test_adjacent_literals_of_a_message_are_separated(self):
         for folder, _, files in os.walk(os.path.join(SOURCE, "src")):
             for file in files:
                 with open(os.path.join(folder, file), encoding="utf-8") as opened:
                     text = opened.read()
                 for glued in re.finditer(r'\w"\s*\n\s*"[A-Za-z]', text):
                     before = text[text.rindex("\n", 0, glued.start()):glued.start() + 1]
-                    # A list in a header of a table, and a line that ends, are no sentence.
+                    # A literal that ends with a line break needs no space.
                     if not before.endswith("\\n"):
                         self.fail(f"{file}: {before.strip()}")
 
@@ -110,7 +110,7 @@ class Help(unittest.TestCase):
         for key, path in keys(result):
             self.assertNotIn("-", key, path)
         for key in result["config"]:
-            if key != "omega":  # follows from the period; cannot be given
+            if key != "omega":  # derived from the period
                 self.assertIn(key.replace("_", "-"), options)
 
     def test_version_is_one_line(self):

@@ -278,7 +278,7 @@ class Names(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.path("t.h5")
 
-    def refused(self, *call, code=2, says="is the name of two files"):
+    def refused(self, *call, code=2, says="is given for two different files"):
         done = swirl(*call, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertRegex(done.stderr, ONE_ERROR)
@@ -329,8 +329,8 @@ class Names(InFolder):
                                cwd=self.folder).returncode, 0)
         os.symlink("study", self.path("link"))
         kept = {name: Path(self.path(name)).read_bytes()
-                for name in ("study/results/000000.json", "study/plan.json", "study/claims")}
-        for name in (*kept, "link/results/000000.json", "study/results/new.csv", "./study/../study/claims"):
+                for name in ("study/results/000000.json", "study/plan.json", "study/locks")}
+        for name in (*kept, "link/results/000000.json", "study/results/new.csv", "./study/../study/locks"):
             self.refused("collect", "study", "--csv", name, says="belongs to the sweep itself")
             self.refused("collect", "study", "--crossings", name, says="belongs to the sweep itself")
             self.refused("collect", "link", "--csv", name, says="belongs to the sweep itself")

@@ -1,5 +1,5 @@
-"""Every parameter of a run in every place where one may stand, and what wins where two places say
-different things. The list of parameters is the one in docs/parameters.md."""
+"""Every parameter of a run in every place that accepts it, and which place takes precedence. The list of
+parameters is the table in docs/parameters.md."""
 
 import json
 import os
@@ -14,13 +14,13 @@ from program import SOURCE, SWIRL, InFolder, result_of, swirl
 
 ROW = re.compile(r"^\| `(\w+)` \| [^|]* \| (`--([a-z-]+) [^`]*`)? \|", re.MULTILINE)
 
-# Where one tenth less than the default will not do.
+# Other values for parameters that do not accept 0.9 times their default.
 OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
          "speed": "2", "path": "circle", "periods": "50", "warmup": "2", "seed": "7",
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
          "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5"}
-# Only in results of spheres, and what needs them.
+# Only in results of spheres or floors, and the options that they require.
 OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
               "vertical_wall"}
 WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
@@ -29,7 +29,7 @@ WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
 
 
 def rows():
-    """Name to option, which is empty for what is only written."""
+    """Name to option; the option is empty for parameters that are only written."""
     with open(os.path.join(SOURCE, "docs", "parameters.md")) as page:
         return {name: option for name, _, option in ROW.findall(page.read())}
 
@@ -51,7 +51,7 @@ def another(name):
 class Everywhere(InFolder):
     in_memory = True
 
-    def test_the_page_knows_them_all(self):
+    def test_the_docs_list_all_parameters(self):
         self.assertGreater(len(GIVEN), 15)
         self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu", "preset"} - OF_SPHERES)
 
@@ -71,7 +71,7 @@ class Everywhere(InFolder):
                         file.write(f'{spelling} = "{another(name)}"\n')
                     by_file = swirl("run", self.path("a.toml"), *WITH.get(name, []), "--dry-run")
                     self.assertEqual(by_file.stdout, by_option.stdout, by_file.stderr)
-                # What it prints is that run again.
+                # The printed configuration gives the same run.
                 with open(self.path("a.toml"), "w") as file:
                     file.write(by_option.stdout)
                 again = swirl("run", self.path("a.toml"), "--dry-run")
@@ -96,7 +96,7 @@ class Everywhere(InFolder):
         for name, option in GIVEN.items():
             with self.subTest(name):
                 shutil.copy(self.path("kept"), self.path("copy"))
-                # The length alone may be another, but not shorter than what is done.
+                # Only the length may differ, but not be shorter than the finished part.
                 length = name in ("events", "periods")
                 value, says = ((1000 if name == "events" else 1), "to another length") if length \
                     else (another(name), "belongs to another run")
@@ -106,18 +106,18 @@ class Everywhere(InFolder):
                 self.assertIn(says, done.stderr)
 
 
-class WhoWins(InFolder):
+class Precedence(InFolder):
     in_memory = True
 
     def on_top_of(self, file, *by_hand):
-        """The settings when the options come with a file that says everything about a run."""
+        """The settings from these options and a file with all parameters."""
         with open(self.path("a.toml"), "w") as opened:
             opened.write(swirl("run", *file, "--dry-run").stdout)
         done = swirl("run", self.path("a.toml"), *by_hand, "--dry-run")
         self.assertEqual(done.returncode, 0, done.stderr)
         return settings_in(done.stdout)
 
-    def test_the_option_wins_over_its_relatives_in_the_file(self):
+    def test_an_option_overrides_related_parameters_of_the_file(self):
         self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_disc"], "0.7")
         self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_wall"], "0.7")
         self.assertEqual(self.on_top_of(["--mu", "0.7"], "--mu-wall", "0")["mu_disc"], "0.7")
@@ -132,13 +132,13 @@ class WhoWins(InFolder):
         wider = self.on_top_of([], "--speed", "2", "--period", "11.866071")
         self.assertAlmostEqual(float(wider["amplitude"]), 2 * 1.892, places=6)
 
-    def test_so_it_is_with_the_times_of_frames(self):
+    def test_an_option_overrides_the_frame_times_of_the_file(self):
         recorded = ["--trajectory", self.path("a.h5"), "--frames", "8"]
         settings = self.on_top_of(recorded, "--frame-interval", "0.5")
         self.assertEqual(settings["frame_interval"], "0.5")
         self.assertNotIn("frames", settings)
 
-    def test_a_sweep_over_a_file_has_the_axis_that_was_asked_for(self):
+    def test_a_list_overrides_the_value_of_the_file(self):
         with open(self.path("a.toml"), "w") as opened:
             opened.write(swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout)
         done = swirl("sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"),
@@ -148,14 +148,14 @@ class WhoWins(InFolder):
         self.assertEqual(len(table), 3)
         self.assertNotEqual(table[1].split(",")[-1], table[2].split(",")[-1])
 
-    def test_an_axis_without_effect_is_refused(self):
+    def test_an_axis_without_effect_is_rejected(self):
         done = swirl("sweep", "--mu", "0.1,0.5", "--mu-disc", "1", "--mu-wall", "1", "--out",
                      self.path("s"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("--mu 0.1 and --mu 0.5 are the same run", done.stderr)
         self.assertEqual(self.left_behind(), [])
 
-    def test_the_table_of_a_sweep_has_the_names_of_the_json(self):
+    def test_sweep_tables_and_json_have_the_same_names(self):
         self.assertEqual(swirl("sweep", "--mu-disc", "0.5", "--discs", 5, "--events", 100,
                                "--out", self.path("s"), "--quiet").returncode, 0)
         heads = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()[0].split(",")

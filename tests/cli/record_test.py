@@ -242,8 +242,8 @@ class More(InFolder):
         first = swirl(*run, *recording, "--events", "1.2e5", "--keep-checkpoint", "--warmup", 10)
         self.assertEqual(first.returncode, 0, first.stderr)
         checkpoint = self.path("t.h5.checkpoint")
-        self.assertIn("the same call without --trajectory and --log-events and with --checkpoint "
-                      f"{checkpoint} --resume with more --events", first.stderr)
+        self.assertIn("the same command without --trajectory and --log-events (a recording has a fixed "
+                      f"length) and with --checkpoint {checkpoint} --resume with more --events", first.stderr)
         more = [*run, "--warmup", 10, "--quiet", "--events"]
         for too_little in ([*more, "1.2e5"], [*more, "1.6e5", "--mu", 0.5]):
             done = swirl(*too_little, "--checkpoint", checkpoint, "--resume")

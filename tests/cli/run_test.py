@@ -1,4 +1,4 @@
-"""swirl run: what it prints, what its JSON holds, how it stops."""
+"""swirl run: its report, its JSON, and how it stops."""
 
 import json
 import math
@@ -12,7 +12,7 @@ from program import SWIRL, InFolder, result_of, swirl
 
 
 class Json(InFolder):
-    def test_has_every_key_that_is_promised(self):
+    def test_json_has_all_documented_keys(self):
         result = result_of("--discs", 12, "--events", 20000)
         for key in ("config", "events", "periods", "rotation", "max_overlap", "energy",
                     "state_hash", "seconds", "events_per_second", "version", "complete", "warmup"):
@@ -22,7 +22,7 @@ class Json(InFolder):
             self.assertTrue(math.isfinite(result["rotation"][average]["mean"]))
             self.assertGreater(result["rotation"][average]["error"], 0)
 
-    def test_counts_add_up_and_the_run_is_as_long_as_asked(self):
+    def test_event_counts_add_up_to_the_requested_length(self):
         events = result_of("--discs", 20, "--events", 12345)["events"]
         self.assertEqual(events["total"], 12345)
         self.assertEqual(events["disc_disc"] + events["disc_wall"] + events["path_vertex"], 12345)
@@ -30,7 +30,7 @@ class Json(InFolder):
         self.assertEqual(result["periods"], 30)
         self.assertEqual(result["events"]["path_vertex"], 900)
 
-    def test_defaults_are_the_papers(self):
+    def test_defaults_are_the_values_of_the_paper(self):
         config = result_of("--events", 10)["config"]
         expected = dict(mu_disc=1, mu_wall=1, inertia=10, mass=1, radius=1, container_radius=8.6,
                         amplitude=1.892, sides=30, path="polygon", period=11.866071,
@@ -39,7 +39,7 @@ class Json(InFolder):
             self.assertEqual(config[name], value, name)
         self.assertAlmostEqual(config["speed"], 1, places=7)
 
-    def test_every_option_arrives(self):
+    def test_every_option_sets_its_parameter(self):
         config = result_of("--discs", 9, "--mu", 0.3, "--mu-wall", 0.2, "--inertia", "solid",
                            "--mass", 2, "--radius", 0.5, "--container-radius", 7, "--amplitude", 1,
                            "--sides", 12, "--period", 9, "--seed", 77, "--periods", 3,
@@ -52,11 +52,11 @@ class Json(InFolder):
         for name, value in expected.items():
             self.assertEqual(config[name], value, name)
 
-    def test_inertia_has_names(self):
+    def test_inertia_is_accepted_by_name(self):
         for name, value in (("paper", 10), ("ring", 1), ("solid", 0.5), ("3.5", 3.5)):
             self.assertEqual(result_of("--events", 10, "--inertia", name)["config"]["inertia"],
                              value)
-        # A name means a multiple of m r^2.
+        # A name is a multiple of m r^2.
         config = result_of("--events", 10, "--inertia", "ring", "--mass", 2, "--radius", 0.5)
         self.assertEqual(config["config"]["inertia"], 0.5)
 
@@ -66,7 +66,7 @@ class Json(InFolder):
         config = result_of("--events", 10, "--speed", 2, "--period", 11.866071)["config"]
         self.assertAlmostEqual(config["amplitude"], 2 * 1.892, places=6)
 
-    def test_to_a_file_and_to_stdout_are_the_same(self):
+    def test_file_and_stdout_hold_the_same_json(self):
         file = self.path("result.json")
         done = swirl("run", "--discs", 8, "--events", 5000, "--json", file)
         self.assertEqual(done.returncode, 0)
@@ -74,12 +74,12 @@ class Json(InFolder):
         with open(file) as opened:
             from_file = json.load(opened)
         from_stdout = result_of("--discs", 8, "--events", 5000)
-        for of_the_call in ("seconds", "events_per_second", "command"):
-            del from_file[of_the_call], from_stdout[of_the_call]
+        for changing_key in ("seconds", "events_per_second", "command"):
+            del from_file[changing_key], from_stdout[changing_key]
         self.assertEqual(from_file, from_stdout)
         self.assertEqual(self.left_behind(), ["result.json"])
 
-    def test_through_a_link_and_into_a_pipe(self):
+    def test_json_is_written_through_a_link_and_to_a_device(self):
         os.symlink(self.path("real.json"), self.path("link.json"))
         open(self.path("real.json"), "w").close()
         swirl("run", "--events", 10, "--json", self.path("link.json"))
@@ -89,20 +89,20 @@ class Json(InFolder):
         done = swirl("run", "--events", 10, "--quiet", "--json", "/dev/stdout")
         self.assertEqual(json.loads(done.stdout)["events"]["total"], 10)
 
-    def test_stdout_holds_nothing_but_the_json(self):
+    def test_json_to_stdout_moves_the_report_to_stderr(self):
         done = swirl("run", "--events", 1000, "--json", "-")
         json.loads(done.stdout)
         self.assertIn("48 discs", done.stderr)
 
 
 class Trajectory(unittest.TestCase):
-    def test_same_seed_same_bits_and_another_seed_another_run(self):
+    def test_equal_seeds_give_equal_runs_and_other_seeds_do_not(self):
         first, again = (result_of("--events", 5000, "--seed", 5)["state_hash"] for _ in range(2))
         other = result_of("--events", 5000, "--seed", 6)["state_hash"]
         self.assertEqual(first, again)
         self.assertNotEqual(first, other)
 
-    def test_what_is_left_out_of_the_averages_does_not_change_the_trajectory(self):
+    def test_the_warmup_does_not_change_the_trajectory(self):
         hashes = {result_of("--periods", 8, "--warmup", warmup)["state_hash"]
                   for warmup in (0, 1, 7)}
         self.assertEqual(len(hashes), 1)
@@ -122,8 +122,8 @@ class Trajectory(unittest.TestCase):
             self.assertTrue(low < mean < high, f"{discs} discs: {mean}")
 
 
-class Words(unittest.TestCase):
-    def test_headline_says_which_way(self):
+class Report(unittest.TestCase):
+    def test_headline_gives_the_direction_of_rotation(self):
         self.assertIn("28 discs rotate: ϖ/Ω = 0.0", swirl("run", "--discs", 28, "--events", 1e5)
                       .stdout)
         self.assertIn("48 discs counterrotate: ϖ/Ω = −0.0",
@@ -134,42 +134,41 @@ class Words(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("no rotation about its own centre", done.stdout)
 
-    def test_without_a_whole_swirl_nothing_is_averaged(self):
-        said = swirl("run", "--events", 300).stdout
-        self.assertIn("48 discs made no whole swirl, so nothing is averaged.", said)
-        self.assertIn("more --events would be right", said)
-        self.assertNotIn("ϖ/Ω", said)
+    def test_without_a_whole_period_there_are_no_averages(self):
+        done = swirl("run", "--events", 300)
+        self.assertIn("48 discs completed no whole period, so there are no averages.", done.stdout)
+        self.assertIn("hint: use more --events", done.stderr)
+        self.assertNotIn("ϖ/Ω", done.stdout)
         result = result_of("--events", 300, "--measure", "slip")
         for estimator in result["rotation"].values():
             self.assertEqual((estimator["mean"], estimator["error"], estimator["blocks"]),
                              (None, None, 0))
         self.assertIsNone(result["measured"]["slip"]["cluster"]["mean"])
-        self.assertIn("averages are over whole ones", " ".join(result["warnings"]))
+        self.assertIn("averages are over whole periods", " ".join(result["warnings"]))
 
-    def test_no_friction_says_how_fast_the_energy_grows_on_the_polygon(self):
+    def test_energy_growth_on_the_frictionless_polygon_is_a_warning(self):
         arguments = ("--mu", 0, "--discs", 12, "--periods", 40)
-        said = swirl("run", *arguments).stdout
-        self.assertIn("grows without bound on the polygon", said)
+        errors = swirl("run", *arguments).stderr
+        self.assertIn("grows without bound on the polygon", errors)
         result = result_of(*arguments)
         self.assertGreater(result["energy"], 5 * result["energy_at_start"])
-        self.assertIn(f"{result['energy']:.4g}", said)
+        self.assertIn(f"{result['energy']:.4g}", errors)
 
-    def test_no_friction_on_the_circle_conserves_the_invariant(self):
+    def test_the_frictionless_circle_conserves_the_invariant(self):
         result = result_of("--mu", 0, "--discs", 12, "--periods", 20, "--path", "circle")
         self.assertAlmostEqual(result["invariant"], result["invariant_at_start"], delta=1e-8)
 
-    def test_quiet_is_one_line(self):
+    def test_quiet_prints_one_line_and_all_warnings(self):
         done = swirl("run", "--events", 1000, "--quiet")
         self.assertEqual(done.stdout.count("\n"), 1)
-        # What to know before believing the line is said nevertheless.
-        self.assertRegex(done.stderr, r"\Awarning: The run made 0\.25 swirls[^\n]+\n\Z")
-        self.assertIn("warning: Without friction the energy grows without bound",
+        self.assertRegex(done.stderr, r"\Awarning: the run covers 0\.25 periods[^\n]+\nhint: [^\n]+\n\Z")
+        self.assertIn("warning: without friction, the energy grows without bound",
                       swirl("run", "--mu", 0, "--events", 100000, "--quiet").stderr)
         self.assertEqual(swirl("run", "--discs", 28, "--periods", 120, "--quiet").stderr, "")
 
-    def test_a_log_file_gets_no_bar(self):
+    def test_a_log_file_gets_no_progress_bar(self):
         quiet = swirl("run", "--events", 50000, "--json", "-", "--quiet").stderr
-        self.assertRegex(quiet, r"\Awarning: Too short[^\n]+\n\Z")
+        self.assertRegex(quiet, r"\Awarning: steady state not verified[^\n]+\n\Z")
         self.assertNotIn("\r", swirl("run", "--events", 50000).stderr)
 
 
@@ -180,14 +179,14 @@ class Stopping(InFolder):
         time.sleep(0.5)
         return process
 
-    def test_ctrl_c_ends_cleanly_with_what_there_is(self):
+    def test_a_signal_ends_the_run_with_a_partial_result(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             process = self.start("--json", self.path(how.name))
             process.send_signal(how)
-            said, complaint = process.communicate(timeout=20)
+            _, errors = process.communicate(timeout=20)
             self.assertEqual(process.returncode, 130)
-            self.assertIn("Incomplete", said)
-            self.assertIn("Stopped before the end", complaint)
+            self.assertIn("warning: incomplete", errors)
+            self.assertIn("error: stopped before the end", errors)
             with open(self.path(how.name)) as opened:
                 result = json.load(opened)
             self.assertFalse(result["complete"])

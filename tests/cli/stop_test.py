@@ -136,8 +136,8 @@ class Stop(InFolder):
                 self.assertTrue(started.wait_for(0.3))
                 code, errors, used = started.stop(sent)
                 self.assertEqual(code, 130, errors)
-                self.assertIn("--resume goes on from", errors)
-                checkpoint = re.search(r"goes on from '([^']+)'", errors).group(1)
+                self.assertIn("--resume to continue from", errors)
+                checkpoint = re.search(r"continue from '([^']+)'", errors).group(1)
                 self.assertTrue(os.path.exists(checkpoint), checkpoint)
                 self.assertLess(used, 1.0)
 

@@ -1,4 +1,4 @@
-"""Sweeps: complete whatever happens to them, and the same table whoever did the work."""
+"""Sweeps complete after any interruption, and the table does not depend on which process did the work."""
 
 import json
 import os
@@ -31,7 +31,7 @@ class Sweep(InFolder):
         self.assertEqual(len(os.listdir(self.path("whole/results"))), POINTS)
         return table
 
-    def test_threads_parts_and_order_do_not_show_in_the_table(self):
+    def test_the_table_does_not_depend_on_threads_parts_and_order(self):
         table = self.whole()
         self.assertEqual(swirl(*PLAN, "--out", self.path("a"), "--threads", 1).returncode, 0)
         self.assertEqual(self.table(self.path("a")), table)
@@ -40,7 +40,7 @@ class Sweep(InFolder):
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.table(self.path("b")), table)
 
-    def test_a_plan_says_the_same_as_options(self):
+    def test_a_plan_file_equals_the_options(self):
         table = self.whole()
         with open(self.path("plan.toml"), "w") as plan:
             plan.write('discs = "5:12"\nmu = [0.5, 1]\nseeds = 3\nevents = 20000\n')
@@ -48,10 +48,10 @@ class Sweep(InFolder):
                                "--quiet").returncode, 0)
         self.assertEqual(self.table(self.path("a")), table)
 
-    def test_killed_at_fifty_random_moments_and_started_again_it_does_what_is_missing(self):
+    def test_repeated_calls_complete_a_sweep_that_is_killed_fifty_times(self):
         begin = time.monotonic()
         table = self.whole()
-        # From before it has begun to when it is nearly done, however fast the machine is.
+        # The kills are spread from the start to nearly the end, on a machine of any speed.
         longest = 0.5 * (time.monotonic() - begin)
         choose = random.Random(5)
         hits, folders = 0, []
@@ -62,7 +62,7 @@ class Sweep(InFolder):
                 process = subprocess.Popen([SWIRL, *PLAN, "--out", folder],
                                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
                 try:
-                    complaint = process.communicate(
+                    errors = process.communicate(
                         timeout=choose.uniform(0.001, longest) if hits < 50 else 100)[1]
                     break
                 except subprocess.TimeoutExpired:
@@ -74,12 +74,12 @@ class Sweep(InFolder):
                         if name.endswith(".json"):
                             with open(f"{folder}/results/{name}") as result:
                                 json.load(result)
-            self.assertEqual(process.returncode, 0, complaint)
+            self.assertEqual(process.returncode, 0, errors)
             self.assertEqual(len(os.listdir(folder + "/results")), POINTS)  # no leftovers
             self.assertEqual([n for n in os.listdir(folder) if n.endswith(".partial")], [])
             self.assertEqual(self.table(folder), table)
 
-    def test_what_a_kill_left_of_the_plan_is_removed(self):
+    def test_temporary_files_of_a_kill_are_removed(self):
         folder = self.path("killed")
         os.mkdir(folder)
         left = folder + "/plan.json.0123456789abcdef.partial"
@@ -88,14 +88,14 @@ class Sweep(InFolder):
         self.assertEqual(swirl(*PLAN, "--out", folder).returncode, 0)
         self.assertFalse(os.path.exists(left))
 
-    def test_measurements_and_recordings_come_along(self):
+    def test_results_have_measurements_and_recordings(self):
         plan = ["sweep", "--discs", "8,20", "--seeds", "2", "--events", "20000", "--measure",
                 "slip,radial", "--frames", "4", "--quiet", "--out", self.path("a")]
         self.assertEqual(swirl(*plan).returncode, 0)
         with open(self.path("a/results/000003.json")) as opened:
             result = json.load(opened)
         self.assertEqual(result["generator"], "SplitMix64")
-        # The command in a result is that of the result.
+        # The command in a result makes this result.
         alone = swirl(*result["command"].split()[1:], "--json", "-", "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         alone = json.loads(alone.stdout)
@@ -110,8 +110,8 @@ class Sweep(InFolder):
                 slips.append(json.load(opened)["measured"]["slip"]["cluster"])
         means, errors = ([slip[name] for slip in slips] for name in ("mean", "error"))
         self.assertAlmostEqual(float(rows[2][column]), sum(means) / 2, delta=1e-12)
-        # Never less than the blocks of the runs say, nor than the runs do between them; Student's
-        # factor for the few blocks that there are is below 2 as long as the two agree.
+        # The error is at least the one within the runs and the one between them. Student's factor for
+        # the few blocks is below 2 if the two agree.
         least = max(abs(means[0] - means[1]) / 2, (errors[0]**2 + errors[1]**2)**0.5 / 2)
         self.assertGreaterEqual(float(rows[2][column + 1]), least)
         self.assertLess(float(rows[2][column + 1]), 2 * least)
@@ -122,7 +122,7 @@ class Sweep(InFolder):
                          [f"{point:06}.h5" for point in range(4)])
         done = swirl("verify", self.path("a/trajectories/000003.h5"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        # The folder knows what its plan asks for.
+        # The plan in the folder includes measurements and frames.
         os.remove(self.path("a/results/000003.json"))
         self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
         self.assertEqual([line.split(",") for line in self.table(self.path("a")).splitlines()], rows)
@@ -130,16 +130,16 @@ class Sweep(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("holds another sweep", done.stderr)
 
-    def test_two_at_once_on_one_folder(self):
+    def test_two_processes_share_one_folder(self):
         table = self.whole()
         both = [subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],
                                  stderr=subprocess.PIPE, text=True) for _ in range(2)]
         for process in both:
-            complaint = process.communicate(timeout=100)[1]
-            self.assertEqual(process.returncode, 0, complaint)
+            errors = process.communicate(timeout=100)[1]
+            self.assertEqual(process.returncode, 0, errors)
         self.assertEqual(self.table(self.path("a")), table)
 
-    def test_what_runs_is_seen_left_alone_by_others_and_free_after_a_kill(self):
+    def test_running_points_are_locked_and_released_by_a_kill(self):
         def status():
             return swirl("sweep", "--out", self.path("a"), "--status").stdout
 
@@ -151,7 +151,7 @@ class Sweep(InFolder):
                     break
                 time.sleep(0.01)
             self.assertEqual(status(), "0 of 4 runs done, 3 running, 0 failed, 1 to do\n")
-            # Somebody else takes what is free, and nothing else.
+            # Another process takes only the free point.
             other = subprocess.Popen([SWIRL, "sweep", "--quiet", "--out", self.path("a")])
             for _ in range(1000):
                 if "4 running" in status():
@@ -166,7 +166,7 @@ class Sweep(InFolder):
             process.wait()
         self.assertEqual(status(), "0 of 4 runs done, 0 running, 0 failed, 4 to do\n")
 
-    def test_a_run_that_fails_does_not_stop_the_rest(self):
+    def test_a_failed_run_does_not_stop_the_others(self):
         done = swirl("sweep", "--discs", "5,60,6", "--events", 1000, "--out", self.path("a"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("point 1: 60 discs", done.stderr)
@@ -174,19 +174,19 @@ class Sweep(InFolder):
                       swirl("sweep", "--out", self.path("a"), "--status").stdout)
         self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
 
-    def test_a_run_without_a_whole_swirl_has_an_empty_row(self):
+    def test_a_run_without_a_whole_period_has_empty_averages(self):
         done = swirl("sweep", "--discs", "5,48", "--events", 2000, "--measure", "slip", "--out",
                      self.path("a"), "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         collected = swirl("collect", self.path("a"), "--csv", "-")
-        self.assertIn("1 of the runs made no whole swirl", collected.stderr)
+        self.assertIn("1 of the runs completed no whole period", collected.stderr)
         header, five, many = [line.split(",") for line in collected.stdout.splitlines()]
         for name in ("by_event", "by_event_error", "by_time", "rigid_by_time", "slip.cluster"):
             self.assertNotEqual(five[header.index(name)], "")
             self.assertEqual(many[header.index(name)], "")
         self.assertNotEqual(many[header.index("energy")], "")
 
-    def test_no_two_columns_have_one_name(self):
+    def test_column_names_are_unique(self):
         for length, others in ((("--events", 2000), ["mu", "events"]), (("--periods", 3), ["mu", "periods"])):
             folder = self.path(length[0][2:])
             self.assertEqual(swirl("sweep", "--discs", "5,6", "--mu", 1, *length, "--measure", "slip", "--out",
@@ -198,7 +198,7 @@ class Sweep(InFolder):
                 self.assertEqual(len(row), len(header))
                 self.assertGreaterEqual(float(row[header.index("periods")]), 3)
 
-    def test_a_sweep_grows_and_keeps_what_is_done(self):
+    def test_a_grown_sweep_keeps_its_results(self):
         table = self.whole()
         small = ["sweep", "--discs", "5,7:9", "--mu", "1", "--seeds", "1", "--events", "20000",
                  "--quiet", "--out", self.path("a")]
@@ -217,7 +217,7 @@ class Sweep(InFolder):
             done = swirl("sweep", "--out", self.path("a"), "--grow", *more, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
             after = results()
-            # Nothing that was done is touched.
+            # Existing results are unchanged.
             self.assertEqual({name: after[name] for name in before}, before)
             return len(after) - len(before)
 
@@ -225,13 +225,13 @@ class Sweep(InFolder):
         self.assertEqual(grow("--discs", "6"), 0)
         self.assertEqual(grow("--mu", "0.5", "--seeds", 2), 15)
         self.assertEqual(grow("--discs", "10:12", "--seeds", 3), 28)
-        # The same table, byte for byte, as if it had been asked for at once.
+        # The table is bytewise identical to that of a single call.
         self.assertEqual(self.table(self.path("a")), table)
-        # A call without anything but the folder goes on with the grown one.
+        # A call with only the folder continues the grown sweep.
         os.remove(self.path("a/results/000040.json"))
         self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
         self.assertEqual(self.table(self.path("a")), table)
-        for wrong, says in ((["--restitution", "0.9"], "no parameter of this sweep"),
+        for wrong, says in ((["--restitution", "0.9"], "not a parameter of this sweep"),
                             (["--seeds", 1], "can only grow"), (["--frames", 3], "--frames"),
                             (["--discs", "5.0"], "the same run"), (["--sieze", "3"], "--sieze")):
             done = swirl("sweep", "--out", self.path("a"), "--grow", *wrong)
@@ -239,7 +239,7 @@ class Sweep(InFolder):
             self.assertIn(says, done.stderr)
         self.assertEqual(self.table(self.path("a")), table)
 
-    def test_further_measurements_are_made_in_runs_of_the_same_bits(self):
+    def test_further_measurements_repeat_the_same_runs(self):
         plan = ["sweep", "--discs", "8,20", "--events", "20000", "--quiet", "--out", self.path("a")]
         self.assertEqual(swirl(*plan, "--measure", "slip").returncode, 0)
         before = [line.split(",") for line in self.table(self.path("a")).splitlines()]
@@ -252,13 +252,13 @@ class Sweep(InFolder):
             for name, value in zip(before[0], old):
                 self.assertEqual(new[after[0].index(name)], value)
         self.assertEqual(sorted(os.listdir(self.path("a/results"))), ["000000.json", "000001.json"])
-        # And on to more discs, with all of it.
+        # New points have all measurements.
         self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 12,
                                "--quiet").returncode, 0)
         grown = self.table(self.path("a")).splitlines()
         self.assertEqual([grown[1], grown[3]], [",".join(row) for row in after[1:]])
 
-    def test_a_plan_that_shrank_is_damaged(self):
+    def test_a_plan_smaller_than_before_is_rejected(self):
         self.assertEqual(swirl("sweep", "--discs", "5", "--events", 3000, "--out", self.path("a"),
                                "--quiet").returncode, 0)
         self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 6,
@@ -271,10 +271,10 @@ class Sweep(InFolder):
                 json.dump({**plan, "before": before}, opened)
             done = swirl("collect", self.path("a"))
             self.assertEqual(done.returncode, 1)
-            self.assertIn("before it grew", done.stderr)
+            self.assertIn("the plan before it grew", done.stderr)
 
     def test_crossings_of_a_collected_sweep(self):
-        # Long runs cross between 37 and 39 at mu = 1, and nowhere without friction at the wall.
+        # Long runs cross between 37 and 39 at mu = 1, and never without friction at the wall.
         done = swirl("sweep", "--discs", "30:2:46", "--mu-wall", "0,1", "--mu-disc", 1, "--events",
                      "1e5", "--seeds", 2, "--out", self.path("a"), "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -287,7 +287,7 @@ class Sweep(InFolder):
         self.assertEqual(smooth[header.index("N_c")], "")
         self.assertEqual(rough[header.index("verdict")], "crosses")
         self.assertEqual(rough[header.index("points")], "9")
-        # Between even numbers there is a bracket, not an estimate.
+        # With even numbers only, there is a bracket and no estimate.
         self.assertEqual(rough[header.index("N_c")], "")
         lower, upper = (float(rough[header.index(name)]) for name in ("N_c_lower", "N_c_upper"))
         self.assertEqual((lower % 2, upper % 2), (0, 0))
@@ -311,7 +311,7 @@ class Sweep(InFolder):
                          2)
 
     def at_once(self, calls):
-        """Exit codes and complaints of calls that wait for each other before they begin."""
+        """Exit codes and errors of calls that start at the same time."""
         gate, opened = os.pipe()
         running = [subprocess.Popen(["sh", "-c", 'read go; exec "$0" "$@"', SWIRL, *call], stdin=gate,
                                     stderr=subprocess.PIPE, text=True) for call in calls]
@@ -321,17 +321,17 @@ class Sweep(InFolder):
         errors = [process.communicate(timeout=100)[1] for process in running]
         return [process.returncode for process in running], errors
 
-    def test_of_two_plans_at_once_in_one_new_folder_one_is_refused(self):
+    def test_one_of_two_simultaneous_plans_is_rejected(self):
         for k in range(8):
             folder = self.path(str(k))
             codes, errors = self.at_once([["sweep", "--discs", discs, "--events", "1000", "--out", folder, "--quiet"]
                                           for discs in ("5", "6")])
             self.assertEqual(sorted(codes), [0, 1], errors)
             self.assertIn("holds another sweep", "".join(errors))
-            kept = "56"[codes.index(0)]
-            self.assertIn(f"\n{kept},", self.table(folder))
+            accepted = "56"[codes.index(0)]
+            self.assertIn(f"\n{accepted},", self.table(folder))
 
-    def test_of_two_calls_that_let_a_sweep_grow_at_once_both_do_or_one_is_told(self):
+    def test_simultaneous_growth_succeeds_or_is_reported(self):
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", "1000", "--out", self.path("first"),
                                "--quiet").returncode, 0)
         for k in range(8):
@@ -339,18 +339,18 @@ class Sweep(InFolder):
             calls = [["sweep", "--out", folder, "--grow", "--discs", discs, "--quiet"] for discs in ("7", "8")]
             for call, code, error in zip(calls, *self.at_once(calls), strict=True):
                 if code:
-                    self.assertIn("let the sweep", error)
+                    self.assertIn("has extended the sweep", error)
                     self.assertEqual(swirl(*call).returncode, 0)
             self.assertEqual([row.split(",")[0] for row in self.table(folder).splitlines()[1:]],
                              ["5", "6", "7", "8"])
 
-    def test_another_plan_in_the_same_folder_is_refused(self):
+    def test_another_plan_in_the_same_folder_is_rejected(self):
         self.whole()
         done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("holds another sweep", done.stderr)
 
-    def test_a_result_of_an_older_version_or_damaged_is_named(self):
+    def test_results_of_other_formats_and_damaged_ones_are_reported(self):
         self.whole()
         file = self.path("whole/results/000007.json")
         with open(file) as opened:
@@ -367,11 +367,11 @@ class Sweep(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("000007.json' is damaged", done.stderr)
 
-    def test_a_result_of_another_point_and_a_text_for_a_number_are_named(self):
+    def test_results_of_other_points_and_wrong_types_are_reported(self):
         self.whole()
         results = self.path("whole/results/")
 
-        def refused(says):
+        def assert_rejected(says):
             done = swirl("collect", self.path("whole"))
             self.assertEqual(done.returncode, 1)
             self.assertIn(says, done.stderr)
@@ -379,34 +379,24 @@ class Sweep(InFolder):
         with open(results + "000007.json") as opened:
             result = json.load(opened)
         shutil.copy(results + "000006.json", results + "000007.json")
-        refused("000007.json' is the result of another run than point 7")
-        for change, says in (({"point": 7, "config": dict(result["config"], seed=1)}, "another run"),
-                             ({"energy": "0.5"}, "a text where a number belongs"),
-                             ({"rotation": dict(result["rotation"], by_time="fast")}, "a text where")):
+        assert_rejected("000007.json' is not the result of point 7")
+        for change, says in (({"point": 7, "config": dict(result["config"], seed=1)}, "is not the result of point"),
+                             ({"energy": "0.5"}, "has a text instead of a number"),
+                             ({"rotation": dict(result["rotation"], by_time="fast")}, "a text instead")):
             with open(results + "000007.json", "w") as opened:
                 json.dump({**result, **change}, opened)
-            refused(says)
+            assert_rejected(says)
 
-    def test_twenty_thousand_short_runs_are_done_counted_and_collected_in_seconds(self):
-        # More of them wait for the disk than a process may have files open.
+    def test_twenty_thousand_runs_need_few_open_files(self):
+        # More results wait for the disk than a process may have files open.
         done = swirl("sweep", "--discs", 2, "--events", 5, "--seeds", 20000, "--out", self.path("a"),
                      "--quiet", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE,
                                                                       (256, 256)))
         self.assertEqual(done.returncode, 0, done.stderr)
-        spent = []
         for call in (["sweep", "--out", self.path("a"), "--status"], ["collect", self.path("a")]):
-            before = os.times()
             done = swirl(*call)
-            after = os.times()
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("20000 of 20000 runs", done.stdout)
-            spent.append(after.children_user + after.children_system
-                         - before.children_user - before.children_system)
-        # Processor time: what else the machine does is not the program's fault. Collecting takes
-        # all cores; two of them would share it. Nine tenths of it is reading JSON, 2 kB a result:
-        # a tenth of a millisecond each, and half as much again for a slower machine.
-        self.assertLess(spent[0], 1)
-        self.assertLess(spent[1] / 2, 1.5)
 
 
 if __name__ == "__main__":

@@ -143,7 +143,7 @@ class Faults(unittest.TestCase):
         """One sentence, after the warnings of a run that was done, and no crash."""
         self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
         said = [line for line in done.stderr.splitlines(keepends=True)
-                if not line.startswith("warning: ")]
+                if not line.startswith(("warning: ", "hint: "))]
         self.assertTrue("".join(said).startswith("error: "), f"{where}: {done.stderr}")
 
     def fail_each(self, arguments, assert_right, most, assert_harmless=lambda where: None):

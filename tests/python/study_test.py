@@ -71,7 +71,7 @@ def test_wrong_sweeps(wrong, kind, said):
 
 
 def test_nothing_to_sweep_over(tmp_path):
-    with pytest.raises(ValueError, match="nothing to sweep over"):
+    with pytest.raises(ValueError, match="no parameters to sweep over"):
         swirl.sweep(tmp_path / "empty")
     with pytest.raises(swirl.FileError):
         swirl.collect(tmp_path / "nowhere")

@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-TEST(OnAllCores, EveryPieceIsDoneOnce) {
+TEST(ParallelFor, RunsEveryTaskOnce) {
     for (const unsigned threads : {0u, 1u, 3u, 64u}) {
         std::vector<std::atomic<int>> done(1000);
         parallel_for(
@@ -18,11 +18,11 @@ TEST(OnAllCores, EveryPieceIsDoneOnce) {
     }
 }
 
-TEST(OnAllCores, NothingToDoIsDoneAtOnce) {
+TEST(ParallelFor, AcceptsZeroTasks) {
     parallel_for(0, [](std::size_t) { FAIL(); });
 }
 
-TEST(OnAllCores, AFailureReachesTheCallerAndEndsTheWork) {
+TEST(ParallelFor, RethrowsAnExceptionAndStartsNoFurtherTask) {
     std::atomic<int> begun = 0;
     const auto work = [&](std::size_t k) {
         ++begun;

@@ -1,4 +1,4 @@
-// The table in docs/parameters.md is made of the rows. When it is out of date, this writes it anew:
+// The table in docs/parameters.md is generated from the rows. This command updates it:
 //
 //     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='ParameterTable.*'
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/parameters.md";
 constexpr std::string_view begin = "<!-- made of src/swirl/run/parameters.hpp -->\n";
 constexpr std::string_view end = "<!-- end -->\n";
 
-/// A bar would end the cell.
-std::string in_a_cell(std::string text) {
+/// Escapes bars, which would end the cell.
+std::string escaped(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2)
         text.insert(at, 1, '\\');
     return text;
@@ -29,11 +29,15 @@ std::string range_of(const Parameter& p) {
     return p.highest > 0.0 ? fmt::format("{:g} … {:g}", p.lowest, p.highest) : "";
 }
 
+std::string documentation_of(const Parameter& p) {
+    return *p.details ? fmt::format("{}. {}", p.description, p.details) : p.description;
+}
+
 std::string row(const Parameter& p) {
     const std::string option =
-        p.can_be_given() ? fmt::format("`{} {}`", option_name(p.name), in_a_cell(p.form)) : "";
+        p.is_settable() ? fmt::format("`{} {}`", option_name(p.name), escaped(p.form)) : "";
     return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, p.symbol, option,
-                       default_of(p), range_of(p), p.unit, in_a_cell(p.description));
+                       default_of(p), range_of(p), p.unit, escaped(documentation_of(p)));
 }
 
 std::string table() {
@@ -67,24 +71,29 @@ TEST(ParameterTable, InTheDocsIsUpToDate) {
     EXPECT_EQ(docs.substr(first, to - first), table());
 }
 
-// A page has a slider for every number, and the slider has the number that holds if nothing is
-// given.
-TEST(ParameterTable, EveryNumberHasAUsualSpanInsideItsRange) {
+// The page has a slider for every number, and the slider includes the default.
+TEST(ParameterTable, DescriptionsFitIntoTheHelp) {
+    constexpr std::size_t max_bytes = 62;  // 60 characters, and two bytes more for π
+    for (const Parameter& p : run_parameters)
+        EXPECT_LE(std::string_view(p.description).size(), max_bytes) << p.name;
+}
+
+TEST(ParameterTable, EveryNumberHasASliderInsideItsRange) {
     for (const Parameter& p : run_parameters) {
         const bool is_number =
-            p.can_be_given() && (p.member.index() != 0 || std::string_view(p.form) == "NUMBER");
-        const auto& [first, last, step] = p.usual;
+            p.is_settable() && (p.member.index() != 0 || std::string_view(p.form) == "NUMBER");
+        const auto& [first, last, step] = p.slider;
         ASSERT_EQ(step > 0.0, is_number) << p.name;
         if (!is_number) continue;
         EXPECT_LT(first, last) << p.name;
         EXPECT_GE(first, p.lowest) << p.name;
         EXPECT_LE(last, p.highest > 0.0 ? p.highest : last) << p.name;
         const double steps = (last - first) / step;
-        EXPECT_NEAR(steps, std::round(steps), 1e-9) << p.name;  // roundings of a few divisions
-        char* rest = nullptr;
-        const std::string by_default = default_of(p);
-        const double value = std::strtod(by_default.c_str(), &rest);
-        if (by_default.empty() || *rest != '\0') continue;  // a word, or nothing
+        EXPECT_NEAR(steps, std::round(steps), 1e-9) << p.name;  // rounding of a few divisions
+        char* end_of_number = nullptr;
+        const std::string default_text = default_of(p);
+        const double value = std::strtod(default_text.c_str(), &end_of_number);
+        if (default_text.empty() || *end_of_number != '\0') continue;  // a word, or nothing
         EXPECT_TRUE(first <= value && value <= last) << p.name;
     }
 }

@@ -22,23 +22,23 @@ TEST(WithError, HasAsManyDigitsAsTheErrorSupports) {
     EXPECT_EQ(with_error(-2.34e-17, 4.1e-18), "−2.3e-17 ± 4e-18");
 }
 
-/// Of the first ten.
-double events_per_swirl(RunConfig config) {
+/// Over the first ten periods.
+double events_per_period(RunConfig config) {
     config.periods = 10;
     config.warmup = 0;
     return static_cast<double>(run(config).events.total()) / 10.0;
 }
 
-TEST(WithError, SaysWhatIsNotKnown) {
-    EXPECT_EQ(with_error(nan, 0.1), "not known");
+TEST(WithError, PrintsMissingValues) {
+    EXPECT_EQ(with_error(nan, 0.1), "n/a");
     EXPECT_EQ(with_error(-0.25, nan), "−0.25");
 }
 
-TEST(SenseOfRotation, IsAStallWithinTwoErrors) {
-    EXPECT_EQ(sense_of_rotation({0.1, 0.01, 10.0, 10}), "rotate");
-    EXPECT_EQ(sense_of_rotation({-0.1, 0.01, 10.0, 10}), "counterrotate");
-    EXPECT_EQ(sense_of_rotation({0.019, 0.01, 10.0, 10}), "stall");
-    EXPECT_EQ(sense_of_rotation({-0.019, 0.01, 10.0, 10}), "stall");
+TEST(RotationVerb, IsStallWithinTwoErrors) {
+    EXPECT_EQ(rotation_verb({0.1, 0.01, 10.0, 10}), "rotate");
+    EXPECT_EQ(rotation_verb({-0.1, 0.01, 10.0, 10}), "counterrotate");
+    EXPECT_EQ(rotation_verb({0.019, 0.01, 10.0, 10}), "stall");
+    EXPECT_EQ(rotation_verb({-0.019, 0.01, 10.0, 10}), "stall");
 }
 
 TEST(WithCommas, GroupsByThousands) {
@@ -48,15 +48,15 @@ TEST(WithCommas, GroupsByThousands) {
     EXPECT_EQ(with_commas(1234567), "1,234,567");
 }
 
-TEST(Headline, OfARunWithoutAWholeSwirlIsNoAverage) {
+TEST(Headline, GivesNoAverageWithoutAWholePeriod) {
     RunConfig config;
     config.events = 300;
     const RunResult short_run = run(config);
     EXPECT_LT(short_run.periods, 1.0);
-    EXPECT_EQ(headline(short_run), "48 discs made no whole swirl, so nothing is averaged.");
+    EXPECT_EQ(headline(short_run), "48 discs completed no whole period, so there are no averages.");
     EXPECT_THAT(warnings(short_run), testing::ElementsAre(testing::AllOf(
-                                         testing::HasSubstr("The run made 0.16 swirls"),
-                                         testing::HasSubstr("more --events would be right"))));
+                                         testing::HasSubstr("the run covers 0.16 periods"),
+                                         testing::HasSubstr("hint: use more --events."))));
     EXPECT_EQ(report(short_run).find("rigid"), std::string::npos);
     for (const Estimate& e :
          {short_run.rotation.by_event, short_run.rotation.by_time,
@@ -65,18 +65,18 @@ TEST(Headline, OfARunWithoutAWholeSwirlIsNoAverage) {
         EXPECT_TRUE(std::isnan(e.error));
         EXPECT_EQ(e.blocks, 0u);
     }
-    // One whole swirl is warm-up, and the next was not completed.
+    // One whole period is warm-up, and the next is not complete.
     config.discs = 5;
     config.warmup = 1;
-    config.events = static_cast<std::int64_t>(1.5 * events_per_swirl(config));
+    config.events = static_cast<std::int64_t>(1.5 * events_per_period(config));
     const RunResult another = run(config);
     EXPECT_GT(another.periods, 1.0);
     EXPECT_LT(another.periods, 2.0);
     EXPECT_EQ(headline(another),
-              "5 discs made no whole swirl after the warm-up, so nothing is averaged.");
+              "5 discs completed no whole period after the warm-up, so there are no averages.");
 }
 
-TEST(Headline, OfASingleWholeSwirlIsItsAverage) {
+TEST(Headline, GivesTheAverageOfASinglePeriod) {
     RunConfig config;
     config.discs = 5;
     config.periods = 1;
@@ -84,14 +84,14 @@ TEST(Headline, OfASingleWholeSwirlIsItsAverage) {
     EXPECT_THAT(headline(run(config)), testing::HasSubstr("ϖ/Ω = "));
 }
 
-TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
+TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     RunResult result;
     result.complete = true;
     result.rotation.by_event.blocks = 100;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     EXPECT_TRUE(warnings(result).empty());
     result.complete = false;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Incomplete")));
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("incomplete")));
     result.complete = true;
     result.steady.verdict = SteadyState::Verdict::drifting;
     result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .max_size = 4.6};
@@ -99,14 +99,14 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
     EXPECT_THAT(report(result),
                 testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
                                    "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
-                                   "runs pass a limit"));
+                                   "runs exceed a limit"));
     EXPECT_THAT(
         warnings(result),
-        testing::ElementsAre(testing::HasSubstr("Not steady: the rotation drifts from 0.3 to 1.")));
+        testing::ElementsAre(testing::HasSubstr("not steady: the rotation drifts from 0.3 to 1.")));
     std::swap(result.steady, result.steady_spin);
     EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr(
-                                      "Not steady: the mean spin drifts from 0.3 to 1.")));
+                                      "not steady: the mean spin drifts from 0.3 to 1.")));
     result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.steady.verdict = SteadyState::Verdict::jumping;
     result.steady.change = {.before = 0.72, .after = 1.0, .size = 9.0, .max_size = 4.6};
@@ -119,25 +119,25 @@ TEST(Warnings, AreSilentForASoundRunAndSpeakForOthers) {
               "the rotation switches between two states, −0.05 and 1, 14 times");
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("mixes both states")));
     result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("steady state not verified")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
-    // What is steady then is not the dish, and the line of the report says no such thing.
+    // Rotation and spins may be steady while the energy grows.
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.steady.change = result.steady_spin.change = {.size = 1.0, .max_size = 4.6};
     EXPECT_THAT(report(result),
-                testing::HasSubstr("  steady      rotation and spins are, the energy is not; "));
+                testing::HasSubstr("  steady      rotation and spins steady, energy growing; "));
     result.config.path = PathShape::circle;
     EXPECT_THAT(report(result), testing::HasSubstr("  steady      steady; "));
     result.config.path = PathShape::polygon;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::too_short;
-    // On a floor it does not grow: the floor takes it.
+    // On a floor the energy does not grow, because floor friction dissipates it.
     result.config.floor = true;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("Too short to tell")));
+    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("steady state not verified")));
 }
 
-// 3.3e-10 is what half a million hops come to (docs/physics.md).
-TEST(Warnings, TellOfSpheresThatSinkIntoTheWallForWantOfAContactDuration) {
+// 3.3e-10 is the overlap after half a million bounces (docs/physics.md).
+TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     RunResult result;
     result.complete = true;
     result.rotation.by_event.blocks = 100;
@@ -145,7 +145,7 @@ TEST(Warnings, TellOfSpheresThatSinkIntoTheWallForWantOfAContactDuration) {
     result.config.body = Shape::sphere;
     result.config.floor = true;
     result.max_overlap = 3.3e-10;
-    EXPECT_TRUE(warnings(result).empty());  // elsewhere it may be so much by the size of the dish
+    EXPECT_TRUE(warnings(result).empty());  // with a contact duration, a large container may cause it
     result.config.contact_duration = 0.0;
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::AllOf(testing::HasSubstr("spheres that the floor"),

@@ -1,4 +1,4 @@
-// A run that is interrupted, kept, and resumed ends with the same result as one that is not.
+// A run that is interrupted, saved and resumed ends with the result of an uninterrupted run.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -29,72 +29,73 @@ std::string result_without_time(RunResult result) {
     return result_json(result).dump();
 }
 
-struct Look {
+struct Sample {
     double time, x;
-    bool operator==(const Look&) const = default;
+    bool operator==(const Sample&) const = default;
 };
 
-/// Passes `count` events, or as many as there are, and looks seven times a swirl.
-void go_on(swirl::Run& run, std::uint64_t count, SampleTimes& times, std::vector<Look>& looks) {
+/// Executes at most `count` events, and samples seven times per period.
+void advance(swirl::Run& run, std::uint64_t count, SampleTimes& times,
+             std::vector<Sample>& samples) {
     for (; count > 0 && run.next_event(); --count) {
         while (run.next_sample(times))
-            looks.push_back({run.snapshot().time(), run.snapshot().position(3).x});
+            samples.push_back({run.snapshot().time(), run.snapshot().position(3).x});
         run.pass_event();
     }
 }
 
-void expect_that_interruptions_change_nothing(const RunConfig& config) {
-    std::vector<Look> whole_looks;
+void expect_interruptions_do_not_change(const RunConfig& config) {
+    std::vector<Sample> whole_samples;
     swirl::Run whole(config);
     SampleTimes whole_times = whole.sample_times(7);
-    go_on(whole, 1'000'000, whole_times, whole_looks);
+    advance(whole, 1'000'000, whole_times, whole_samples);
     ASSERT_TRUE(whole.complete());
 
-    // Broken off again and again, at odd moments, each time resumed from what was kept.
-    std::vector<Look> looks;
+    // Interrupted repeatedly, and resumed from the saved state each time.
+    std::vector<Sample> samples;
     RunControl control;
     SampleTimes times = whole.sample_times(7);
-    for (int piece = 0; piece < 17; ++piece) {
+    for (int part = 0; part < 17; ++piece) {
         swirl::Run run(config, control);
-        go_on(run, 1'700, times, looks);
+        advance(run, 1'700, times, samples);
         ASSERT_FALSE(run.complete());
         control.resume = run.state();
-        // Whoever keeps a state keeps his own times with it.
-        StateWriter kept;
-        times.fields(kept);
+        // The owner of sample times saves them.
+        StateWriter saved;
+        times.fields(saved);
         times = whole.sample_times(7);
-        StateReader read(kept.bytes());
+        StateReader read(saved.bytes());
         times.fields(read);
     }
     swirl::Run last(config, control);
-    go_on(last, 1'000'000, times, looks);
+    advance(last, 1'000'000, times, samples);
     ASSERT_TRUE(last.complete());
     EXPECT_EQ(result_without_time(last.result()), result_without_time(whole.result()));
-    EXPECT_EQ(looks, whole_looks);
+    EXPECT_EQ(samples, whole_samples);
 }
 
 TEST(Resume, AnInterruptedRunEndsWithTheSameResult) {
-    expect_that_interruptions_change_nothing(short_run());
+    expect_interruptions_do_not_change(short_run());
 }
 
-// Broken off between two samples of the average by event: 1700 is no multiple of three.
-TEST(Resume, AnInterruptedRunOfALargeDishEndsWithTheSameResult) {
+// Interrupted between two samples of the average by event: 1700 is not a multiple of three.
+TEST(Resume, AnInterruptedRunOfALargeContainerEndsWithTheSameResult) {
     RunConfig config = short_run();
     config.discs = 150;
     config.container_radius = 15.5;
     config.warmup = 1;
     ASSERT_EQ(events_per_rotation_sample(150), 3u);
-    expect_that_interruptions_change_nothing(config);
+    expect_interruptions_do_not_change(config);
 }
 
-// Whatever measurements there are: each must say in its fields() all that it has gathered.
-TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
+// For all measurements: fields() must include all accumulated data.
+TEST(Resume, EveryMeasurementContinues) {
     const RunConfig config = short_run();
     const std::vector<std::string> names = read_measurement_list("all");
     const MeasuredRun whole = measured_run(config, names);
 
     std::optional<std::string> state;
-    for (int piece = 0; piece < 15; ++piece) {
+    for (int part = 0; part < 15; ++piece) {
         Observation observation = observation_of(config, names);
         RunControl control;
         control.observation = &observation;
@@ -114,14 +115,14 @@ TEST(Resume, EveryMeasurementGoesOnWhereItWas) {
     EXPECT_EQ(result_without_time(result), result_without_time(whole.run));
 }
 
-TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
+TEST(Resume, ARunWithOtherMeasurementsIsRejected) {
     RunConfig config = short_run();
     config.events = 1'000'000'000;
     const Scratch scratch;
     RunFiles files;
     files.checkpoint = scratch / "c";
     files.resume = true;
-    // Stopped as soon as it says how far it is.
+    // Stopped at the first progress report.
     const auto stopped_run = [&](const char* list) {
         std::atomic<bool> stop = false;
         Observation observation = observation_of(config, read_measurement_list(list));
@@ -136,23 +137,23 @@ TEST(Resume, ARunThatMeasuredSomethingElseIsRefused) {
     try {
         stopped_run("density");
         FAIL();
-    } catch (const UsageError& wrong) {
-        EXPECT_NE(std::string(wrong.what()).find("measures [\"density,flow\"] there"),
+    } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find("measures [\"density,flow\"] there"),
                   std::string::npos)
-            << wrong.what();
+            << error.what();
     }
 }
 
-TEST(Resume, KeepingTheStateChangesNothing) {
+TEST(Resume, SavingTheStateDoesNotChangeTheRun) {
     const RunConfig config = short_run();
-    swirl::Run kept(config);
-    for (int k = 0; kept.next_event(); ++k) {
-        kept.pass_event();
+    swirl::Run saved(config);
+    for (int k = 0; saved.next_event(); ++k) {
+        saved.pass_event();
         if (k % 500 == 0) {
-            EXPECT_FALSE(kept.state().empty());
+            EXPECT_FALSE(saved.state().empty());
         }
     }
-    EXPECT_EQ(result_without_time(kept.result()), result_without_time(run(config)));
+    EXPECT_EQ(result_without_time(saved.result()), result_without_time(run(config)));
 }
 
 RunResult recorded(const RunConfig& config, const RunFiles& files) {
@@ -165,14 +166,14 @@ RunResult recorded(const RunConfig& config, const RunFiles& files) {
 std::string problem_with(const RunConfig& config, const RunFiles& files) {
     try {
         recorded(config, files);
-    } catch (const UsageError& wrong) {
-        return wrong.what();
+    } catch (const UsageError& error) {
+        return error.what();
     }
     return "";
 }
 
-// A finished run takes more events, and is then what it would have been.
-TEST(Resume, AFinishedRunGoesOnToMoreEventsBitForBit) {
+// A finished run accepts more events and then equals a run of that length.
+TEST(Resume, AFinishedRunContinuesToMoreEventsBitwiseIdentical) {
     const Scratch scratch;
     RunFiles files;
     files.checkpoint = scratch / "c";
@@ -188,16 +189,16 @@ TEST(Resume, AFinishedRunGoesOnToMoreEventsBitForBit) {
         EXPECT_EQ(grown.events.total(), std::uint64_t(more));
         EXPECT_EQ(result_without_time(grown), result_without_time(run(config)));
     }
-    // Back to swirls: so many, as a run of them has.
+    // The length may also be given in periods.
     config.periods = std::int64_t(run(config).periods) + 30;
     EXPECT_EQ(result_without_time(recorded(config, files)), result_without_time(run(config)));
     config.periods = 30;
-    EXPECT_NE(problem_with(config, files).find("more than is asked for"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("more than requested"), std::string::npos);
     config.discs = 11;
     EXPECT_NE(problem_with(config, files).find("discs is 10 there and 11 here"), std::string::npos);
 }
 
-TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
+TEST(Resume, AShortDefaultWarmupIsRejectedForALongerRun) {
     const Scratch scratch;
     RunFiles files;
     files.checkpoint = scratch / "c";
@@ -207,7 +208,7 @@ TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
     config.periods = 20;
     ASSERT_EQ(recorded(config, files).warmup, 4);
     config.periods = 40;
-    EXPECT_NE(problem_with(config, files).find("only 4 swirls"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("only 4 periods"), std::string::npos);
     std::filesystem::remove(files.checkpoint);
     config.warmup = 4;
     config.periods = 20;
@@ -219,7 +220,7 @@ TEST(Resume, AWarmUpThatFollowedFromTheLengthIsNoneOfALongerRun) {
     EXPECT_NE(problem_with(config, files), "");
 }
 
-TEST(Resume, RefusesTheStateOfAnotherRun) {
+TEST(Resume, TheStateOfAnotherRunIsRejected) {
     const RunConfig config = short_run();
     swirl::Run begun(config);
     for (int k = 0; k < 10'000 && begun.next_event(); ++k) begun.pass_event();

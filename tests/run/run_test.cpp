@@ -18,46 +18,46 @@ RunConfig small(std::int64_t discs, std::int64_t periods) {
     return config;
 }
 
-TEST(MakeInitialState, NoTwoDiscsOverlapAndNoneIsOutside) {
+TEST(MakeInitialState, DiscsDoNotOverlapAndAreInside) {
     for (const std::int64_t n : {1, 2, 28, 48, 55}) {
         RunConfig config;
         config.discs = n;
-        const InitialState scene = make_initial_state(config);
-        ASSERT_EQ(scene.discs.size(), static_cast<std::size_t>(n));
-        const Vec2 centre = scene.path.segments.front().start;
-        for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-            const Vec2 from_centre = scene.discs[i].position - centre;
+        const InitialState state = make_initial_state(config);
+        ASSERT_EQ(state.discs.size(), static_cast<std::size_t>(n));
+        const Vec2 centre = state.path.segments.front().start;
+        for (std::size_t i = 0; i < state.discs.size(); ++i) {
+            const Vec2 from_centre = state.discs[i].position - centre;
             EXPECT_LE(std::sqrt(dot(from_centre, from_centre)), 7.6);
             for (std::size_t j = 0; j < i; ++j) {
-                const Vec2 s = scene.discs[i].position - scene.discs[j].position;
+                const Vec2 s = state.discs[i].position - state.discs[j].position;
                 EXPECT_GE(std::sqrt(dot(s, s)), 2.0);
             }
         }
     }
 }
 
-TEST(MakeInitialState, VelocitiesAreSmallBesideTheContainersAndDifferFromDiscToDisc) {
+TEST(MakeInitialState, VelocitiesAreSmallAndDiffer) {
     RunConfig config;
     config.discs = 30;
-    const InitialState scene = make_initial_state(config);
-    const Vec2 container = scene.path.segments.front().velocity;
-    for (const Disc& d : scene.discs) {
+    const InitialState state = make_initial_state(config);
+    const Vec2 container = state.path.segments.front().velocity;
+    for (const Disc& d : state.discs) {
         const Vec2 relative = d.velocity - container;
         const double speed = std::sqrt(dot(relative, relative));
         EXPECT_GT(speed, 0.0);
         EXPECT_LT(speed, 0.1);  // R Ω / 50 = 0.091
         EXPECT_EQ(d.spin, 0.0);
     }
-    EXPECT_NE(scene.discs[0].velocity.x, scene.discs[1].velocity.x);
+    EXPECT_NE(state.discs[0].velocity.x, state.discs[1].velocity.x);
 }
 
-TEST(MakeInitialState, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
+TEST(MakeInitialState, AMixtureHasItsCountRadiusMassAndInertia) {
     RunConfig config;
     config.discs = 20;
     config.mixture = Mixture{6, 1.4, 2.0};
-    const InitialState scene = make_initial_state(config);
+    const InitialState state = make_initial_state(config);
     int big = 0;
-    for (const Disc& d : scene.discs) {
+    for (const Disc& d : state.discs) {
         if (d.radius == 1.0) {
             EXPECT_EQ(d.mass, 1.0);
             EXPECT_EQ(d.inertia, 10.0);
@@ -71,22 +71,22 @@ TEST(MakeInitialState, AMixtureHasTheCountRadiusMassAndTheSameShapeOfDisc) {
     EXPECT_EQ(big, 6);
 }
 
-TEST(MakeInitialState, MoreDiscsThanFitAreRefusedWithTheNumber) {
+TEST(MakeInitialState, TooManyDiscsAreRejected) {
     RunConfig config;
     config.discs = 60;
     try {
         make_initial_state(config);
         FAIL();
-    } catch (const UsageError& wrong) {
-        EXPECT_THAT(wrong.what(), testing::HasSubstr("60 discs"));
+    } catch (const UsageError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("60 discs"));
     }
 }
 
-TEST(ContainerSpeed, IsOneWithThePapersNumbers) {
+TEST(ContainerSpeed, IsOneForTheValuesOfThePaper) {
     EXPECT_NEAR(container_speed(RunConfig{}), 1.0, 1e-7);  // 1.892 has four digits
 }
 
-TEST(ContainerSpeed, IsThatOfTheLegs) {
+TEST(ContainerSpeed, IsThatOfTheSegments) {
     for (const PathShape shape : {PathShape::polygon, PathShape::circle}) {
         RunConfig config;
         config.path = shape;
@@ -97,7 +97,7 @@ TEST(ContainerSpeed, IsThatOfTheLegs) {
     }
 }
 
-TEST(Run, EndsAtTheEventOrTheSwirlAskedFor) {
+TEST(Run, EndsAtTheRequestedEventOrPeriod) {
     RunConfig config = small(12, 7);
     const RunResult by_periods = run(config);
     EXPECT_EQ(by_periods.periods, 7.0);
@@ -108,34 +108,34 @@ TEST(Run, EndsAtTheEventOrTheSwirlAskedFor) {
     EXPECT_EQ(run(config).events.total(), 1234u);
 }
 
-TEST(Run, ObservedOrNotHasTheSameBits) {
+TEST(Run, ObservationDoesNotChangeTheTrajectory) {
     const RunConfig config = small(28, 5);
     const RunResult unobserved = run(config);
-    int looks = 0, events = 0;
-    swirl::Run watched(config);
-    SampleTimes times = watched.sample_times(37);
-    while (watched.next_event()) {
-        while (watched.next_sample(times)) ++looks;
-        watched.pass_event();
+    int samples = 0, events = 0;
+    swirl::Run observed_run(config);
+    SampleTimes times = observed_run.sample_times(37);
+    while (observed_run.next_event()) {
+        while (observed_run.next_sample(times)) ++samples;
+        observed_run.pass_event();
         ++events;
     }
-    const RunResult observed = watched.result();
+    const RunResult observed = observed_run.result();
     EXPECT_EQ(observed.state_hash, unobserved.state_hash);
     EXPECT_EQ(observed.rotation.by_event.mean, unobserved.rotation.by_event.mean);
-    EXPECT_EQ(looks, 5 * 37);
+    EXPECT_EQ(samples, 5 * 37);
     EXPECT_EQ(static_cast<std::uint64_t>(events), observed.events.total());
 }
 
-TEST(Run, SamplesAreTheStatesAtTheirTimes) {
+TEST(Run, SamplesAreTheExactStatesAtTheirTimes) {
     const RunConfig config = small(20, 3);
-    Simulation beside(make_initial_state(config));
+    Simulation reference(make_initial_state(config));
     swirl::Run run(config);
     SampleTimes times = run.sample_times(16);
     int k = 0;
     while (run.next_event()) {
         for (; run.next_sample(times); ++k) {
-            beside.advance_to(k / 16, config.period * (k % 16) / 16);
-            const Snapshot expected = beside.snapshot();
+            reference.advance_to(k / 16, config.period * (k % 16) / 16);
+            const Snapshot expected = reference.snapshot();
             const Snapshot& s = run.snapshot();
             ASSERT_EQ(s.periods, expected.periods);
             ASSERT_EQ(s.clock, expected.clock);
@@ -151,32 +151,32 @@ TEST(Run, SamplesAreTheStatesAtTheirTimes) {
     EXPECT_EQ(k, 48);
 }
 
-TEST(Run, WarmupIsLeftOutOfTheAverages) {
+TEST(Run, AveragesExcludeTheWarmup) {
     RunConfig config = small(15, 10);
     std::vector<double> sums(10, 0.0), counts(10, 0.0);
     config.warmup = 4;
     swirl::Run run(config);
     while (run.next_event()) {
         run.pass_event();
-        const auto swirl = static_cast<std::size_t>(run.event().periods);
-        sums[swirl] += cluster_rotation(run.snapshot()).individual / config.omega();
-        counts[swirl] += 1.0;
+        const auto period = static_cast<std::size_t>(run.event().periods);
+        sums[period] += cluster_rotation(run.snapshot()).individual / config.omega();
+        counts[period] += 1.0;
     }
     const RunResult result = run.result();
     double sum = 0.0, count = 0.0;
-    for (std::size_t swirl = 4; swirl < 10; ++swirl) {
-        sum += sums[swirl];
-        count += counts[swirl];
+    for (std::size_t period = 4; period < 10; ++period) {
+        sum += sums[period];
+        count += counts[period];
     }
     EXPECT_EQ(result.warmup, 4);
-    // The same sums in another order.
+    // 1e-12: the sums are rounded in another order.
     EXPECT_NEAR(result.rotation.by_event.mean, sum / count, 1e-12);
     EXPECT_EQ(result.rotation.by_event.blocks, 6u);
     EXPECT_EQ(result.warmup_events.total() + static_cast<std::uint64_t>(count),
               result.events.total());
 }
 
-TEST(Run, InALargeDishTheAverageByEventIsOverEverySoManyEvents) {
+TEST(Run, TheAverageByEventOfManyDiscsSamplesEveryFewEvents) {
     RunConfig config = small(200, 3);
     config.container_radius = 18.0;
     config.warmup = 0;
@@ -194,17 +194,17 @@ TEST(Run, InALargeDishTheAverageByEventIsOverEverySoManyEvents) {
         samples += 1.0;
     }
     const double mean = run.result().rotation.by_event.mean;
-    // The same sums in another order, about a centre of mass that is followed.
+    // 1e-11: the sums are rounded in another order, about an updated centre of mass.
     EXPECT_NEAR(mean, sum / samples, 1e-11);
-    // Two discs of 200 change with an event, by Ω or so each: a hundredth of the mean, with either
-    // sign, over thousands of samples.
+    // An event changes two of 200 discs by about Ω each, a hundredth of the mean with random sign;
+    // the average is over thousands of samples.
     EXPECT_GT(samples, 5000.0);
     EXPECT_NEAR(mean, whole_sum / static_cast<double>(events), 1e-3);
 }
 
-TEST(Run, TheWarmupIsFoundWhereTheSpinsTakeTheirTime) {
-    // Without disc friction only the wall spins the discs up: some 100 swirls. With it the dish
-    // forgets its beginning in a few swirls, and the least there is, 50, will do.
+TEST(Run, AutomaticWarmupCoversASlowSpinTransient) {
+    // Without disc friction only the wall spins the discs up, within about 100 periods. With disc
+    // friction the transient lasts a few periods, and the minimum of the test, 50, is enough.
     RunConfig config;
     config.discs = 40;
     config.mu_disc = 0.0;
@@ -220,7 +220,7 @@ TEST(Run, TheWarmupIsFoundWhereTheSpinsTakeTheirTime) {
     EXPECT_LE(run(config).warmup, 70);
 }
 
-TEST(Run, AWarmupThatIsNotFoundEndsWithHalfOfTheRun) {
+TEST(Run, AutomaticWarmupIsAtMostHalfOfTheRun) {
     RunConfig config = small(10, 60);
     config.warmup_found = true;
     config.warmup.reset();
@@ -230,7 +230,7 @@ TEST(Run, AWarmupThatIsNotFoundEndsWithHalfOfTheRun) {
     EXPECT_EQ(result.steady_state(), SteadyState::Verdict::too_short);
 }
 
-TEST(Run, SpinsThatStillGrowAreNotASteadyState) {
+TEST(Run, GrowingSpinsAreNotSteady) {
     RunConfig config;
     config.discs = 40;
     config.mu_disc = 0.0;
@@ -240,15 +240,15 @@ TEST(Run, SpinsThatStillGrowAreNotASteadyState) {
     EXPECT_EQ(result.steady_state(), SteadyState::Verdict::drifting);
 }
 
-TEST(Run, AWarmupThatTheRunDoesNotOutliveIsAFailure) {
+TEST(Run, AWarmupLongerThanTheRunIsAFailure) {
     RunConfig config;
     config.events = 2000;
     config.warmup = 30;
-    ASSERT_FALSE(problem(config));  // 2000 events could be 66 swirls
+    ASSERT_FALSE(problem(config));  // 2000 events could cover 66 periods
     EXPECT_THROW(run(config), Failure);
 }
 
-TEST(Run, StoppedIsIncompleteAndSaysWhatThereIs) {
+TEST(Run, AStoppedRunHasAPartialResult) {
     RunConfig config;
     config.events = 1'000'000'000'000;
     std::atomic<bool> stop = false;
@@ -263,7 +263,7 @@ TEST(Run, StoppedIsIncompleteAndSaysWhatThereIs) {
     EXPECT_TRUE(std::isfinite(result.rotation.by_event.mean));
 }
 
-TEST(Run, TheInvariantOfTheFrictionlessCircleIsConserved) {
+TEST(Run, TheFrictionlessCircleConservesTheInvariant) {
     RunConfig config = small(10, 20);
     config.mu_disc = config.mu_wall = 0.0;
     config.path = PathShape::circle;
@@ -272,15 +272,15 @@ TEST(Run, TheInvariantOfTheFrictionlessCircleIsConserved) {
     EXPECT_GT(std::fabs(result.energy - result.energy_at_start), 1.0);
 }
 
-TEST(Run, OnTheFrictionlessPolygonTheInvariantGrows) {
+TEST(Run, TheInvariantGrowsOnTheFrictionlessPolygon) {
     RunConfig config = small(10, 40);
     config.mu_disc = config.mu_wall = 0.0;
     const RunResult result = run(config);
     EXPECT_GT(result.invariant, result.invariant_at_start + 1.0);
 }
 
-TEST(Run, WithoutWallFrictionTheClusterTurnsWithTheSwirl) {
-    // The paper: with μ_w = 0 the cluster rotates at Ω, whatever N.
+TEST(Run, WithoutWallFrictionTheClusterRotatesAtOmega) {
+    // The paper: with μ_w = 0 the cluster rotates at Ω for every N.
     RunConfig config = small(20, 150);
     config.mu_wall = 0.0;
     config.warmup = 20;
@@ -288,12 +288,12 @@ TEST(Run, WithoutWallFrictionTheClusterTurnsWithTheSwirl) {
     EXPECT_NEAR(rotation.mean, 1.0, 5.0 * rotation.error + 0.01);
 }
 
-// Thirty discs and three hundred of a tenth of their size stand still after one swirl: no length of
-// run that gets there may give that as a result.
-TEST(Run, ACollapseIsToldInAShortRunToo) {
+// 30 discs and 300 discs of a tenth of their size collapse after one period. Every run that reaches
+// the collapse must fail.
+TEST(Run, ACollapseIsReportedInAShortRunToo) {
     RunConfig config;
     config.discs = 330;
-    config.mixture = Mixture{300, 0.1, 0.1 * 0.1};  // time stands still from event 35,900 on
+    config.mixture = Mixture{300, 0.1, 0.1 * 0.1};  // collapses at event 35,900
     config.seed = 2;
     for (const std::int64_t events : {37'000, 45'000, 60'000, 500'000, 1'000'000}) {
         config.events = events;

@@ -1,4 +1,4 @@
-// A shell gives back every word of a command that is printed for it.
+// Words of printed commands are read back by a shell.
 #include "swirl/run/shell_word.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-/// What /bin/sh makes of `printf '[%s]' COMMAND`.
+/// The output of `printf '[%s]' COMMAND` in /bin/sh.
 std::string as_shell_reads(const std::string& command) {
     FILE* const shell = popen(("printf '[%s]' " + command).c_str(), "r");
     std::string text;
@@ -18,7 +18,7 @@ std::string as_shell_reads(const std::string& command) {
     return text;
 }
 
-TEST(ShellWord, AShellReadsItBack) {
+TEST(ShellWord, IsReadBackByAShell) {
     for (const std::string word : {"",
                                    "48",
                                    "plain/name-1_2.csv",
@@ -43,7 +43,7 @@ TEST(ShellWord, AShellReadsItBack) {
         EXPECT_EQ(as_shell_reads(shell_word(word)), '[' + word + ']');
 }
 
-TEST(ShellWord, WhatNeedsNoQuotesHasNone) {
+TEST(ShellWord, HasQuotesOnlyWhereNeeded) {
     EXPECT_EQ(shell_word("plain/name-1_2.csv"), "plain/name-1_2.csv");
     EXPECT_EQ(shell_word("20:0.6"), "20:0.6");
     EXPECT_EQ(shell_word("--out=a,b"), "--out=a,b");

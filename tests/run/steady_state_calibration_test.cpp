@@ -78,7 +78,7 @@ int found(const std::vector<Series>& all, const Planted& plant, double size) {
 
 // The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks that remember a
 // share of 0 to 0.95 of the block before.
-TEST(SlowSteadyStateCalibration, FalseAlarmsAreNotMoreThanIsSaid) {
+TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
     struct Bin {
         double minimum;
         int series = 0, alarms = 0;
@@ -110,7 +110,7 @@ TEST(SlowSteadyStateCalibration, FalseAlarmsAreNotMoreThanIsSaid) {
     }
 }
 
-TEST(SlowSteadyStateCalibration, RecordedRunsThatAreSteadyAreCalledSo) {
+TEST(SlowSteadyStateCalibration, SteadyRecordedRunsAreRecognised) {
     int alarms = 0, runs = 0;
     double largest = 0.0;
     for (const Setting& setting : {Setting{6, 0.1},
@@ -141,7 +141,7 @@ TEST(SlowSteadyStateCalibration, RecordedRunsThatAreSteadyAreCalledSo) {
     EXPECT_LT(alarms, 5);
 }
 
-TEST(SlowSteadyStateCalibration, WhatIsPlantedInRecordedRunsIsFound) {
+TEST(SlowSteadyStateCalibration, PlantedChangesInRecordedRunsAreFound) {
     std::vector<Series> all;
     for (const Setting& setting : {Setting{24, 1.0}, {40, 1.0}, {48, 1.0}, {24, 0.1}})
         for (Series& series : recorded(setting, 25)) all.push_back(std::move(series));

@@ -80,7 +80,7 @@ void expect_calibrated(const char* what, const std::vector<Estimate>& given, dou
     EXPECT_GT(found.scatter_to_error, 0.5) << what << ": the errors are far too large";
 }
 
-TEST_P(SlowCalibration, ARunsErrorIsThatOfItsMean) {
+TEST_P(SlowCalibration, TheErrorOfARunIsThatOfItsMean) {
     expect_calibrated("run", rotations(repetitions, 200, 1), truth().mean);
 }
 
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
 // Dense dishes have states that outlive such a run, which no run can know of by itself: with 52
 // discs its interval holds the truth far too seldom. Eight seeds, as every point of the paper's
 // figures has, know.
-TEST(SlowCalibrationOfADenseDish, EightSeedsKnowOfStatesThatOutliveARun) {
+TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
     const auto rotations = [](std::size_t count, std::int64_t periods, std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
         parallel_for(count, [&](std::size_t k) {

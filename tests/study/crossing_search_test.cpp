@@ -26,8 +26,8 @@ CrossingSettings short_search(double mu) {
     return settings;
 }
 
-/// Runs of a curve that is known: the mean over the discs is curve(N), the rate of the rigid body
-/// `lower` less, with normal errors of `error` for a hundred periods after the warm-up.
+/// Replaces runs by a known curve: the mean over the discs is curve(N), the rate of the rigid body is
+/// smaller by `lower`, with normal errors of `error` for a hundred periods after the warm-up.
 CrossingControl planted(const std::function<double(double)>& curve, double error,
                         double lower = 0.02) {
     CrossingControl control;
@@ -53,7 +53,7 @@ CrossingControl planted(const std::function<double(double)>& curve, double error
 }
 
 double bent(double n) { return -0.007 * (n - 47.5) + 0.0004 * (n - 47.5) * (n - 47.5); }
-/// The zero between 47 and 48 of the same.
+/// The zero of bent() between 47 and 48.
 const double zero_of_bent = 47.0 + bent(47.0) / (bent(47.0) - bent(48.0));
 
 TEST(CrossingSearch, FindsTheSameForEveryRangeThatContainsTheCrossing) {
@@ -75,7 +75,7 @@ TEST(CrossingSearch, FindsTheSameForEveryRangeThatContainsTheCrossing) {
                 EXPECT_EQ(other.crossings[r].upper, first.crossings[r].upper);
             }
         }
-        // A range that ends at a number whose sign is undetermined at first has other replicates.
+        // A range that ends at a number with an undetermined sign has other replicates.
         settings.from = 5;
         settings.to = 48;
         const Crossing edge = search_crossing(settings, planted(bent, 0.002)).crossing();
@@ -85,12 +85,12 @@ TEST(CrossingSearch, FindsTheSameForEveryRangeThatContainsTheCrossing) {
     }
 }
 
-// 400 searches of a bent curve: the standard deviation of a share of 0.95 is 0.011. The interval
-// may be wider than it says, where an undetermined point takes part.
-TEST(CrossingSearch, ItsIntervalsHoldTheZeroOfAKnownCurve) {
+// 400 searches of a bent curve: the standard deviation of a fraction of 0.95 is 0.011. The interval
+// is conservative if an undetermined point takes part.
+TEST(CrossingSearch, IntervalsContainTheZeroOfAKnownCurve) {
     constexpr int searches = 400;
     for (const double tolerance : {1.0, 0.1}) {
-        int held = 0;
+        int contained = 0;
         double off = 0.0, error = 0.0;
         for (std::uint64_t seed = 1; seed <= searches; ++seed) {
             CrossingSettings settings;
@@ -100,19 +100,18 @@ TEST(CrossingSearch, ItsIntervalsHoldTheZeroOfAKnownCurve) {
             settings.tolerance = tolerance;
             const Crossing c = search_crossing(settings, planted(bent, 0.004)).crossing();
             ASSERT_EQ(c.verdict, Crossing::Verdict::crosses);
-            held += c.lower <= zero_of_bent && zero_of_bent <= c.upper;
+            contained += c.lower <= zero_of_bent && zero_of_bent <= c.upper;
             off += std::pow(c.discs - zero_of_bent, 2);
             error += c.error * c.error;
         }
-        EXPECT_GE(held, 0.91 * searches) << tolerance;
-        EXPECT_LE(held, 0.995 * searches) << tolerance;
+        EXPECT_GE(contained, 0.91 * searches) << tolerance;
+        EXPECT_LE(contained, 0.995 * searches) << tolerance;
         const double ratio = std::sqrt(off / error);
         EXPECT_GT(ratio, 0.7) << tolerance;
         EXPECT_LT(ratio, 1.1) << tolerance;
     }
 }
 
-// --tolerance 0.1 had stopped at 0.13 without a word of why.
 TEST(CrossingSearch, ContinuesUntilTheToleranceIsReached) {
     CrossingSettings settings;
     for (const double tolerance : {0.3, 0.1, 0.03}) {
@@ -124,7 +123,7 @@ TEST(CrossingSearch, ContinuesUntilTheToleranceIsReached) {
     }
 }
 
-TEST(CrossingSearch, SaysWhyItStoppedBeforeTheTolerance) {
+TEST(CrossingSearch, ReportsWhyItStoppedBeforeTheTolerance) {
     CrossingSettings settings;
     settings.tolerance = 0.001;
     settings.rounds = 4;
@@ -132,13 +131,13 @@ TEST(CrossingSearch, SaysWhyItStoppedBeforeTheTolerance) {
     EXPECT_FALSE(search.within_tolerance);
     EXPECT_GT(search.crossing().error, 0.001);
     EXPECT_THAT(crossing_report(settings, search),
-                HasSubstr("stopped before --tolerance 0.001 was reached: 4 times it made runs "
-                          "twice as long"));
-    // 3 runs at first, and 3 more in each of four rounds.
+                HasSubstr("stopped before --tolerance 0.001 was reached, after 4 rounds of "
+                          "runs twice as long"));
+    // 3 runs in the coarse scan, and 3 more in each of four rounds.
     EXPECT_EQ(*std::max_element(search.runs_made.begin(), search.runs_made.end()), 15);
 }
 
-TEST(CrossingSearch, EachRateHasACrossingOfItsOwnAndOneOfThemDecides) {
+TEST(CrossingSearch, EachRateHasACrossingAndOneControlsTheSearch) {
     CrossingSettings settings;
     const auto straight = [](double n) { return -0.01 * (n - 38.3); };
     const CrossingSearch by_time = search_crossing(settings, planted(straight, 0.001));
@@ -155,8 +154,8 @@ TEST(CrossingSearch, EachRateHasACrossingOfItsOwnAndOneOfThemDecides) {
     EXPECT_THROW(rate_named("rigid"), UsageError);
 }
 
-// A number of discs at which no run can be made, in the bracket: an estimate would be a guess.
-TEST(CrossingSearch, ReportsABracketWhereNoRunCanBeMade) {
+// If all runs at a number in the bracket fail, there is no estimate.
+TEST(CrossingSearch, ReportsABracketWhereAllRunsFail) {
     CrossingSettings settings;
     CrossingControl control = planted([](double n) { return -0.01 * (n - 38.3); }, 0.001);
     control.make_run = [make = control.make_run](const RunConfig& c, const RunControl& inner) {
@@ -172,8 +171,8 @@ TEST(CrossingSearch, ReportsABracketWhereNoRunCanBeMade) {
     EXPECT_THAT(crossing_json(settings, search, ""), HasSubstr("\"N_c\": null"));
 }
 
-// A run and a table of the same curve say the same: all changes, and what is undetermined.
-TEST(CrossingSearch, ListsAllChangesAndWhatIsUndetermined) {
+// A search and a table of the same curve report the same changes and undetermined numbers.
+TEST(CrossingSearch, ListsAllSignChangesAndUndeterminedNumbers) {
     const auto wave = [](double n) {
         return n < 22.4 ? 0.02 : n < 25.4 ? -0.02 : n < 32.4 ? 0.02 : n == 40.0 ? 0.00001 : -0.02;
     };
@@ -191,7 +190,7 @@ TEST(CrossingSearch, ListsAllChangesAndWhatIsUndetermined) {
     EXPECT_THAT(report, HasSubstr("The sign is undetermined at N = 40: a later change"));
 }
 
-TEST(CrossingSearch, FindsWhereTheCounterrotationBegins) {
+TEST(CrossingSearch, FindsTheOnsetOfCounterrotation) {
     const CrossingSearch search = search_crossing(short_search(1.0));
     ASSERT_EQ(search.crossing().verdict, Crossing::Verdict::crosses);
     // Long runs give 37 to 38; these are short.
@@ -209,11 +208,11 @@ TEST(CrossingSearch, DoesNotDependOnTheNumberOfCores) {
     EXPECT_EQ(a.events, b.events);
 }
 
-TEST(CrossingSearch, WithoutWallFrictionThereIsNoneAndItSaysWhy) {
+TEST(CrossingSearch, ReportsEvidenceIfThereIsNoCrossing) {
     CrossingSettings settings = short_search(1.0);
     settings.config.mu_wall = 0.0;
     settings.from = 8;
-    settings.to = 20;  // a thin dish: short runs are enough to be certain
+    settings.to = 20;  // dilute: short runs suffice
     const CrossingSearch search = search_crossing(settings);
     EXPECT_EQ(search.crossing().verdict, Crossing::Verdict::always_rotates);
     const std::string report = crossing_report(settings, search);
@@ -221,7 +220,7 @@ TEST(CrossingSearch, WithoutWallFrictionThereIsNoneAndItSaysWhy) {
     EXPECT_THAT(report, HasSubstr("between N = 8 and 20 the lowest is"));
 }
 
-TEST(CrossingSearch, ItsJsonCallsTheNumberOfDiscsNc) {
+TEST(CrossingSearch, JsonKeysOfTheNumberOfDiscsAreNc) {
     CrossingSearch found;
     found.crossings[default_rate].discs = 36.5;
     found.crossings[default_rate].error = 0.25;
@@ -231,8 +230,8 @@ TEST(CrossingSearch, ItsJsonCallsTheNumberOfDiscsNc) {
     EXPECT_THAT(json, HasSubstr("\"command\": \"swirl crossing\""));
 }
 
-// A run of 20,000 events is over after six swirls at N = 48.
-TEST(CrossingSearch, EveryRunCoversTheSwirlsThatAreAskedFor) {
+// At N = 48, 20,000 events cover only six periods.
+TEST(CrossingSearch, EveryRunCoversTheRequestedPeriods) {
     CrossingSettings settings = short_search(1.0);
     settings.from = 46;
     settings.rounds = 0;
@@ -243,9 +242,8 @@ TEST(CrossingSearch, EveryRunCoversTheSwirlsThatAreAskedFor) {
     for (const std::int64_t runs : search.runs_made) EXPECT_EQ(runs, 2);
 }
 
-// The sign is certain nowhere in the window of a crossing that later runs move: numbers of discs
-// that had not been looked at were asked for, and the search died of it.
-TEST(CrossingSearchSlow, ACrossingThatMovesIsFollowed) {
+// Later runs may move a crossing to numbers without runs, which must not end the search.
+TEST(CrossingSearchSlow, AMovingCrossingIsFollowed) {
     CrossingSettings settings = short_search(1.0);
     settings.config.amplitude = 3.0;
     settings.config.events = 20'000;
@@ -259,8 +257,8 @@ TEST(CrossingSearchSlow, ACrossingThatMovesIsFollowed) {
     }
 }
 
-// One seed of the dense dish that collapses by friction had ended the search, and all was lost.
-TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
+// A run that collapses by friction must not end the search.
+TEST(CrossingSearch, FailedRunsAreExcludedCountedAndReported) {
     CrossingSettings settings = short_search(1.0);
     settings.from = 51;
     settings.to = 56;
@@ -279,7 +277,7 @@ TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
         EXPECT_GT(f.failed, 0);
         EXPECT_LE(f.failed, f.runs);
     }
-    // What is left out is just what fails by itself.
+    // The excluded runs are those that fail on their own.
     for (const FailedRuns& f : search.failures) {
         std::int64_t failed = 0;
         for (std::int64_t k = 0; k < f.runs; ++k) {
@@ -296,13 +294,13 @@ TEST(CrossingSearch, RunsThatFailAreLeftOutCountedAndTold) {
         EXPECT_EQ(failed, f.failed) << f.discs;
     }
     const std::string report = crossing_report(settings, search);
-    EXPECT_THAT(report, HasSubstr("left out: "));
+    EXPECT_THAT(report, HasSubstr("excluded: "));
     EXPECT_THAT(report, HasSubstr(fmt::format("at N = {}", search.failures.front().discs)));
     EXPECT_THAT(report, HasSubstr("a collapse"));
     EXPECT_THAT(crossing_json(settings, search, ""), HasSubstr("\"first_failure\": \"The last "));
 }
 
-TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
+TEST(CrossingSearch, RejectsInvalidSettings) {
     CrossingSettings backwards = short_search(1.0);
     backwards.from = 48;
     EXPECT_THROW(search_crossing(backwards), UsageError);
@@ -311,7 +309,7 @@ TEST(CrossingSearch, RefusesWhatCannotBeSearched) {
     EXPECT_THROW(search_crossing(certain), UsageError);
 }
 
-TEST(CrossingSearch, StopsWhenAsked) {
+TEST(CrossingSearch, StopsOnRequest) {
     const std::atomic<bool> stop = true;
     CrossingControl control;
     control.stop = &stop;

@@ -20,7 +20,7 @@ TEST(SlurmScript, QuotesTheFolderAndDoublesItsPercentSigns) {
     EXPECT_THAT(text, HasSubstr("#SBATCH --time=2:00:00\n#SBATCH --partition=day\n"));
 }
 
-TEST(SlurmScript, ALineEndIsRefusedAndBecomesNoCommand) {
+TEST(SlurmScript, LineBreaksInOptionsAreRejected) {
     EXPECT_THROW(slurm_script(job("1:00\ntouch x"), "/a"), UsageError);
     EXPECT_THROW(slurm_script(job("", "day\ntouch x"), "/a"), UsageError);
     EXPECT_THROW(slurm_script(job("1:00 # "), "/a"), UsageError);

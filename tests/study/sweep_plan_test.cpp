@@ -1,4 +1,4 @@
-// What a sweep is before it is run: its axes, its points and their seeds.
+// The plan of a sweep: axes, points and their seeds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,17 +10,17 @@
 namespace swirl {
 namespace {
 
-std::string refusal(const ParameterTexts& texts) {
+std::string error_of(const ParameterTexts& texts) {
     try {
         make_plan(texts, 1);
-    } catch (const UsageError& wrong) {
-        return wrong.what();
+    } catch (const UsageError& error) {
+        return error.what();
     }
     return "";
 }
 
-// Results of earlier versions stay comparable only as long as seeds stay what they are.
-TEST(SweepPlan, TheSeedsOfPointsAreWhatTheyAlwaysWere) {
+// Results of different versions are comparable only if the seeds are unchanged.
+TEST(SweepPlan, SeedsOfPointsAreUnchanged) {
     const SweepPlan plan = make_plan({{"discs", "5,6"},
                                       {"mu-disc", "0.5"},
                                       {"mixture", "2:1.2"},
@@ -51,43 +51,43 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
     }
 }
 
-TEST(SweepPlan, AnAxisWithoutEffectIsRefused) {
-    EXPECT_THAT(refusal({{"mu", "0.1,0.5"}, {"mu_disc", "1"}, {"mu_wall", "1"}}),
+TEST(SweepPlan, AnAxisWithoutEffectIsRejected) {
+    EXPECT_THAT(error_of({{"mu", "0.1,0.5"}, {"mu_disc", "1"}, {"mu_wall", "1"}}),
                 testing::HasSubstr("--mu 0.1 and --mu 0.5 are the same run"));
-    EXPECT_THAT(refusal({{"discs", "5,6,5"}}), testing::HasSubstr("--seeds"));
-    EXPECT_EQ(refusal({{"mu", "0.1,0.5"}, {"mu_disc", "1"}}), "");
-    // Without restitution and floor nobody asks for the contact duration.
-    EXPECT_THAT(refusal({{"contact_duration", "0.001,0.01"}}), testing::HasSubstr("the same run"));
-    EXPECT_EQ(refusal({{"contact_duration", "0.001,0.01"}, {"restitution", "1,0.9"}}), "");
-    EXPECT_EQ(refusal({{"contact_duration", "0.001,0.01"}, {"floor", "sliding"}}), "");
+    EXPECT_THAT(error_of({{"discs", "5,6,5"}}), testing::HasSubstr("--seeds"));
+    EXPECT_EQ(error_of({{"mu", "0.1,0.5"}, {"mu_disc", "1"}}), "");
+    // A contact duration has no effect without dissipation and floor.
+    EXPECT_THAT(error_of({{"contact_duration", "0.001,0.01"}}), testing::HasSubstr("the same run"));
+    EXPECT_EQ(error_of({{"contact_duration", "0.001,0.01"}, {"restitution", "1,0.9"}}), "");
+    EXPECT_EQ(error_of({{"contact_duration", "0.001,0.01"}, {"floor", "sliding"}}), "");
 }
 
 class PlanFile : public testing::Test {
   protected:
-    std::string refusal_of(const std::string& text) {
+    std::string error_of(const std::string& text) {
         write_quickly(scratch_ / "plan.json", text);
         try {
             read_plan(scratch_.folder());
-        } catch (const FileError& wrong) {
-            return wrong.what();
+        } catch (const FileError& error) {
+            return error.what();
         }
         return "";
     }
     Scratch scratch_;
 };
 
-TEST_F(PlanFile, ThatNobodyCanDoIsRefusedInASentence) {
-    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":[]},"replicas":1})"),
+TEST_F(PlanFile, InvalidPlansAreRejected) {
+    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":[]},"replicas":1})"),
                 testing::HasSubstr("discs has no values"));
-    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":1152921504606846976})"),
+    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":1152921504606846976})"),
                 testing::HasSubstr("1.15e+18 runs"));
-    EXPECT_THAT(refusal_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":0})"),
+    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":0})"),
                 testing::HasSubstr("from 1 to"));
-    EXPECT_THAT(refusal_of(R"({"format":1)"), testing::HasSubstr("is no plan of a sweep"));
+    EXPECT_THAT(error_of(R"({"format":1)"), testing::HasSubstr("is not the plan of a sweep"));
 }
 
-TEST_F(PlanFile, OfBeforeTheNamesHadUnderscoresIsRead) {
-    EXPECT_EQ(refusal_of(R"({"format":1,"axes":{"mu-disc":["0.5","1"]},"replicas":1})"), "");
+TEST_F(PlanFile, HyphensInNamesAreAccepted) {
+    EXPECT_EQ(error_of(R"({"format":1,"axes":{"mu-disc":["0.5","1"]},"replicas":1})"), "");
     EXPECT_EQ(read_plan(scratch_.folder()).axes.at(0).name, "mu_disc");
 }
 

@@ -1,4 +1,4 @@
-// swirl crossing: at how many discs rotation turns into counterrotation.
+// swirl crossing: the number of discs at which rotation changes into counterrotation.
 #include <fmt/format.h>
 
 #include "swirl/cli/command_line.hpp"
@@ -16,7 +16,8 @@
 namespace swirl {
 namespace {
 
-const ParameterTexts defaults{{"events", events_of_a_search}};
+const ParameterTexts defaults{{"events", default_search_events}};
+constexpr std::int64_t max_threads = 4096;
 
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
@@ -24,9 +25,83 @@ struct CrossingCall {
     std::string config_file, json, table, rate;
     std::int64_t threads = 0;
     bool quiet = false;
+
+    bool uses_stdout() const { return json == "-" || table == "-"; }
 };
 
-std::string table_text(const CrossingSearch& search) {
+/// One of the searches of a call: one for each combination of the lists.
+struct SearchTask {
+    CrossingSettings settings;
+    ParameterTexts parameters;
+    std::string name;  // "mu_disc 0.5, mu_wall 1"; empty for a single search
+};
+
+/// What a call has found so far.
+struct CrossingResults {
+    std::vector<std::string> parameters;  // columns
+    Table table;
+    std::vector<std::string> objects;  // JSON of each search
+    std::size_t empty = 0;             // searches without a successful run
+};
+
+/// The parameters with several values: "mu_disc 0.5, mu_wall 1".
+std::string name_of(const SweepPlan& plan, const ParameterTexts& texts) {
+    std::string name;
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.values.size() > 1)
+            name +=
+                fmt::format("{}{} {}", name.empty() ? "" : ", ", axis.name, texts.at(axis.name));
+    return name;
+}
+
+SweepPlan plan_of(const CrossingCall& call) {
+    ParameterTexts given = overridden(defaults, *call.parameters);
+    given["discs"] = std::to_string(call.settings.to);  // the largest number that must fit
+    return make_plan(given, 1);
+}
+
+std::vector<SearchTask> tasks_of(const CrossingCall& call, const SweepPlan& plan) {
+    std::vector<SearchTask> tasks;
+    for (std::size_t point = 0; point < plan.points(); ++point) {
+        const ParameterTexts texts = plan.parameters(point);
+        tasks.push_back({call.settings, texts, name_of(plan, texts)});
+        tasks.back().settings.config = resolve(texts);
+        validate(tasks.back().settings);
+    }
+    return tasks;
+}
+
+void validate_call(const CrossingCall& call) {
+    validate_range(call.settings);
+    if (call.threads < 0 || call.threads > max_threads)
+        throw UsageError(fmt::format(
+            "--threads is {}, but it must be a whole number from 1 to {}, or 0 for all cores.",
+            call.threads, max_threads));
+}
+
+void validate_outputs(const CrossingCall& call) {
+    for (const std::string* file : {&call.json, &call.table})
+        if (!file->empty() && *file != "-") reject_unwritable(*file);
+    reject_same_files({call.config_file, call.json, call.table});
+}
+
+CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& task) {
+    ProgressLine line(task.name.empty() ? "crossing" : task.name, call.quiet);
+    CrossingControl control;
+    control.stop = &stop_signal();
+    control.threads = static_cast<unsigned>(call.threads);
+    double done = 0.0;
+    control.progress = [&](const std::string& stage, double rate) {
+        // The number of runs is not known in advance, so the fraction approaches 1 without reaching
+        // it; it is one half after this many runs.
+        constexpr double half = 20.0;
+        done += 1.0;
+        line.show(done / (half + done), fmt::format("{}, {} events/s", stage, short_number(rate)));
+    };
+    return search_crossing(task.settings, control);
+}
+
+std::string points_text(const CrossingSearch& search) {
     std::string text;
     for (std::size_t k = 0; k < search.points().size(); ++k) {
         const RotationPoint& p = search.points()[k];
@@ -37,167 +112,125 @@ std::string table_text(const CrossingSearch& search) {
     return text;
 }
 
-/// One search, with a line of progress of its own.
-CrossingSearch search_one(const CrossingCall& call, const CrossingSettings& settings,
-                          const std::string& which) {
-    ProgressLine line(which, call.quiet);
-    CrossingControl control;
-    control.stop = &stop_signal();
-    control.threads = static_cast<unsigned>(call.threads);
-    int done = 0;
-    control.progress = [&](const std::string& stage, double rate) {
-        // How many runs it takes is not known beforehand: half of what is left, ever again.
-        const double fraction = 1.0 - 20.0 / (20.0 + ++done);
-        line.show(fraction, fmt::format("{}, {} events/s", stage, short_number(rate)));
-    };
-    return search_crossing(settings, control);
+std::string report_text(const CrossingCall& call, const SearchTask& task,
+                        const CrossingSearch& search) {
+    const std::string prefix = task.name.empty() ? "" : task.name + ": ";
+    const std::string text =
+        prefix + crossing_report(task.settings, search) + "\n" + other_crossings_report(search);
+    if (call.quiet) return text;
+    return text + points_text(search) +
+           fmt::format("  {} runs, {} events, {}\n", search.runs, with_commas(search.events),
+                       short_duration(search.seconds));
 }
 
-std::string text_of(const CrossingCall& call, const CrossingSettings& settings,
-                    const CrossingSearch& search) {
-    std::string text = crossing_report(settings, search) + "\n" + other_crossings_report(search);
-    if (!call.quiet)
-        text += table_text(search) + fmt::format("  {} runs, {} events, {}\n", search.runs,
-                                                 with_commas(search.events),
-                                                 short_duration(search.seconds));
-    if (search.not_steady > 0)
-        text += fmt::format(
-            "{} of the runs that this rests on had not reached a steady state after the warm-up; a "
-            "longer --warmup, or --warmup auto, would be right.\n",
-            search.not_steady);
-    if (search.too_short > 0)
-        text += fmt::format(
-            "{} of the runs that this rests on were too short to tell whether they are steady.\n",
-            search.too_short);
-    if (search.disagreeing > 0)
-        text += fmt::format(
-            "At {} of the numbers of discs that this rests on the seeds scatter more than the "
-            "errors "
-            "within their runs can explain; the errors are those between them.\n",
-            search.disagreeing);
-    return text;
+void print_report(const CrossingCall& call, const SearchTask& task, const CrossingSearch& search) {
+    const std::string text = report_text(call, task, search);
+    if (!call.uses_stdout())
+        print_all(text);
+    else if (!call.quiet)
+        fmt::print(stderr, "{}", text);
+    for (const std::string& warning : warnings(search)) print_warning(warning);
 }
 
-/// "mu_disc 0.5, mu_wall 1": what a list makes different.
-std::string name_of(const SweepPlan& plan, std::size_t point) {
-    std::string name;
-    const ParameterTexts texts = plan.parameters(point);
+CrossingResults empty_results(const SweepPlan& plan) {
+    CrossingResults results{{}, Table({}), {}, 0};
     for (const SweepAxis& axis : plan.axes)
-        if (axis.values.size() > 1)
-            name +=
-                fmt::format("{}{} {}", name.empty() ? "" : ", ", axis.name, texts.at(axis.name));
-    return name;
-}
-
-/// One search is an object, those of a list are an array of them.
-std::string json_of(const std::vector<std::string>& found, bool single) {
-    return single ? found.front() : fmt::format("[\n{}]\n", fmt::join(found, ","));
-}
-
-/// A search for every combination of the lists that were given. After each of them the files hold
-/// all that is known, so nothing is lost when the next one takes too long.
-void find(CrossingCall& call) {
-    check_range(call.settings);
-    if (call.threads < 0 || call.threads > 4096)
-        throw UsageError(fmt::format(
-            "--threads is {}, but it must be a whole number from 1 to 4096, or 0 for all cores.",
-            call.threads));
-    // Only what is searched has to fit.
-    ParameterTexts given = overridden(defaults, *call.parameters);
-    given["discs"] = std::to_string(call.settings.to);
-    const SweepPlan plan = make_plan(given, 1);
-    const bool single = plan.points() == 1;
-    std::vector<CrossingSettings> searches;
-    for (std::size_t point = 0; point < plan.points(); ++point) {
-        searches.push_back(call.settings);
-        searches.back().config = resolve(plan.parameters(point));
-        check(searches.back());
-    }
-    for (const std::string* file : {&call.json, &call.table})
-        if (!file->empty() && *file != "-") reject_unwritable(*file);
-    reject_same_files({call.config_file, call.json, call.table});
-
-    std::vector<std::string> columns;
-    for (const SweepAxis& axis : plan.axes)
-        if (axis.name != "discs") columns.push_back(axis.name);
+        if (axis.name != "discs") results.parameters.push_back(axis.name);
+    std::vector<std::string> columns = results.parameters;
     for (const std::string& name : crossing_columns()) columns.push_back(name);
     columns.insert(columns.end(), {"within_tolerance", "runs", "runs_failed", "events_in_all"});
-    Table table(columns);
-    const bool to_stdout = call.json == "-" || call.table == "-";
-    std::vector<std::string> found;
-    std::size_t empty = 0;
-    for (std::size_t point = 0; point < plan.points(); ++point) {
-        const CrossingSettings& settings = searches[point];
-        const std::string name = name_of(plan, point);
-        const CrossingSearch search = search_one(call, settings, single ? "crossing" : name);
-        if (search.points().empty()) ++empty;
-        std::vector<Table::Cell> row;
-        const ParameterTexts texts = plan.parameters(point);
-        for (const SweepAxis& axis : plan.axes)
-            if (axis.name != "discs") row.emplace_back(texts.at(axis.name));
-        add_crossings(row, search.crossings, search.rate);
-        row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
-        row.emplace_back(std::int64_t(search.runs));
-        row.emplace_back(search.failed());
-        row.emplace_back(std::int64_t(search.events));
-        table.add(std::move(row));
-        found.push_back(crossing_json(settings, search, command_line()));
-        if (!call.json.empty() && call.json != "-") write_output(call.json, json_of(found, single));
-        if (!call.table.empty() && call.table != "-") write_output(call.table, table.csv());
-        const std::string text = (single ? "" : name + ": ") + text_of(call, settings, search);
-        if (!to_stdout)
-            print_all(text);
-        else if (!call.quiet)
-            fmt::print(stderr, "{}", text);
+    results.table = Table(columns);
+    return results;
+}
+
+void add_result(CrossingResults& results, const SearchTask& task, const CrossingSearch& search) {
+    std::vector<Table::Cell> row;
+    for (const std::string& name : results.parameters) row.emplace_back(task.parameters.at(name));
+    add_crossings(row, search.crossings, search.rate);
+    row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
+    row.emplace_back(std::int64_t(search.runs));
+    row.emplace_back(search.failed());
+    row.emplace_back(std::int64_t(search.events));
+    results.table.add(std::move(row));
+    results.objects.push_back(crossing_json(task.settings, search, command_line()));
+    if (search.points().empty()) ++results.empty;
+}
+
+/// An object for a single search, an array for those of a list.
+std::string json_of(const CrossingResults& results, bool is_single) {
+    return is_single ? results.objects.front()
+                     : fmt::format("[\n{}]\n", fmt::join(results.objects, ","));
+}
+
+/// Runs a search for every combination of the lists. The files are written after each search, so an
+/// interrupted call keeps the finished ones.
+void run_searches(const CrossingCall& call) {
+    validate_call(call);
+    const SweepPlan plan = plan_of(call);
+    const std::vector<SearchTask> tasks = tasks_of(call, plan);
+    validate_outputs(call);
+    const bool is_single = tasks.size() == 1;
+    CrossingResults results = empty_results(plan);
+    for (const SearchTask& task : tasks) {
+        const CrossingSearch search = search_with_progress(call, task);
+        add_result(results, task, search);
+        if (!call.json.empty() && call.json != "-")
+            write_output(call.json, json_of(results, is_single));
+        if (!call.table.empty() && call.table != "-") write_output(call.table, results.table.csv());
+        print_report(call, task, search);
     }
-    if (call.table == "-") print_all(table.csv());
-    if (call.json == "-") print_all(json_of(found, single));
-    if (empty > 0)
-        throw Failure(single ? "No run of the search could be made; see above for why."
-                             : fmt::format("Of {} of {} searches no run could be made; see above "
-                                           "for why.",
-                                           empty, plan.points()));
+    if (call.table == "-") print_all(results.table.csv());
+    if (call.json == "-") print_all(json_of(results, is_single));
+    if (results.empty == 0) return;
+    throw Failure(is_single ? "every run of the search failed; see the report."
+                            : fmt::format("every run failed in {} of {} searches; see the report.",
+                                          results.empty, tasks.size()));
 }
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
+    const char* const search_group = "Search";
     subcommand
-        .add_option("config", call->config_file,
-                    "a TOML file with the names of the options; options given here override it")
+        .add_option("config", call->config_file, "TOML file with options; options override it")
         ->type_name("FILE.toml");
     call->parameters = add_run_options(subcommand, {"discs", "periods"}, defaults);
     subcommand
-        .add_option("--tolerance", call->settings.tolerance, "wanted standard error of N_c [0.3]")
-        ->type_name("NUMBER");
-    subcommand.add_option("--from", call->settings.from, "fewest discs [5]")->type_name("N");
-    subcommand.add_option("--to", call->settings.to, "most discs [48]")->type_name("N");
+        .add_option("--tolerance", call->settings.tolerance, "Target standard error of N_c [0.3]")
+        ->type_name("NUMBER")
+        ->group(search_group);
+    subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]")
+        ->type_name("N")
+        ->group(search_group);
+    subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]")
+        ->type_name("N")
+        ->group(search_group);
     subcommand
         .add_option("--step", call->settings.step,
-                    "between the numbers of the first look; small, where the sense may change "
-                    "several times [about eight numbers]")
-        ->type_name("N");
-    subcommand
-        .add_option("--rate", call->rate,
-                    "rotation rate whose sign and tolerance decide: by_event, by_time, "
-                    "rigid_by_event or rigid_by_time [by_time]")
-        ->type_name("NAME");
-    subcommand.add_option("--threads", call->threads, "runs at the same time [one for each core]")
-        ->type_name("N");
-    subcommand.add_option("--json", call->json, "write everything found to FILE, or - for stdout")
+                    "Step of the coarse scan in discs [about eight numbers]")
+        ->type_name("N")
+        ->group(search_group);
+    subcommand.add_option("--rate", call->rate, "Rotation rate that controls the search [by_time]")
+        ->type_name("NAME")
+        ->group(search_group);
+    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]")
+        ->type_name("N")
+        ->group(search_group);
+    subcommand.add_option("--json", call->json, "File for all results, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
     subcommand
-        .add_option("--csv", call->table,
-                    "a table to FILE, or - for stdout: one line for each search")
+        .add_option("--csv", call->table, "File for a table of the searches, or - for stdout")
         ->type_name("FILE|-")
         ->group("Output");
-    subcommand.add_flag("--quiet", call->quiet, "no progress, one line")->group("Output");
+    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress")
+        ->group("Output");
     subcommand.explain(
-        "Every parameter may be a list, as for swirl sweep: then there is a search for each\n"
-        "combination. However few the --events, a run covers a hundred swirls after its warm-up.\n"
-        "Near the crossing there are more runs, each twice as long as the ones before, until\n"
-        "--tolerance is reached, or for the eighth time; then the report says so. N_c is given by\n"
-        "each of the four rotation rates; --rate says which of them decides.\n");
+        "Every parameter may be a list, as for swirl sweep: each combination is a search of its\n"
+        "own. A run has at least --events events and a hundred periods after the warm-up. Near\n"
+        "the crossing, further runs are made, each twice as long as the ones before, until\n"
+        "--tolerance is reached, at most eight times. Rotation rates (--rate): by_event, by_time,\n"
+        "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step\n"
+        "if the direction of rotation may change several times.\n");
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
@@ -206,12 +239,12 @@ void add_crossing_command(Subcommand& subcommand) {
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::taken,
                              "crossing");
         if (!call->rate.empty()) call->settings.rate = rate_named(call->rate);
-        find(*call);
+        run_searches(*call);
     });
 }
 
 const Command crossing_command(15, "crossing",
-                               "The number of discs at which the rotation changes sign.",
+                               "Find the number of discs at which the rotation changes sign",
                                add_crossing_command);
 
 }  // namespace

@@ -12,30 +12,34 @@
 namespace swirl {
 namespace {
 
-std::string& remembered() {
+std::string& stored_line() {
     static std::string line;
     return line;
 }
 
+/// The printable ASCII characters of the word, and \xNN for all other bytes.
+std::string escaped(std::string_view word) {
+    std::string text;
+    for (const char c : word)
+        text += c >= 0x20 && c < 0x7f ? std::string(1, c)
+                                      : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    return text;
+}
+
 }  // namespace
 
-void reject_what_is_no_text(int argc, char** argv) {
+void reject_invalid_utf8(int argc, char** argv) {
     for (int k = 1; k < argc; ++k) {
         const std::string_view word = argv[k];
         if (!first_byte_not_utf8(word)) continue;
-        std::string shown;
-        for (const char c : word)
-            shown += c >= 0x20 && c < 0x7f
-                         ? std::string(1, c)
-                         : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-        throw UsageError(fmt::format(
-            "'{}' is not UTF-8 text, and results and recordings, which tell the call, can hold "
-            "nothing else; use another name.",
-            shown));
+        throw UsageError(
+            fmt::format("'{}' is not UTF-8 text, but results and recordings can store "
+                        "only UTF-8.\nhint: use another name.",
+                        escaped(word)));
     }
 }
 
-const std::string& command_line() { return remembered(); }
+const std::string& command_line() { return stored_line(); }
 
 void remember_command_line(int argc, char** argv) {
     std::string line = "swirl";
@@ -43,7 +47,7 @@ void remember_command_line(int argc, char** argv) {
         line += ' ';
         line += shell_word(argv[k]);
     }
-    remembered() = line;
+    stored_line() = line;
 }
 
 }  // namespace swirl

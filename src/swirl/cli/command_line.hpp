@@ -1,15 +1,15 @@
-// The words with which this program was called, for the record.
+// The command line of this call, as stored in results and recordings.
 #pragma once
 
 #include <string>
 
 namespace swirl {
 
-/// Throws WrongCall if a word is not UTF-8: what it names would be computed, and then could not be
-/// written down.
-void reject_what_is_no_text(int argc, char** argv);
+/// Throws UsageError if an argument is not UTF-8: results and recordings store the command line and
+/// cannot hold anything else.
+void reject_invalid_utf8(int argc, char** argv);
 
-/// As one would type it again: words that need it are quoted.
+/// The command as one would type it, with shell quotes where needed.
 const std::string& command_line();
 void remember_command_line(int argc, char** argv);
 

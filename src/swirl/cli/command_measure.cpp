@@ -1,5 +1,5 @@
-// swirl measure: the measurements of a run, on frames that were recorded: by us, by a camera
-// (trackpy), by another program (LAMMPS).
+// swirl measure: the measurements of a run on recorded frames: of swirl, of a camera (trackpy), or of
+// another program (LAMMPS).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,8 +35,8 @@ OpenedSeries open_series(const MeasureCall& call) {
     std::error_code ignored;
     if (std::filesystem::is_directory(call.file, ignored))
         throw UsageError(fmt::format(
-            "'{}' is a folder, but FILE must be a recording: a trajectory or tracks of swirl, a "
-            "table of trackpy (CSV), or a LAMMPS text dump.",
+            "'{}' is a folder, but FILE must be a recording.\nhint: give a trajectory or tracks of "
+            "swirl, a table of trackpy (CSV), or a LAMMPS text dump.",
             call.file));
     try_reading(call.file);
     if (is_trajectory(call.file))
@@ -45,44 +45,51 @@ OpenedSeries open_series(const MeasureCall& call) {
                        number_option("misfit", call.misfit, default_misfit, 0.0));
 }
 
-/// Frames do not tell one collision from the next.
-void reject_what_needs_events(const std::vector<std::string>& names, const std::string& list) {
+/// Frames do not contain the collisions.
+void reject_measurements_of_events(const std::vector<std::string>& names, const std::string& list) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_events && list != "all")
             throw UsageError(fmt::format(
-                "--measure has '{}' in its list, which needs every collision, and frames do not "
-                "hold them; `swirl run --measure {}` can tell.",
-                name, name));
+                "--measure lists '{0}', which needs every collision, but frames do not contain "
+                "them.\nhint: use `swirl run --measure {0}`.",
+                name));
 }
 
-void reject_what_needs_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
+void reject_measurements_of_tracks(const std::vector<std::string>& names, const MeasureCall& call) {
     for (const std::string& name : names)
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
-                "The discs of '{}' are never the same for {} frames in a row, so '{}' cannot be "
-                "told of them; density, flow, profile, radial, temperature, order and packing can.",
-                call.file, PinnedLoose::width + 1, name));
+                "'{}' needs the same discs in {} consecutive frames, but '{}' never has "
+                "them.\nhint: "
+                "measure density, flow, profile, radial, temperature, order or packing.",
+                name, PinnedLoose::width + 1, call.file));
 }
 
-/// At a corner of the path the floor has just changed its velocity under everybody.
+/// At a vertex of the path the velocity of the floor has just changed, so all spheres slide.
 std::string remark_on_rolling(const Json& measured) {
     for (const MeasuredNumber& number : measured_numbers(measured))
         if (number.name == "rolling.rolling_share" && number.estimate.mean == 0.0)
-            return "No sphere rolls in any of the frames. At a corner of the path the floor has "
-                   "just changed its "
-                   "velocity, and all slide: a recording with 30 frames per swirl on 30 sides has "
-                   "no "
-                   "other frames. One with 511 frames per swirl would tell.\n";
+            return "no sphere rolls in any of the frames, because all spheres slide at a vertex of "
+                   "the path; a recording with 30 frames per period on 30 sides has no other "
+                   "frames.\nhint: record 511 frames per period.";
     return "";
 }
 
-void measure_file(const MeasureCall& call) {
-    if (call.list == "help") return print_all(measurement_help_text());
-    std::vector<std::string> names;
-    if (!call.list.empty()) names = read_measurement_list(call.list);
-    reject_what_needs_events(names, call.list);
+std::string remark_on_pinned(const std::vector<std::string>& names,
+                             const MeasuredSeries& measured) {
+    const bool needs_pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return find_measurement(name)->needs_pinned;
+    });
+    const double frames_per_period = measured.frames_per_swirl();
+    if (!needs_pinned || fits_criteria(frames_per_period)) return "";
+    return fmt::format(
+        "there are {:.0f} frames per period, but the criteria for pinned discs assume {}.",
+        frames_per_period, samples_per_period);
+}
+
+void validate_outputs(const MeasureCall& call, const std::vector<std::string>& names) {
     if (!call.tables.empty() && names.empty())
-        throw UsageError("--tables needs --measure LIST, which says what to write there.");
+        throw UsageError("--tables also needs --measure LIST.");
     if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
     std::vector<std::filesystem::path> all{call.file, camera_file(call.file), call.json,
                                            call.tables};
@@ -90,63 +97,74 @@ void measure_file(const MeasureCall& call) {
         for (auto& table : measured_table_files(names, call.tables))
             all.push_back(std::move(table));
     reject_same_files(all);
-    const double skip = number_option("skip", call.skip, 0.0, 0.0);
-    const OpenedSeries opened = open_series(call);
-    const SnapshotSeries& series = opened.series;
-    if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
-    const bool tracked = holds_tracks(series);
-    if (!tracked) reject_what_needs_tracks(names, call);
-    names = measurable(names, tracked);
-    if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
-        throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
+}
 
+MeasuredSeries measure_with_progress(const MeasureCall& call, const SnapshotSeries& series,
+                                     const std::vector<std::string>& names, double skip) {
     ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
     MeasuringControl control;
     control.stop = &stop_signal();
     control.progress = [&](std::uint64_t k, std::uint64_t of) {
         line.show(double(k) / double(of), fmt::format("frame {}", k));
     };
-    const MeasuredSeries measured_series = measure_series(series, names, skip, control);
-    line.clear();
-    const MeasurementReports& measured = measured_series.reports;
-    const RotationEstimates& found = measured_series.rotation;
-    const std::uint64_t used = measured_series.frames;
-    const std::size_t discs = measured_series.discs;
-    const Json measured_values = measured_json(measured);
-    const std::string remarks = opened.remarks + remark_on_rolling(measured_values);
-    Json json{{"file", call.file},
-              {"frames", used},
-              {"discs", discs},
-              {"same_discs", series.same_discs()},
-              {"rotation",
-               {{"by_time", estimate_json(found.by_time)},
-                {"rigid_by_time", estimate_json(found.rigid_by_time)}}},
-              {"measured", measured_values},
-              {"camera", opened.camera},
-              {"remark", remarks},
-              {"version", version()}};
-    std::string text = fmt::format(
-        "{} {} {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", discs,
-        series.frame(0).are_balls() ? "spheres" : "discs", sense_of_rotation(found.by_time),
-        with_error(found.by_time.mean, found.by_time.error),
-        with_error(found.rigid_by_time.mean, found.rigid_by_time.error), used);
-    text += measured_text(measured);
-    text += remarks;
-    const double per_swirl = measured_series.frames_per_period();
-    const bool pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
-        return find_measurement(name)->needs_pinned;
-    });
-    if (pinned && !fits_criteria(per_swirl))
-        text += fmt::format(
-            "There are {:.0f} frames per swirl; the criteria for pinned discs are made for {}.\n",
-            per_swirl, samples_per_period);
+    return measure_series(series, names, skip, control);
+}
+
+Json json_of(const MeasureCall& call, const OpenedSeries& opened, const MeasuredSeries& measured,
+             const Json& values, const std::string& remarks) {
+    return {{"file", call.file},
+            {"frames", measured.frames},
+            {"discs", measured.discs},
+            {"same_discs", opened.series.same_discs()},
+            {"rotation",
+             {{"by_time", estimate_json(measured.rotation.by_time)},
+              {"rigid_by_time", estimate_json(measured.rotation.rigid_by_time)}}},
+            {"measured", values},
+            {"camera", opened.camera},
+            {"remark", remarks},
+            {"version", version()}};
+}
+
+std::string report_text(const SnapshotSeries& series, const MeasuredSeries& measured) {
+    const Estimate &rotation = measured.rotation.by_time, &rigid = measured.rotation.rigid_by_time;
+    return fmt::format("{} {} {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", measured.discs,
+                       series.frame(0).are_balls() ? "spheres" : "discs", rotation_verb(rotation),
+                       with_error(rotation.mean, rotation.error),
+                       with_error(rigid.mean, rigid.error), measured.frames) +
+           measured_text(measured.reports);
+}
+
+void measure_file(const MeasureCall& call) {
+    if (call.list == "help") return print_all(measurement_help_text());
+    std::vector<std::string> names;
+    if (!call.list.empty()) names = read_measurement_list(call.list);
+    reject_measurements_of_events(names, call.list);
+    validate_outputs(call, names);
+    const double skip = number_option("skip", call.skip, 0.0, 0.0);
+    const OpenedSeries opened = open_series(call);
+    const SnapshotSeries& series = opened.series;
+    if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
+    const bool tracked = holds_tracks(series);
+    if (!tracked) reject_measurements_of_tracks(names, call);
+    names = measurable(names, tracked);
+    if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
+        throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
+
+    const MeasuredSeries measured = measure_with_progress(call, series, names, skip);
+    const Json values = measured_json(measured.reports);
+    const std::string rolling = remark_on_rolling(values);
+    const Json json = json_of(call, opened, measured, values, opened.remarks + (rolling.empty() ? "" : rolling + "\n"));
     if (!call.tables.empty()) {
         make_folder(call.tables);
-        write_measured_tables(measured, call.tables);
+        write_measured_tables(measured.reports, call.tables);
     }
-    if (call.json == "-") return print_all(json.dump(2) + "\n");
-    if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
-    if (!call.quiet) print_all(text);
+    if (call.json == "-")
+        print_all(json.dump(2) + "\n");
+    else if (!call.json.empty())
+        write_output(call.json, json.dump(2) + "\n");
+    if (call.json != "-" && !call.quiet) print_all(report_text(series, measured) + opened.remarks);
+    for (const std::string& warning : {rolling, remark_on_pinned(names, measured)})
+        if (!warning.empty()) print_warning(warning);
 }
 
 void add_measure_command(Subcommand& subcommand) {
@@ -155,26 +173,27 @@ void add_measure_command(Subcommand& subcommand) {
                           const char* description, const char* group) {
         return subcommand.add_option(name, into, description)->type_name(type)->group(group);
     };
-    subcommand
-        .add_option(
-            "file", call->file,
-            "a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text dump")
+    subcommand.add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump")
         ->type_name("FILE")
         ->required();
-    text("--measure", call->list, "LIST", "as for swirl run: density,flow,profile,… or all",
+    text("--measure", call->list, "LIST", "Measurements, separated by commas, or all (or help)",
          "Output");
-    text("--tables", call->tables, "DIR", "write what was measured as CSV files", "Output");
-    text("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout",
-         "Output");
-    text("--skip", call->skip, "PERIODS", "swirls at the start that do not count [0]", "Output");
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group("Output");
-    const char* const camera = "Of tracks that are not ours";
+    text("--tables", call->tables, "DIR", "Folder for the measurements as CSV tables", "Output");
+    text("--json", call->json, "FILE|-", "File for all results, or - for stdout", "Output");
+    text("--skip", call->skip, "PERIODS", "Periods at the start to exclude [0]", "Output");
+    subcommand.add_flag("--quiet", call->quiet, "No progress and no report")->group("Output");
+    const char* const camera = "Tracks of other programs";
     add_track_options(subcommand, call->camera, camera);
-    text("--amplitude", call->camera.amplitude, "NUMBER", "of the swirl, in disc radii [0]",
-         camera);
-    text("--container-radius", call->camera.container_radius, "NUMBER", "in disc radii", camera);
+    text("--amplitude", call->camera.amplitude, "NUMBER",
+         "Amplitude of the swirling motion, in disc radii [0]", camera);
+    text("--container-radius", call->camera.container_radius, "NUMBER",
+         "Radius of the container, in disc radii", camera);
     text("--misfit", call->misfit, "SHARE",
-         "of the frames may show discs outside the dish or in each other [0.05]", camera);
+         "Allowed fraction of frames with overlapping discs [0.05]", camera);
+    subcommand.explain(
+        "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
+        "dump.\n"
+        "--misfit also counts frames with discs outside the container.\n");
     subcommand.set_examples(
         {"swirl measure frames.h5 --measure density,flow --tables maps",
          "swirl measure tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre 512,384 "
@@ -182,8 +201,7 @@ void add_measure_command(Subcommand& subcommand) {
     subcommand.callback([call] { measure_file(*call); });
 }
 
-const Command measure_command(41, "measure",
-                              "The measurements, on recorded frames or a camera's tracks.",
+const Command measure_command(41, "measure", "Apply the measurements to recorded frames or tracks",
                               add_measure_command);
 
 }  // namespace

@@ -298,7 +298,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     const RunConfig config = config_in(file, log.provenance("parameters"));
     Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
     const InitialState scene = make_initial_state(config, &stop_signal());
-    Simulation simulation(scene, {}, asked_tuning(&stop_signal()));
+    Simulation simulation(scene, {}, selected_tuning(&stop_signal()));
     if (stop_signal().load()) throw Interrupted("Stopped before the first event.");
     verify_beginning(log, scene, simulation, comparison);
     Replay replay(log.initial(), log.swirl_end(), log.floor());

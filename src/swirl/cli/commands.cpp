@@ -12,15 +12,15 @@ std::vector<const Command*>& registered() {
 
 }  // namespace
 
-Command::Command(int place, const char* name, const char* description, Add add)
-    : place_(place), name_(name), description_(description), add_(add) {
+Command::Command(int order, const char* name, const char* description, Add add)
+    : order_(order), name_(name), description_(description), add_(add) {
     registered().push_back(this);
 }
 
 std::vector<const Command*> Command::all() {
     std::vector<const Command*> commands = registered();
     std::sort(commands.begin(), commands.end(),
-              [](const Command* a, const Command* b) { return a->place() < b->place(); });
+              [](const Command* a, const Command* b) { return a->order() < b->order(); });
     return commands;
 }
 

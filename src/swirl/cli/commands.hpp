@@ -1,8 +1,8 @@
-// The subcommands. Each lives in its own file command_<name>.cpp and adds itself to the program by
+// The subcommands. Each has its own file command_<name>.cpp and registers itself by
 //
-//     namespace { const swirl::Command run_command(10, "run", "One run.", add_run_command); }
+//     namespace { const swirl::Command run_command(10, "run", "One run", add_run_command); }
 //
-// so that a new one is a new file and nothing else.
+// A new subcommand needs no other change.
 #pragma once
 
 #include <memory>
@@ -16,20 +16,20 @@ class Command {
   public:
     using Add = void (*)(Subcommand& subcommand);
 
-    /// `place` decides about the order in `swirl --help`. `add` gives the subcommand its options
-    /// and its callback.
-    Command(int place, const char* name, const char* description, Add add);
+    /// `order` sorts the list in `swirl --help`. `add` defines the options and the callback of the
+    /// subcommand.
+    Command(int order, const char* name, const char* description, Add add);
 
-    int place() const { return place_; }
+    int order() const { return order_; }
     const char* name() const { return name_; }
     const char* description() const { return description_; }
     void add_options(Subcommand& subcommand) const { add_(subcommand); }
 
-    /// All there are, in order.
+    /// All subcommands, sorted.
     static std::vector<const Command*> all();
 
   private:
-    int place_;
+    int order_;
     const char* name_;
     const char* description_;
     Add add_;

@@ -1,5 +1,5 @@
-// What a subcommand can be called with, as data: its options, its help, and what it does. Only
-// parser.cpp knows how arguments are taken apart.
+// A subcommand as data: its options, its help and its action. Only parser.cpp depends on the library
+// that parses arguments.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace swirl {
 
-/// Where the value of an option goes; a bool is a flag and takes none.
+/// The variable that receives the value of an option. A bool is a flag without value.
 using OptionTarget =
     std::variant<bool*, std::string*, std::int64_t*, int*, double*, std::optional<int>*,
                  std::optional<std::int64_t>*, std::optional<double>*, std::vector<std::string>*,
                  std::function<void(const std::string&)>>;
 
 struct Option {
-    std::string name;  // "--json"; without hyphens: an argument by its place
+    std::string name;  // "--json"; without hyphens: a positional argument
     OptionTarget target;
     std::string description;
-    std::string value_form = {};  // what stands after it: "FILE"
+    std::string value_form = {};  // the value in the help: "FILE"
     std::string help_group = {};
     bool is_required = false;
-    bool is_given = false;  // in the call that was parsed
+    bool is_given = false;  // set by parse()
 
     Option* type_name(std::string form) {
         value_form = std::move(form);
@@ -43,7 +43,7 @@ struct Option {
 
 class Subcommand {
   public:
-    /// The option returned stays where it is. A vector takes the option as often as it is given.
+    /// The returned pointer stays valid. With a vector as target, the option may be repeated.
     template <class Target>
     Option* add_option(std::string name, Target& target, std::string description) {
         return add(std::move(name), &target, std::move(description));
@@ -56,11 +56,11 @@ class Subcommand {
         return add(std::move(name), &target, std::move(description));
     }
 
-    /// Calls that work, at the end of the help.
+    /// Complete commands, shown at the end of the help.
     void set_examples(const std::vector<std::string>& examples);
-    /// What else the help says, before the examples.
+    /// A text in the help before the examples.
     void explain(std::string text) { explanation_ = std::move(text); }
-    /// What is done once all options have arrived; what goes wrong in there is thrown
+    /// The action, called after all options are set. It reports errors by exceptions
     /// (run/failure.hpp).
     void callback(std::function<void()> action) { action_ = std::move(action); }
 

@@ -22,21 +22,21 @@ std::string last_error() { return std::generic_category().message(errno); }
 
 void reject_option(const std::filesystem::path& name, const char* kind) {
     if (name.native().starts_with('-'))
-        throw UsageError(fmt::format(
-            "'{0}' looks like an option, but here the name of a {1} must stand; a {1} of that "
-            "name would be {2}.",
-            name.string(), kind, shell_word("./" + name.string())));
+        throw UsageError(
+            fmt::format("'{0}' looks like an option, but it must be the name of a {1}.\nhint: for "
+                        "a {1} with this "
+                        "name, write {2}",
+                        name.string(), kind, shell_word("./" + name.string())));
 }
 
 }  // namespace
 
 void reject_unwritable(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (file.empty()) throw UsageError("The name of an output file is empty.");
+    if (file.empty()) throw UsageError("the name of an output file is empty.");
     reject_option(file, "file");
     if (std::filesystem::is_directory(file, ignored))
-        throw Failure(fmt::format("'{}' is a folder, but it must be the name of a file to write.",
-                                  file.string()));
+        throw Failure(fmt::format("'{}' is a folder, but it must be a file.", file.string()));
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     if (!std::filesystem::is_directory(folder, ignored))
         throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
@@ -45,57 +45,55 @@ void reject_unwritable(const std::filesystem::path& file) {
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
 }
 
-std::filesystem::path whole_name(const std::filesystem::path& file) {
-    std::error_code unknown;
-    auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
-    return unknown ? std::filesystem::absolute(file).lexically_normal() : whole;
+std::filesystem::path canonical_name(const std::filesystem::path& file) {
+    std::error_code error;
+    auto canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    return error ? std::filesystem::absolute(file).lexically_normal() : canonical;
 }
 
 void reject_same_files(const std::vector<std::filesystem::path>& files) {
     if (std::count(files.begin(), files.end(), "-") > 1)
         throw UsageError(
-            "Only one thing can go to standard output, which is what '-' stands for; give each of "
-            "the others a file.");
+            "only one output can be '-' (standard output).\nhint: use files for the others.");
     std::vector<std::filesystem::path> seen;
     for (const auto& file : files) {
         if (file.empty() || file == "-") continue;
-        std::filesystem::path whole = whole_name(file);
-        if (std::find(seen.begin(), seen.end(), whole) != seen.end())
-            throw UsageError(fmt::format(
-                "'{}' is the name of two files; each needs a name of its own.", file.string()));
-        seen.push_back(std::move(whole));
+        std::filesystem::path canonical = canonical_name(file);
+        if (std::find(seen.begin(), seen.end(), canonical) != seen.end())
+            throw UsageError(fmt::format("'{}' is given for two different files.", file.string()));
+        seen.push_back(std::move(canonical));
     }
 }
 
 namespace {
 
-constexpr int milliseconds_to_wait = 200;
+constexpr int poll_interval_ms = 200;
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file) {
     throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
 }
 
-/// For as long as nobody wants an end of it: a pipe may never have a reader, or one that rests.
-void reject_to_wait_after_stop(const std::filesystem::path& file) {
+/// Ends the wait for a reader, which may never come.
+void throw_if_stopped(const std::filesystem::path& file) {
     if (stop_signal().load())
         throw Interrupted(
-            fmt::format("Stopped while waiting for a reader of '{}'.", file.string()));
+            fmt::format("stopped while waiting for a reader of '{}'.", file.string()));
 }
 
-/// A pipe, a device or the like. Opening a pipe would block until it has a reader, and no signal
-/// would end that.
-int opened_for_writing(const std::filesystem::path& file) {
+/// Opens a pipe or a device. O_NONBLOCK, because open() would otherwise block until a pipe has a
+/// reader, and no signal would end that.
+int open_for_writing(const std::filesystem::path& file) {
     for (;;) {
         const int stream = open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         if (stream >= 0) return stream;
         if (errno == EINTR) continue;
-        const int why = errno;
+        const int open_error = errno;
         std::error_code ignored;
-        const bool lacks_reader = why == ENXIO && std::filesystem::is_fifo(file, ignored);
-        errno = why;
+        const bool lacks_reader = open_error == ENXIO && std::filesystem::is_fifo(file, ignored);
+        errno = open_error;
         if (!lacks_reader) fail_to_write(file);
-        reject_to_wait_after_stop(file);
-        poll(nullptr, 0, milliseconds_to_wait);
+        throw_if_stopped(file);
+        poll(nullptr, 0, poll_interval_ms);
     }
 }
 
@@ -109,7 +107,7 @@ void write_all(int stream, const std::filesystem::path& file, std::string_view t
         if (errno == EINTR) continue;
         if (errno != EAGAIN) fail_to_write(file);
         pollfd wait{stream, POLLOUT, 0};
-        if (poll(&wait, 1, milliseconds_to_wait) == 0) reject_to_wait_after_stop(file);
+        if (poll(&wait, 1, poll_interval_ms) == 0) throw_if_stopped(file);
     }
 }
 
@@ -117,7 +115,7 @@ void write_all(int stream, const std::filesystem::path& file, std::string_view t
 
 void write_output(const std::filesystem::path& file, const std::string& text) {
     std::error_code ignored;
-    // Through a link to what it stands for: /dev/stdout must stay what it is.
+    // Writes to the target of a link: a link such as /dev/stdout must not be replaced.
     const auto target = std::filesystem::is_symlink(file, ignored)
                             ? std::filesystem::weakly_canonical(file, ignored)
                             : file;
@@ -127,7 +125,7 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
         write_named_file(target.empty() ? file : target, text);
         return;
     }
-    const int stream = opened_for_writing(file);
+    const int stream = open_for_writing(file);
     write_all(stream, file, text);
     if (close(stream) != 0) fail_to_write(file);
 }
@@ -138,10 +136,10 @@ void make_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, error);
     if (error)
         throw Failure(
-            fmt::format("The folder '{}' cannot be made: {}.", folder.string(), error.message()));
+            fmt::format("folder '{}' cannot be created: {}.", folder.string(), error.message()));
     if (access(folder.c_str(), W_OK | X_OK) != 0)
-        throw Failure(fmt::format("The folder '{}' cannot be written to: {}.", folder.string(),
-                                  last_error()));
+        throw Failure(
+            fmt::format("folder '{}' cannot be written to: {}.", folder.string(), last_error()));
 }
 
 namespace {
@@ -160,7 +158,7 @@ void print_note(std::string_view text) { print_message("note", text); }
 void print_all(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
         return;
-    throw Failure(fmt::format("Writing to standard output failed: {}.", last_error()));
+    throw Failure(fmt::format("writing to standard output failed: {}.", last_error()));
 }
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// What every subcommand does with its output.
+// Output of the subcommands: messages, files, folders and standard output.
 #pragma once
 
 #include <filesystem>
@@ -8,22 +8,22 @@
 
 namespace swirl {
 
-/// Throws Failure or WrongCall, before any work is done, if no file could be written there.
+/// Called before any work is done. Throws Failure or UsageError if the file cannot be written.
 void reject_unwritable(const std::filesystem::path& file);
 
-/// The one name of a file, however it was written: whole, and through links. It need not be there.
-std::filesystem::path whole_name(const std::filesystem::path& file);
+/// The absolute name of a file with links resolved. The file need not exist.
+std::filesystem::path canonical_name(const std::filesystem::path& file);
 
-/// Throws WrongCall if two of these, read or written, are one file, however they are written, or if
-/// two are "-", standard output; empty names are none.
+/// Throws UsageError if two of these names are the same file, or if two are "-" (standard output).
+/// Empty names are ignored.
 void reject_same_files(const std::vector<std::filesystem::path>& files);
 
-/// Writes a file whole or not at all (io/atomic_file.hpp); a pipe or a device gets the text as it
-/// is. Throws FileError or Failure.
+/// Writes a file atomically (io/atomic_file.hpp), or the text to a pipe or device. Throws FileError
+/// or Failure.
 void write_output(const std::filesystem::path& file, const std::string& text);
 
-/// Makes the folder if it is not there; throws Failure if it cannot be written to, or WrongCall if
-/// its name is that of an option.
+/// Creates the folder if it does not exist. Throws Failure if it cannot be written to, or UsageError
+/// if its name looks like an option.
 void make_folder(const std::filesystem::path& folder);
 
 /// Write "error: TEXT", "warning: TEXT" or "note: TEXT" to standard error. A text may have a second
@@ -32,7 +32,7 @@ void print_error(std::string_view text);
 void print_warning(std::string_view text);
 void print_note(std::string_view text);
 
-/// Writes to standard output; throws Failure if that fails (a full disk).
+/// Writes to standard output. Throws Failure if that fails, for example on a full disk.
 void print_all(const std::string& text);
 
 }  // namespace swirl

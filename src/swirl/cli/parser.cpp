@@ -17,85 +17,93 @@ namespace swirl {
 namespace {
 
 constexpr std::size_t column_of_descriptions = 34;
-constexpr int max_values = 100;  // of an option that may be given several times
+constexpr int max_values = 100;  // of a repeated option
 
-/// The subcommand that the arguments name, or the program itself.
-const CLI::App& deepest(const CLI::App& app) {
-    const auto named = app.get_subcommands();
-    return named.empty() ? app : deepest(*named.front());
+/// The named subcommand, or the program itself.
+const CLI::App& selected_app(const CLI::App& app) {
+    const auto subcommands = app.get_subcommands();
+    return subcommands.empty() ? app : selected_app(*subcommands.front());
 }
 
-std::string did_you_mean(const CLI::App& app, const std::string& wrong) {
+/// "did you mean --discs?", or nothing.
+std::string nearest_name_hint(const CLI::App& app, const std::string& unknown) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
     for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(subcommand->get_name());
-    const auto meant = nearest_name(wrong.substr(0, wrong.find('=')), names);
-    return meant ? "; did you mean " + *meant + "?" : ".";
+    const auto nearest = nearest_name(unknown.substr(0, unknown.find('=')), names);
+    return nearest ? "did you mean " + *nearest + "?" : "";
 }
 
-/// The parser does not end options at `--` once a subcommand has all its files. So each word after
-/// it that begins with a dash gets this mark, which no argument can contain; whoever reads a word
-/// that is no option removes the mark.
-constexpr char no_option = '\0';
+/// The parser does not end options at `--` once a subcommand has all its files. Each later word that
+/// starts with a dash therefore gets this mark, which no argument can contain. Positional arguments
+/// remove it.
+constexpr char not_an_option = '\0';
 
 std::string without_mark(std::string word) {
-    if (word.starts_with(no_option)) word.erase(0, 1);
+    if (word.starts_with(not_an_option)) word.erase(0, 1);
     return word;
 }
 
-/// What has no place among the arguments.
-std::string about_extras(const CLI::App& app, const CLI::App& place) {
-    // The parser keeps them back to front; an unknown option comes before its value.
+struct Message {
+    std::string text, hint = {};
+};
+
+Message message_on_extras(const CLI::App& app, const CLI::App& selected) {
+    // The parser returns the words in reverse order; an unknown option comes before its value.
     auto extras = app.remaining(true);
     std::erase(extras, "--");
     for (const std::string& extra : extras)
         if (extra.starts_with('-'))
-            return "There is no option " + extra + did_you_mean(place, extra);
+            return {"there is no option " + extra + ".", nearest_name_hint(selected, extra)};
     const std::string extra = extras.empty() ? "" : without_mark(extras.front());
-    const std::string what = &place == &app ? "There is no command '" : "There is no use for '";
-    return what + extra + "'" + did_you_mean(place, extra);
+    if (&selected == &app)
+        return {"there is no command '" + extra + "'.", nearest_name_hint(selected, extra)};
+    return {"unexpected argument '" + extra + "'.", nearest_name_hint(selected, extra)};
 }
 
-std::string about_values(const std::string& what) {
+Message message_on_missing_value(const std::string& what) {
     const std::string option = what.substr(0, what.find(':'));
-    if (what.find("At Most 1") != what.npos)
-        return option + " is given more than once, but it must be given once.";
-    return option + " needs a value after it.";
+    if (what.find("At Most 1") != what.npos) return {option + " may be given only once."};
+    return {option + " needs a value."};
 }
 
-/// The parser says "Could not convert: --fps = 59.94".
-std::string about_conversion(const std::string& what) {
+/// The parser's text is "Could not convert: --fps = 59.94".
+Message message_on_conversion(const std::string& what) {
     const std::size_t colon = what.find(": "), equals = what.find(" = ");
-    if (colon > equals || equals == what.npos)
-        return "A value is not a number, but it must be one.";
+    if (colon > equals || equals == what.npos) return {"a value is not a number."};
     const std::string value = what.substr(equals + 3);
-    return fmt::format("{} is '{}', but it must be a {}.",
-                       what.substr(colon + 2, equals - colon - 2), value,
-                       read_number(value) ? "whole number" : "number");
+    return {fmt::format("{} is '{}', but it must be a {}.",
+                        what.substr(colon + 2, equals - colon - 2), value,
+                        read_number(value) ? "whole number" : "number")};
 }
 
-/// What the parser has to say, as a sentence that names the value and what would be right.
-std::string in_words(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::App& place = deepest(app);
-    const std::string name = &place == &app ? "swirl" : "swirl " + place.get_name();
-    std::string sentence;
+Message message_on_missing_option(const CLI::App& selected, const std::string& what) {
+    const std::string name = what.substr(0, what.find(' '));
+    const CLI::Option* const option = selected.get_option_no_throw(name);
+    const std::string form = option ? " " + option->get_type_name() : "";
+    return {name.starts_with('-') ? "missing required option " + name + form + "."
+                                  : "missing required argument " + name + "."};
+}
+
+std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::App& selected = selected_app(app);
+    Message message{"invalid arguments."};
     if (dynamic_cast<const CLI::ExtrasError*>(&error))
-        sentence = about_extras(app, place);
+        message = message_on_extras(app, selected);
     else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-        sentence = about_values(error.what());
+        message = message_on_missing_value(error.what());
     else if (dynamic_cast<const CLI::ConversionError*>(&error))
-        sentence = about_conversion(error.what());
-    else if (dynamic_cast<const CLI::RequiredError*>(&error)) {
-        const std::string what = error.what();
-        sentence = what.substr(0, what.find(' ')) + " is required, but it is not given.";
-    } else {
-        sentence = "The call cannot be understood.";
-    }
-    return sentence + " Try `" + name + " --help`.";
+        message = message_on_conversion(error.what());
+    else if (dynamic_cast<const CLI::RequiredError*>(&error))
+        message = message_on_missing_option(selected, error.what());
+    const std::string command = &selected == &app ? "swirl" : "swirl " + selected.get_name();
+    return message.hint.empty()
+               ? fmt::format("{}\nhint: see `{} --help`.", message.text, command)
+               : fmt::format("{}\nhint: {} See `{} --help`.", message.text, message.hint, command);
 }
 
-/// Several arguments of one kind are "VIDEO..." in the usage, not "films(1x)".
+/// Shows a repeated argument as "VIDEO..." in the usage.
 class HelpFormat : public CLI::Formatter {
     std::string make_option_usage(const CLI::Option* option) const override {
         return option->get_expected_max() > 1 ? option->get_type_name() + "..."
@@ -103,8 +111,8 @@ class HelpFormat : public CLI::Formatter {
     }
 };
 
-/// What one kind of target asks of the parser.
-struct AddTo {
+/// Adds an option to the parser, by the type of its target.
+struct OptionAdder {
     CLI::App& app;
     const Option& option;
 
@@ -124,7 +132,7 @@ struct AddTo {
 
 void add_to(CLI::App& app, const Subcommand& subcommand) {
     for (const Option& option : subcommand.options()) {
-        CLI::Option* const added = std::visit(AddTo{app, option}, option.target);
+        CLI::Option* const added = std::visit(OptionAdder{app, option}, option.target);
         if (!option.value_form.empty()) added->type_name(option.value_form);
         if (!option.help_group.empty()) added->group(option.help_group);
         if (option.is_required) added->required();
@@ -138,15 +146,15 @@ void note_given(const CLI::App& app, Subcommand& subcommand) {
         option.is_given = app.get_option(option.name)->count() > 0;
 }
 
-/// The names of options have hyphens; with underscores, as in files, they are understood too. After
-/// `--` there are no options. The parser wants the words back to front.
-std::vector<std::string> words_of(int argc, char** argv) {
+/// The arguments in reverse order, as the parser expects them. Replaces underscores in names of
+/// options by hyphens, and marks words after `--`.
+std::vector<std::string> reversed_words(int argc, char** argv) {
     std::vector<std::string> words;
     bool options_ended = false;
     for (int k = 1; k < argc; ++k) {
         std::string word = argv[k];
         if (options_ended) {
-            if (word.starts_with('-')) word.insert(word.begin(), no_option);
+            if (word.starts_with('-')) word.insert(word.begin(), not_an_option);
         } else if (word == "--") {
             options_ended = true;
         } else if (word.starts_with("--")) {
@@ -162,8 +170,8 @@ std::vector<std::string> words_of(int argc, char** argv) {
 
 Call parse(int argc, char** argv) {
     CLI::App app(
-        "A laboratory for swirled granular matter: exact event-driven simulation of discs\n"
-        "in a swirled dish, after Lee et al., Phys. Rev. E 100, 012903 (2019).",
+        "Exact event-driven simulation of granular discs and spheres in a swirled container,\n"
+        "after Lee et al., Phys. Rev. E 100, 012903 (2019).",
         "swirl");
     app.set_version_flag("--version", version());
     app.require_subcommand(0, 1);
@@ -179,13 +187,13 @@ Call parse(int argc, char** argv) {
     app.footer(
         "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
     try {
-        app.parse(words_of(argc, argv));
-    } catch (const CLI::CallForVersion& asked) {
-        return {.act = {}, .text = std::string(asked.what()) + "\n", .usage = {}};
+        app.parse(reversed_words(argc, argv));
+    } catch (const CLI::CallForVersion& version_call) {
+        return {.act = {}, .text = std::string(version_call.what()) + "\n", .usage = {}};
     } catch (const CLI::Success&) {
         return {.act = {}, .text = app.help(), .usage = {}};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(in_words(app, error));
+        throw UsageError(error_text(app, error));
     }
     Call call{.act = {}, .text = {}, .usage = app.help()};
     for (auto& [added, subcommand] : *subcommands)

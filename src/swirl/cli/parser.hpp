@@ -1,4 +1,4 @@
-// Arguments in, the subcommand that they name out.
+// Parses the arguments of the program.
 #pragma once
 
 #include <functional>
@@ -6,14 +6,14 @@
 
 namespace swirl {
 
-/// What the arguments ask for.
+/// The parsed arguments.
 struct Call {
     std::function<void()> act;  // the subcommand with its options; empty if there is none
-    std::string text;           // instead: what was asked for with --help or --version
+    std::string text;           // the output of --help or --version
     std::string usage;          // the help of the whole program
 };
 
-/// Throws WrongCall, with a sentence that names the value and what would be right.
+/// Throws UsageError for invalid arguments.
 Call parse(int argc, char** argv);
 
 }  // namespace swirl

@@ -12,15 +12,15 @@
 namespace swirl {
 namespace {
 
-constexpr std::chrono::milliseconds redraw(100);
-constexpr std::chrono::seconds first_line(10), later_lines(30);
+constexpr std::chrono::milliseconds redraw_interval(100);
+constexpr std::chrono::seconds first_line_after(10), line_interval(30);
 
 bool is_set(const char* variable) {
     const char* const value = std::getenv(variable);
     return value && *value;
 }
 
-bool smart_terminal() {
+bool is_capable_terminal() {
     const char* const kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) && kind && std::string(kind) != "dumb";
 }
@@ -33,13 +33,13 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string what, bool quiet)
-    : what_(std::move(what)),
+ProgressLine::ProgressLine(std::string label, bool quiet)
+    : label_(std::move(label)),
       quiet_(quiet),
-      terminal_(smart_terminal()),
+      terminal_(is_capable_terminal()),
       color_(terminal_ && !is_set("NO_COLOR")),
       begin_(Clock::now()),
-      next_(begin_ + (terminal_ ? std::chrono::seconds(0) : first_line)) {}
+      next_(begin_ + (terminal_ ? std::chrono::seconds(0) : first_line_after)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -54,30 +54,31 @@ void ProgressLine::show(double fraction, const std::string& rate) {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
     if (now < next_) return;
-    const double part = std::clamp(fraction, 0.0, 1.0);
-    // Something else has begun: the time that the last took says nothing of it.
-    if (part < last_) begin_ = now;
-    last_ = part;
+    const double done = std::clamp(fraction, 0.0, 1.0);
+    // A smaller fraction means a new stage: the elapsed time of the last one does not apply.
+    if (done < last_) begin_ = now;
+    last_ = done;
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    const double left = part > 0.0 ? elapsed * (1.0 - part) / part : 0.0;
+    const double left = done > 0.0 ? elapsed * (1.0 - done) / done : 0.0;
     if (terminal_) {
-        next_ = now + redraw;
-        draw_bar(part, rate, left);
+        next_ = now + redraw_interval;
+        draw_bar(done, rate, left);
         return;
     }
-    next_ = now + later_lines;
-    fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", what_, 100.0 * part, rate,
-               part > 0.0 ? short_duration(left) : "unknown time");
+    next_ = now + line_interval;
+    fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", label_, 100.0 * done, rate,
+               done > 0.0 ? short_duration(left) : "unknown time");
 }
 
 void ProgressLine::draw_bar(double fraction, const std::string& rate, double left) {
     const std::string tail = fmt::format(" {:3.0f} %  {}  {} left", 100.0 * fraction, rate,
                                          fraction > 0.0 ? short_duration(left) : "?");
     const std::size_t width = terminal_width();
-    const std::size_t taken = what_.size() + tail.size() + 2;
-    const std::size_t bar = width > taken + 8 ? std::min<std::size_t>(width - taken - 1, 40) : 0;
+    const std::size_t taken = label_.size() + tail.size() + 2;
+    constexpr std::size_t min_bar = 8, max_bar = 40;  // characters
+    const std::size_t bar = width > taken + min_bar ? std::min(width - taken - 1, max_bar) : 0;
     const auto full = static_cast<std::size_t>(fraction * static_cast<double>(bar));
-    std::string line = what_ + " ";
+    std::string line = label_ + " ";
     if (bar > 0) {
         if (color_) line += "\x1b[36m";
         for (std::size_t k = 0; k < bar; ++k) line += k < full ? "█" : "·";

@@ -1,4 +1,4 @@
-// The options that describe a run, the same for every subcommand that needs one.
+// The options that describe a run, shared by all subcommands that make runs.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,11 @@
 
 namespace swirl {
 
-/// Adds one option for every one of run_parameters but those named in `without`. After parsing,
-/// what was given stands in the texts returned; resolve() makes the configuration of it. Where
-/// `defaults` has another default than the row, help says so; the caller overrides them
-/// (overridden) with what was given.
+/// Adds an option for each of run_parameters except those in `excluded`. After parsing, the returned
+/// texts hold the given values; resolve() makes the configuration. `defaults` replace the defaults
+/// of the table in the help; the caller must combine them with the given values (overridden()).
 std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
-                                                const std::vector<std::string>& without = {},
+                                                const std::vector<std::string>& excluded = {},
                                                 const ParameterTexts& defaults = {});
 
 }  // namespace swirl

@@ -163,7 +163,7 @@ void reject_to_draw_onto_source(const SourceTexts& texts, const std::vector<std:
         if (output.empty()) continue;
         reject_same_files({texts.file, output});
         if (!texts.pictures.empty() &&
-            is_of_video(whole_name(texts.pictures).string(), whole_name(output).string()))
+            is_of_video(canonical_name(texts.pictures).string(), canonical_name(output).string()))
             throw UsageError(fmt::format(
                 "'{}' is to be written, but it is also what the camera saw (--over {}); "
                 "choose another name.",

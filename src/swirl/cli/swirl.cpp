@@ -1,5 +1,5 @@
-// The command line. Reads the arguments, calls the subcommand, and turns what went wrong into one
-// sentence and an exit code: 0 done, 1 could not be done, 2 wrong call, 130 stopped by a signal.
+// The program: parses the arguments, calls the subcommand, and turns exceptions into an error message
+// and an exit code: 0 success, 1 failure, 2 usage error, 130 stopped by a signal.
 #include <fcntl.h>
 
 #include <csignal>
@@ -23,10 +23,10 @@ int report_error(const char* text, int exit_code) {
 
 constexpr const char* not_enough_memory = "not enough memory.\nhint: use fewer discs.";
 
-/// The libraries that hold JSON and read the command line ask for memory where nothing may be
-/// thrown, in destructors and the like; nobody can catch that, and g++ does not always tell here
-/// what was thrown. What was recorded can be resumed, as after a kill.
-[[noreturn]] void end_where_nothing_may_be_thrown() {
+/// Handler for std::terminate(). The libraries for JSON and the command line allocate memory in
+/// functions that must not throw, such as destructors, so a bad_alloc there cannot be caught. g++
+/// does not always provide the current exception here. Recordings can be resumed, as after a kill.
+[[noreturn]] void on_terminate() {
     bool out_of_memory = std::uncaught_exceptions() > 0;
     try {
         if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
@@ -40,7 +40,7 @@ constexpr const char* not_enough_memory = "not enough memory.\nhint: use fewer d
 }
 
 int main_or_throw(int argc, char** argv) {
-    swirl::reject_what_is_no_text(argc, argv);
+    swirl::reject_invalid_utf8(argc, argv);
     const swirl::Call call = swirl::parse(argc, argv);
     if (!call.text.empty()) {
         swirl::print_all(call.text);
@@ -50,15 +50,14 @@ int main_or_throw(int argc, char** argv) {
         std::fputs(call.usage.c_str(), stderr);
         return 2;
     }
-    (void)swirl::asked_width();  // A wrong SWIRL_SIMD ends every command before it begins.
+    (void)swirl::selected_width();  // rejects an invalid SWIRL_SIMD before any work
     call.act();
     return 0;
 }
 
-/// A program may be called with its standard input, output or errors closed. The next file it
-/// opened would get that number, and be written into by whoever complains. What stands in for it
-/// cannot be written to: a result that was to go there is not lost without a word.
-void open_closed_standard_files() {
+/// If stdin, stdout or stderr is closed, the next opened file would get its number, and messages
+/// would be written into it. The replacement is read-only, so output to it fails with an error.
+void reserve_standard_descriptors() {
     for (int number = 0; number <= 2; ++number)
         if (fcntl(number, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
 }
@@ -66,15 +65,15 @@ void open_closed_standard_files() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::set_terminate(end_where_nothing_may_be_thrown);
-    open_closed_standard_files();
-    // A file that grows beyond what is allowed is an error of write(), like a full disk.
+    std::set_terminate(on_terminate);
+    reserve_standard_descriptors();
+    // Exceeding the file size limit becomes an error of write(), like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
     swirl::remember_command_line(argc, argv);
     try {
         return main_or_throw(argc, argv);
-    } catch (const swirl::UsageError& wrong) {
-        return report_error(wrong.what(), 2);
+    } catch (const swirl::UsageError& error) {
+        return report_error(error.what(), 2);
     } catch (const swirl::Interrupted& interrupted) {
         return report_error(interrupted.what(), 130);
     } catch (const swirl::Failure& failure) {

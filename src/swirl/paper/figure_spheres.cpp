@@ -94,7 +94,7 @@ std::string sign_changes_sentence(const NamedCurve& curve) {
     for (const SignChange& change : found.changes)
         text += fmt::format("{} to {} {}", &change == found.changes.data() ? ":" : ",",
                             change.to_counterrotation ? "counterrotation" : "rotation",
-                            change_place(change));
+                            change_location(change));
     if (!found.undetermined.empty())
         text += fmt::format("; it is undetermined at N = {}", listed(found.undetermined));
     const RotationPoint* const lowest = lowest_of(curve.points());

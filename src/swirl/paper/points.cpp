@@ -303,7 +303,7 @@ static std::string driving_sentence(const NamedCurve& curve, const Crossing& cro
                                                         : "";
         const std::vector<double> beyond = crossing.undetermined_after();
         return fmt::format(
-            "crosses zero {} ({}{}){}", change_place(*change), interval, words,
+            "crosses zero {} ({}{}){}", change_location(*change), interval, words,
             beyond.empty() ? ""
                            : fmt::format("; its sign is undetermined at N = {}", listed(beyond)));
     }

@@ -72,7 +72,7 @@ class FollowedSpheres {
   public:
     FollowedSpheres(const RunConfig& config, const std::atomic<bool>* stop)
         : path_(make_path(config)),
-          simulation_(make_initial_state(config, stop), Progress{}, asked_tuning(stop)),
+          simulation_(make_initial_state(config, stop), Progress{}, selected_tuning(stop)),
           seen_(simulation_.snapshot()),
           stop_(stop) {
         seen_.turned.assign(seen_.size(), {});
@@ -147,7 +147,7 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
             return [spheres](double periods) { return spheres->at(periods); };
         }
         auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
-                                                       asked_tuning(stop));
+                                                       selected_tuning(stop));
         reject_stopped();
         // A few hundred thousand events at once.
         const double step = 3000.0 / static_cast<double>(config.discs);

@@ -1,4 +1,4 @@
-// What a dish has of energy and of spin, as every result says it.
+// Energy and mean spin of a snapshot, as reported in every result.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 
 namespace swirl {
 
-/// Kinetic energy K in the lab frame, spins included, and K − ΩL with the angular momentum about
-/// the swirl centre: conserved on the exact circle when there is no friction (docs/physics.md).
+/// Kinetic energy K in the lab frame, including spins, and the invariant K − ΩL with the angular
+/// momentum L about the swirl centre. The invariant is conserved on the exact circle without
+/// friction (docs/physics.md).
 struct Budget {
     double energy = 0.0, invariant = 0.0;
 };

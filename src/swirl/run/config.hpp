@@ -1,5 +1,5 @@
-// What a run's parameters mean to the engine: whether it can be run at all, the container's path,
-// and the initial state.
+// A run's parameters in terms of the engine: their validation, the container's path, and the
+// initial state.
 #pragma once
 
 #include <atomic>
@@ -12,23 +12,24 @@
 
 namespace swirl {
 
-/// Why this cannot be run, as a full sentence; nothing if it can.
+/// Why this configuration cannot be run, as an error message; nothing if it can.
 std::optional<std::string> problem(const RunConfig& config);
 
 ContainerPath make_path(const RunConfig& config);
 
-/// What they are, in sentences: "disc" or "sphere".
+/// The particles in messages: "disc" or "sphere".
 const char* body_word(const RunConfig& config);
 
-/// A dish without its discs: surfaces, floor, and a path that need not be the configuration's.
+/// The container, its surfaces and its floor without discs. `path` may differ from the
+/// configuration's.
 InitialState without_discs(const RunConfig& config, const ContainerPath& path);
 
 /// The initial state: discs placed without overlap, with small random velocities relative to the
-/// container, all from the seed. Throws WrongCall if the discs do not fit, Interrupted if `stop` is
-/// set meanwhile; places may be sought for seconds.
+/// container, all determined by the seed. Throws UsageError if the discs do not fit, Interrupted if
+/// `stop` is set meanwhile (the placement may take seconds).
 InitialState make_initial_state(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
 
-/// How a simulation is made that gives up when `stop` is set (simulation.hpp).
+/// Settings of a simulation that ends early when `stop` is set (simulation.hpp).
 Tuning stopped_by(const std::atomic<bool>* stop);
 
 /// Speed of the container along its path: 2AM sin(π/M)/T on the polygon, AΩ on the circle.

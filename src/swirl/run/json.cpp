@@ -45,7 +45,7 @@ Json config_json(const RunConfig& config) {
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, config);
-        if (p.said_only_if_set && std::holds_alternative<std::monostate>(value)) continue;
+        if (p.omitted_if_unset && std::holds_alternative<std::monostate>(value)) continue;
         json[p.name] = std::visit(ToJson(), value);
     }
     return json;
@@ -63,7 +63,7 @@ ParameterTexts parameters_in(const Json& config) {
     ParameterTexts texts;
     for (const auto& [name, value] : config.items()) {
         const Parameter* const p = find_parameter(name);
-        if (value.is_null() || (p && p->follows)) continue;
+        if (value.is_null() || (p && p->is_derived)) continue;
         if (value.is_object())
             texts[name] = mixture_text(value);
         else

@@ -34,7 +34,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     if (series.frames == 0) throw Failure("there are no frames.");
     const Snapshot first = series.frame(0);
     Observation observation(first.container_radius, first.period, names, holds_tracks(series));
-    ClusterRotation rotation(asked_width());
+    ClusterRotation rotation(selected_width());
     MeasuredSeries measured;
     std::int64_t period = first.periods;
     auto next_break = series.breaks.begin();

@@ -12,11 +12,11 @@
 namespace swirl {
 
 unsigned available_cores() {
-    // Not hardware_concurrency(): a batch system may have given us fewer than the machine has.
-    cpu_set_t ours;
-    CPU_ZERO(&ours);
-    if (sched_getaffinity(0, sizeof ours, &ours) == 0)
-        return static_cast<unsigned>(std::max(1, CPU_COUNT(&ours)));
+    // Not hardware_concurrency(): a batch system may grant fewer cores than the machine has.
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
+        return static_cast<unsigned>(std::max(1, CPU_COUNT(&allowed)));
     return std::max(1u, std::thread::hardware_concurrency());
 }
 
@@ -36,12 +36,12 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
             }
         }
     };
-    const std::size_t wanted = threads > 0 ? threads : available_cores();
+    const std::size_t max_threads = threads > 0 ? threads : available_cores();
     std::vector<std::thread> team;
     try {
-        for (std::size_t t = 1; t < std::min(wanted, count); ++t) team.emplace_back(loop);
+        for (std::size_t t = 1; t < std::min(max_threads, count); ++t) team.emplace_back(loop);
     } catch (const std::exception&) {
-        // No memory or no right for more threads: those that there are do it.
+        // No memory or permission for more threads: continue with those that started.
     }
     loop();
     for (std::thread& thread : team) thread.join();

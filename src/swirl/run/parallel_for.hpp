@@ -1,5 +1,5 @@
-// Independent pieces of work, spread over all cores. Which core does which piece never shows in a
-// result: every piece has its own seed and its own place in the answer.
+// Independent tasks on all cores. Results must not depend on which thread runs a task: each task has
+// its own seed and its own place in the output.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace swirl {
 
-/// How many cores there are for us (at least 1).
+/// The number of cores available to this process (at least 1).
 unsigned available_cores();
 
-/// Calls work(0) … work(count − 1), in this order of beginning, from `threads` threads at once
-/// (0: one for each core). If one throws, no further piece is begun, and when those under way have
-/// ended its exception is thrown here.
+/// Calls work(0) … work(count − 1) from `threads` threads (0: one per core). Calls start in this
+/// order. If one throws, no further call starts; the first exception is rethrown when the running
+/// calls have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work,
                   unsigned threads = 0);
 

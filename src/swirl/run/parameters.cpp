@@ -13,23 +13,24 @@ namespace swirl {
 namespace {
 
 template <class... Cases>
-struct Either : Cases... {
+struct Overloaded : Cases... {
     using Cases::operator()...;
 };
 
-[[noreturn]] void unreadable(std::string_view name, std::string_view text, const char* right) {
-    throw_wrong_call(fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
+[[noreturn]] void reject_text(std::string_view name, std::string_view text, const char* allowed) {
+    throw_wrong_call(
+        fmt::format("{} is '{}', but it must be {}.", option_name(name), text, allowed));
 }
 
 double number_from(std::string_view name, std::string_view text) {
     const auto value = read_number(text);
-    if (!value) unreadable(name, text, "a finite number, for example 0.5 or 1e3");
+    if (!value) reject_text(name, text, "a finite number, for example 0.5 or 1e3");
     return *value;
 }
 
-std::int64_t whole_from(std::string_view name, std::string_view text) {
+std::int64_t whole_number_from(std::string_view name, std::string_view text) {
     const auto value = read_whole_number(text);
-    if (!value) unreadable(name, text, "a whole number below 10^18, for example 48 or 1e6");
+    if (!value) reject_text(name, text, "a whole number below 10^18, for example 48 or 1e6");
     return *value;
 }
 
@@ -38,36 +39,36 @@ std::uint64_t seed_from(std::string_view name, std::string_view text) {
     const char* const last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, seed);
     if (error != std::errc() || end != last)
-        unreadable(name, text, "a whole number from 0 to 18446744073709551615");
+        reject_text(name, text, "a whole number from 0 to 18446744073709551615");
     return seed;
 }
 
-/// Still outside the range of every number of this type if it was.
+/// A value outside the range of every parameter of type int stays outside.
 int clamped(std::int64_t value) {
     return static_cast<int>(std::clamp<std::int64_t>(value, -1, 1'000'000'000));
 }
 
-/// Into the member of which the row is.
 void read_member(const Parameter& p, std::string_view text, RunConfig& config) {
-    std::visit(Either{[](std::monostate) {},
-                      [&](double RunConfig::*m) { config.*m = number_from(p.name, text); },
-                      [&](std::int64_t RunConfig::*m) { config.*m = whole_from(p.name, text); },
-                      [&](int RunConfig::*m) { config.*m = clamped(whole_from(p.name, text)); },
-                      [&](std::uint64_t RunConfig::*m) { config.*m = seed_from(p.name, text); },
-                      [&](std::optional<std::int64_t> RunConfig::*m) {
-                          config.*m = whole_from(p.name, text);
-                      }},
-               p.member);
+    std::visit(
+        Overloaded{[](std::monostate) {},
+                   [&](double RunConfig::*m) { config.*m = number_from(p.name, text); },
+                   [&](std::int64_t RunConfig::*m) { config.*m = whole_number_from(p.name, text); },
+                   [&](int RunConfig::*m) { config.*m = clamped(whole_number_from(p.name, text)); },
+                   [&](std::uint64_t RunConfig::*m) { config.*m = seed_from(p.name, text); },
+                   [&](std::optional<std::int64_t> RunConfig::*m) {
+                       config.*m = whole_number_from(p.name, text);
+                   }},
+        p.member);
 }
 
 ParameterValue member_value(const Parameter& p, const RunConfig& config) {
     return std::visit(
-        Either{[](std::monostate) -> ParameterValue { return {}; },
-               [&](int RunConfig::*m) -> ParameterValue { return std::int64_t{config.*m}; },
-               [&](std::optional<std::int64_t> RunConfig::*m) -> ParameterValue {
-                   return config.*m ? ParameterValue(*(config.*m)) : ParameterValue();
-               },
-               [&](auto RunConfig::*m) -> ParameterValue { return config.*m; }},
+        Overloaded{[](std::monostate) -> ParameterValue { return {}; },
+                   [&](int RunConfig::*m) -> ParameterValue { return std::int64_t{config.*m}; },
+                   [&](std::optional<std::int64_t> RunConfig::*m) -> ParameterValue {
+                       return config.*m ? ParameterValue(*(config.*m)) : ParameterValue();
+                   },
+                   [&](auto RunConfig::*m) -> ParameterValue { return config.*m; }},
         p.member);
 }
 
@@ -81,29 +82,30 @@ void read_parameter(const Parameter& p, std::string_view text, const ParameterTe
 
 std::string as_text(const ParameterValue& value) {
     return std::visit(
-        Either{[](std::monostate) { return std::string(); }, [](const std::string& s) { return s; },
-               [](const Mixture& m) { return fmt::format("{}:{}:{}", m.count, m.radius, m.mass); },
-               [](auto number) { return fmt::format("{}", number); }},
+        Overloaded{
+            [](std::monostate) { return std::string(); }, [](const std::string& s) { return s; },
+            [](const Mixture& m) { return fmt::format("{}:{}:{}", m.count, m.radius, m.mass); },
+            [](auto number) { return fmt::format("{}", number); }},
         value);
 }
 
 /// 1e6 for 1000000.
-std::string in_few_characters(const std::string& number) {
+std::string shortened(const std::string& number) {
     const std::size_t zeros = number.size() - 1 - number.find_last_not_of('0');
     if (zeros < 4 || !read_whole_number(number)) return number;
     return fmt::format("{}e{}", number.substr(0, number.size() - zeros), zeros);
 }
 
-/// The same names in one spelling; all of them known.
-ParameterTexts known_texts(const ParameterTexts& given) {
+/// The same texts with names in one spelling. Throws UsageError for unknown and repeated names.
+ParameterTexts normalized(const ParameterTexts& given) {
     ParameterTexts texts;
     for (const auto& [name, text] : given) {
         const Parameter* const row = find_parameter(name);
-        if (row == nullptr || !row->can_be_given()) {
+        if (row == nullptr || !row->is_settable()) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw_wrong_call(fmt::format("There is no parameter '{}'{}", name,
-                                         meant ? fmt::format("; did you mean '{}'?", *meant)
-                                               : "; `swirl run --help` lists them."));
+            throw_wrong_call(fmt::format(
+                "there is no parameter '{}'.\nhint: {}", name,
+                meant ? fmt::format("did you mean '{}'?", *meant) : "see `swirl run --help`."));
         }
         if (!texts.emplace(row->name, text).second)
             throw_wrong_call(fmt::format("{} is given twice.", option_name(row->name)));
@@ -121,28 +123,30 @@ double inertia_named(std::string_view name, double mass, double radius) {
     return paper_inertia * mass * radius * radius;
 }
 
-/// Of the same material as the others: m ~ r², of spheres r³.
-double mass_of_second_size(double radius, const RunConfig& config) {
+/// The mass for the same material as the others: m ~ r² for discs, r³ for spheres.
+double mass_of_second_species(double radius, const RunConfig& config) {
     const double ratio = radius / config.radius;
     return config.mass * ratio * ratio * (config.body == Shape::sphere ? ratio : 1.0);
 }
 
-/// Amplitude, period and speed: two of them make the third. Of three, one that only the file says
-/// goes; the speed first, which is made of the others.
-void leave_two_of_three(ParameterTexts& texts, const ParameterTexts& by_hand) {
+/// Two of amplitude, period and speed determine the third. If all three are present, removes one
+/// that only the file gives; the speed first, because it follows from the others.
+void keep_two_of_three(ParameterTexts& texts, const ParameterTexts& command_line) {
     constexpr const char* three[] = {"speed", "period", "amplitude"};
     for (const char* name : three)
         if (!texts.contains(name)) return;
     for (const char* name : three)
-        if (!by_hand.contains(name)) return void(texts.erase(name));
+        if (!command_line.contains(name)) return void(texts.erase(name));
 }
 
-/// A circle has no sides.
-void leave_path_or_sides(ParameterTexts& texts, const ParameterTexts& by_hand) {
+/// A circle has no sides: removes the one of the two that only the file gives.
+void keep_path_or_sides(ParameterTexts& texts, const ParameterTexts& command_line) {
     const auto path = texts.find("path");
     if (path == texts.end() || path->second.find("circle") == std::string::npos) return;
-    if (by_hand.contains("path") && !by_hand.contains("sides")) texts.erase("sides");
-    if (by_hand.contains("sides") && !by_hand.contains("path")) texts.erase("path");
+    const bool path_given = command_line.contains("path");
+    const bool sides_given = command_line.contains("sides");
+    if (path_given && !sides_given) texts.erase("sides");
+    if (sides_given && !path_given) texts.erase("path");
 }
 
 std::optional<std::string> outside(const Parameter& p, double value) {
@@ -170,12 +174,12 @@ std::optional<std::string> out_of_range(const Parameter& p, const RunConfig& con
 
 void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const double mu = number_from("mu", text);
-    if (mu < 0.0) unreadable("mu", text, "0 or more; friction cannot be negative");
+    if (mu < 0.0) reject_text("mu", text, "0 or more");
     config.mu_disc = config.mu_wall = mu;
 }
 
 void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "experiment") unreadable("preset", text, "experiment");
+    if (text != "experiment") reject_text("preset", text, "experiment");
     config.body = Shape::sphere;
     config.floor = true;
     config.mu_disc = config.mu_wall = experiment_friction;
@@ -188,25 +192,24 @@ void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config
 }
 
 void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "disc" && text != "sphere") unreadable("body", text, "disc or sphere");
+    if (text != "disc" && text != "sphere") reject_text("body", text, "disc or sphere");
     config.body = text == "sphere" ? Shape::sphere : Shape::disc;
 }
-/// Nothing is said of discs, which are the rule.
+/// Results of discs omit the type, and the parameters below that they do not use.
 ParameterValue write_body(const RunConfig& config) {
     return config.body == Shape::sphere ? ParameterValue("sphere") : ParameterValue();
 }
 
 void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config) {
     if (text != "none" && text != "sliding")
-        unreadable("floor", text,
-                   "none or sliding: on a perfectly rough floor spheres would collide without end, "
-                   "and a large --floor-friction, 100 for example, comes to the same");
+        reject_text("floor", text,
+                    "none or sliding: on a perfectly rough floor spheres would collide without "
+                    "end.\nhint: a large --floor-friction, such as 100, has the same effect");
     config.floor = text == "sliding";
 }
 ParameterValue write_floor(const RunConfig& config) {
     return config.floor ? ParameterValue("sliding") : ParameterValue();
 }
-/// Said where there is a floor, or somebody asks for another.
 ParameterValue write_floor_friction(const RunConfig& config) {
     return config.floor ? ParameterValue(config.floor_friction) : ParameterValue();
 }
@@ -224,8 +227,8 @@ ParameterValue write_gravity(const RunConfig& config) {
     return config.floor ? ParameterValue(config.gravity) : ParameterValue();
 }
 
-/// Names are multiples of m r²; a number is the moment of inertia itself. Not given: the paper's,
-/// or that of a solid sphere.
+/// Names are multiples of m r²; a number is the moment of inertia itself. The default is the
+/// paper's for discs, and a solid sphere for spheres.
 void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     if (config.body == Shape::sphere && !given.contains("inertia")) text = "sphere";
     for (const char* name : inertia_names)
@@ -235,33 +238,34 @@ void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig&
         }
     const auto value = read_number(text);
     if (!value)
-        unreadable("inertia", text,
-                   "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere "
-                   "(2/5 m r^2) or shell (2/3 m r^2)");
+        reject_text(
+            "inertia", text,
+            "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere "
+            "(2/5 m r^2) or shell (2/3 m r^2)");
     config.inertia = *value;
 }
 
-/// By its name where it has one, so that it follows another mass or radius.
-std::string spell_inertia(const RunConfig& config) {
+/// The name, if there is one, so that the inertia adapts to another mass or radius.
+std::string format_inertia(const RunConfig& config) {
     for (const char* name : inertia_names)
         if (config.inertia == inertia_named(name, config.mass, config.radius)) return name;
     return fmt::format("{}", config.inertia);
 }
 
 void read_mixture(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    constexpr auto right =
+    constexpr auto allowed =
         "COUNT:RADIUS or COUNT:RADIUS:MASS, for example 12:1.4 for twelve discs of radius 1.4";
     const auto first = text.find(':');
-    if (first == text.npos) unreadable("mixture", text, right);
+    if (first == text.npos) reject_text("mixture", text, allowed);
     const auto second = text.find(':', first + 1);
     const auto count = read_whole_number(text.substr(0, first));
     const auto radius =
         read_number(text.substr(first + 1, second == text.npos ? second : second - first - 1));
-    if (!count || !radius) unreadable("mixture", text, right);
-    config.mixture = Mixture{*count, *radius, mass_of_second_size(*radius, config)};
+    if (!count || !radius) reject_text("mixture", text, allowed);
+    config.mixture = Mixture{*count, *radius, mass_of_second_species(*radius, config)};
     if (second == text.npos) return;
     const auto mass = read_number(text.substr(second + 1));
-    if (!mass) unreadable("mixture", text, right);
+    if (!mass) reject_text("mixture", text, allowed);
     config.mixture->mass = *mass;
 }
 
@@ -269,10 +273,10 @@ ParameterValue write_mixture(const RunConfig& config) {
     return config.mixture ? ParameterValue(*config.mixture) : ParameterValue();
 }
 
-/// Without the mass where it follows from the radius, so that it follows another mass too.
-std::string spell_mixture(const RunConfig& config) {
+/// Omits a default mass, so that it adapts to another mass of the first species.
+std::string format_mixture(const RunConfig& config) {
     const Mixture& m = *config.mixture;
-    if (m.mass == mass_of_second_size(m.radius, config))
+    if (m.mass == mass_of_second_species(m.radius, config))
         return fmt::format("{}:{}", m.count, m.radius);
     return as_text(m);
 }
@@ -281,20 +285,20 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
     const double speed = number_from("speed", text);
     const bool period_given = given.contains("period");
     if (!(speed >= 0.0 && speed <= largest_value))
-        unreadable("speed", text, "from 0 (a container that stands still) to 1e6");
+        reject_text("speed", text, "from 0 (a container at rest) to 1e6");
     if (period_given && given.contains("amplitude")) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;
         throw_wrong_call(fmt::format(
-            "--speed is {}, but --amplitude {} and --period {} make the container move at {:.6g}; "
-            "leave one of the three away.",
+            "--speed is {}, but --amplitude {} and --period {} give a speed of {:.6g}.\nhint: omit "
+            "one of the three.",
             speed, config.amplitude, config.period, actual));
     }
     if ((speed == 0.0) != (config.amplitude == 0.0) && !period_given)
         throw_wrong_call(fmt::format(
-            "--speed is {}, but with --amplitude {} the container {}; give 0 for both or for "
+            "--speed is {}, but with --amplitude {} the container {}.\nhint: set both to 0, or "
             "neither.",
-            speed, config.amplitude, speed == 0.0 ? "must move" : "stands still"));
+            speed, config.amplitude, speed == 0.0 ? "moves" : "is at rest"));
     // The speed is proportional to amplitude / period.
     if (period_given) {
         RunConfig unit = config;
@@ -309,7 +313,7 @@ ParameterValue write_speed(const RunConfig& config) { return container_speed(con
 ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
 
 void read_path(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "polygon" && text != "circle") unreadable("path", text, "polygon or circle");
+    if (text != "polygon" && text != "circle") reject_text("path", text, "polygon or circle");
     config.path = text == "circle" ? PathShape::circle : PathShape::polygon;
 }
 
@@ -318,10 +322,10 @@ ParameterValue write_path(const RunConfig& config) {
 }
 
 void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    const std::int64_t sides = whole_from("sides", text);
+    const std::int64_t sides = whole_number_from("sides", text);
     if (config.path == PathShape::circle)
         throw_wrong_call(fmt::format(
-            "--sides is {}, but --path circle has no sides; leave one of the two away.", sides));
+            "--sides is {}, but --path circle has no sides.\nhint: omit one of the two.", sides));
     config.sides = clamped(sides);
 }
 
@@ -337,9 +341,9 @@ ParameterValue write_events(const RunConfig& config) {
 void read_periods(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     if (const auto events = given.find("events"); events != given.end())
         throw_wrong_call(fmt::format(
-            "--events {} and --periods {} both give the length of the run; leave one away.",
+            "--events {} and --periods {} both set the length of the run.\nhint: omit one of them.",
             events->second, text));
-    config.periods = whole_from("periods", text);
+    config.periods = whole_number_from("periods", text);
 }
 
 void read_warmup(std::string_view text, const ParameterTexts&, RunConfig& config) {
@@ -347,7 +351,7 @@ void read_warmup(std::string_view text, const ParameterTexts&, RunConfig& config
     if (config.warmup_found) return;
     config.warmup = read_whole_number(text);
     if (!config.warmup)
-        unreadable("warmup", text, "a whole number of swirls, for example 20, or auto");
+        reject_text("warmup", text, "a whole number of periods, for example 20, or auto");
 }
 
 ParameterValue write_warmup(const RunConfig& config) {
@@ -365,7 +369,7 @@ const Parameter* find_parameter(std::string_view name) {
 std::vector<std::string> parameter_names() {
     std::vector<std::string> names;
     for (const Parameter& p : run_parameters)
-        if (p.can_be_given()) names.emplace_back(p.name);
+        if (p.is_settable()) names.emplace_back(p.name);
     return names;
 }
 
@@ -374,27 +378,30 @@ ParameterValue value_of(const Parameter& p, const RunConfig& config) {
 }
 
 std::string default_of(const Parameter& p) {
-    return p.by_default ? p.by_default : in_few_characters(as_text(value_of(p, {})));
+    if (p.default_text) return p.default_text;
+    const ParameterValue written = value_of(p, {});
+    const bool is_unset = std::holds_alternative<std::monostate>(written);
+    return shortened(as_text(is_unset ? member_value(p, {}) : written));
 }
 
 RunConfig resolve(const ParameterTexts& given) {
-    const ParameterTexts texts = known_texts(given);
+    const ParameterTexts texts = normalized(given);
     RunConfig config;
     const auto read_all = [&](ReadingOrder order) {
         for (const Parameter& p : run_parameters) {
             if (p.order != order) continue;
             if (const auto found = texts.find(p.name); found != texts.end())
                 read_parameter(p, found->second, texts, config);
-            else if (order == ReadingOrder::then && p.by_default)
-                read_parameter(p, p.by_default, texts, config);  // in terms of what was given
+            else if (order == ReadingOrder::second && p.default_text)
+                read_parameter(p, p.default_text, texts, config);  // depends on other parameters
         }
     };
     read_all(ReadingOrder::first);
-    read_all(ReadingOrder::then);
-    // What the last ones are made of must be sound.
-    if (const auto wrong = problem(config)) throw_wrong_call(*wrong);
+    read_all(ReadingOrder::second);
+    // The last pass computes with these values, so they must be valid.
+    if (const auto message = problem(config)) throw_wrong_call(*message);
     read_all(ReadingOrder::last);
-    if (const auto wrong = problem(config)) throw_wrong_call(*wrong);
+    if (const auto message = problem(config)) throw_wrong_call(*message);
     return config;
 }
 
@@ -402,35 +409,35 @@ ParameterTexts texts_of(const RunConfig& config) {
     ParameterTexts texts;
     for (const Parameter& p : run_parameters) {
         const ParameterValue value = value_of(p, config);
-        if (p.follows || std::holds_alternative<std::monostate>(value)) continue;
-        texts[p.name] = p.spell ? p.spell(config) : as_text(value);
+        if (p.is_derived || std::holds_alternative<std::monostate>(value)) continue;
+        texts[p.name] = p.format ? p.format(config) : as_text(value);
     }
     return texts;
 }
 
-ParameterTexts overridden(ParameterTexts file, const ParameterTexts& by_hand) {
-    // A preset takes the place of all that it sets, and of what is made of that.
-    if (by_hand.contains("preset"))
+ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_line) {
+    // A preset replaces all parameters that it sets, and those that follow from them.
+    if (command_line.contains("preset"))
         for (const char* name :
              {"body", "inertia", "floor", "floor_friction", "gravity", "mu", "mu_disc", "mu_wall",
               "restitution", "container_radius", "amplitude", "period", "speed"})
             file.erase(name);
-    for (const auto& [name, text] : by_hand)
+    for (const auto& [name, text] : command_line)
         if (const Parameter* const p = find_parameter(name))
-            for (const char* other : p->instead_of)
+            for (const char* other : p->overrides)
                 if (other) file.erase(other);
-    for (const auto& [name, text] : by_hand) file.insert_or_assign(name, text);
-    leave_two_of_three(file, by_hand);
-    leave_path_or_sides(file, by_hand);
+    for (const auto& [name, text] : command_line) file.insert_or_assign(name, text);
+    keep_two_of_three(file, command_line);
+    keep_path_or_sides(file, command_line);
     return file;
 }
 
 std::optional<std::string> out_of_range(const RunConfig& config) {
-    // What others are made of is named first: a mass of 0, not the inertia that follows.
-    for (const ReadingOrder order : {ReadingOrder::first, ReadingOrder::then, ReadingOrder::last})
+    // Reports the cause and not its consequence: a mass of 0, not the inertia computed from it.
+    for (const ReadingOrder order : {ReadingOrder::first, ReadingOrder::second, ReadingOrder::last})
         for (const Parameter& p : run_parameters)
             if (p.order == order)
-                if (auto wrong = out_of_range(p, config)) return wrong;
+                if (auto message = out_of_range(p, config)) return message;
     return {};
 }
 

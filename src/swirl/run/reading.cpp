@@ -33,8 +33,8 @@ std::optional<double> read_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), last, value);
     if (error != std::errc() || end != last || !std::isfinite(value)) return {};
 #else
-    // clang's library for WebAssembly reads whole numbers only. strtod() would take more: spaces, a
-    // plus sign, hexadecimal digits.
+    // clang's library for WebAssembly has from_chars() only for integers. strtod() accepts more than
+    // a number: leading spaces, a plus sign, hexadecimal digits.
     if (text.empty() || text.find_first_not_of("0123456789.eE+-") != text.npos || text[0] == '+')
         return {};
     const std::string copy(text);
@@ -67,12 +67,12 @@ std::string option_name(std::string_view name) {
     return "--" + option;
 }
 
-std::optional<std::string> nearest_name(std::string_view wrong,
+std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names) {
     std::optional<std::string> best;
-    std::size_t minimum = std::max<std::size_t>(2, wrong.size() / 3) + 1;
+    std::size_t minimum = std::max<std::size_t>(2, unknown.size() / 3) + 1;
     for (const std::string& name : names) {
-        const std::size_t distance = edit_distance(wrong, name);
+        const std::size_t distance = edit_distance(unknown, name);
         if (distance >= minimum) continue;
         minimum = distance;
         best = name;

@@ -176,7 +176,7 @@ class Recorder {
             if (!file.empty() && !files_.overwrite) reject_foreign_recording(file, run_name_);
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
         const InitialState scene = make_initial_state(config_, stop);
-        const Snapshot first = Simulation(scene, {}, asked_tuning(stop)).snapshot();
+        const Snapshot first = Simulation(scene, {}, selected_tuning(stop)).snapshot();
         if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
         if (!files_.trajectory.empty())
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);

@@ -16,30 +16,29 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
-/// On the polygon, whose corners give more than they take.
-bool gains_energy_for_ever(const RunConfig& c) {
+/// On the polygon, the vertices of the path add energy on average.
+bool energy_grows_without_bound(const RunConfig& c) {
     return c.conserves_energy() && c.amplitude > 0.0 && c.path == PathShape::polygon;
 }
 
-std::string energy_sentence(const RunResult& r) {
+std::string energy_warning(const RunResult& r) {
     const double growth = r.invariant - r.invariant_at_start;
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
     if (r.config.path == PathShape::circle)
         return fmt::format(
-            "Without friction on the true circle K − ΩL is conserved: it was {:.6g} at the start "
-            "and "
+            "without friction, K − ΩL is conserved on the circle: it was {:.6g} at the start and "
             "changed by {:.1e}.",
             r.invariant_at_start, growth);
     return fmt::format(
-        "Without friction the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
-        "{:.1f} periods, {:.1f} times as much. K − ΩL, which a true circle (--path circle) would "
-        "conserve, grew by {:.4g}, or {:.3g} per period; what depends on how fast the discs are "
-        "has no steady state.",
+        "without friction, the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
+        "{:.1f} periods, by a factor of {:.1f}. K − ΩL, which is conserved on a circle (--path "
+        "circle), grew by {:.4g}, or {:.3g} per period. Quantities that depend on the speed of the "
+        "discs have no steady state.",
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
-/// "drifts from 0.33 to 1.00"; empty for a steady one.
-std::string found_in(const SteadyState& steady) {
+/// "drifts from 0.33 to 1.00"; empty for a steady series.
+std::string finding(const SteadyState& steady) {
     const auto level = [](double value) { return with_minus(fmt::format("{:.3g}", value)); };
     const MeanChange& change = steady.change;
     switch (steady.verdict) {
@@ -59,56 +58,67 @@ std::string found_in(const SteadyState& steady) {
     return {};
 }
 
-std::string not_steady_sentence(const RunResult& r) {
+std::string not_steady_warning(const RunResult& r) {
     const bool only_switches = r.steady_state() == SteadyState::Verdict::switching;
-    return fmt::format("Not steady: {}. {}", steady_state_found(r),
-                       only_switches ? "The average mixes both states. Use a longer run, or more "
-                                       "seeds."
-                                     : "Use a longer --warmup and a longer run.");
+    return fmt::format("not steady: {}.{}", steady_state_found(r),
+                       only_switches
+                           ? " The average mixes both states.\nhint: use a longer run, or "
+                             "more seeds."
+                           : "\nhint: use a longer --warmup and a longer run.");
 }
 
-std::string no_swirl_sentence(const RunResult& r) {
-    return fmt::format("The run made {:.2f} swirls{}; averages are over whole ones{}.", r.periods,
+std::string no_period_warning(const RunResult& r) {
+    return fmt::format("the run covers {:.2f} periods{}; averages are over whole periods.{}",
+                       r.periods,
                        r.warmup > 0 ? fmt::format(", of which {} are warm-up", r.warmup) : "",
-                       r.complete ? ", and more --events would be right" : "");
+                       r.complete ? "\nhint: use more --events." : "");
 }
 
-/// Nothing to be said of a single disc, which has no rotation about itself.
-std::string too_short_sentence(const RunResult& r) {
+std::string too_short_warning(const RunResult& r) {
     return fmt::format(
-        "Too short to tell whether it is steady: {} periods after the warm-up, and it takes {}.",
+        "steady state not verified: {} periods after the warm-up; the test needs {}.",
         r.rotation.by_event.blocks, min_blocks_of_a_steady_state);
 }
 
-/// More than roundings of a place make: some 10⁻¹⁴ in the experiment's dish, 10⁻¹² at most.
-constexpr double sunk = 1e-12;
+/// In disc radii. Rounding errors of positions are about 10⁻¹⁴ in the experiment's container and at
+/// most 10⁻¹²; a larger overlap grew with the number of bounces.
+constexpr double max_rounding_overlap = 1e-12;
 
-bool sinks(const RunResult& r) {
+bool sinks_into_the_wall(const RunResult& r) {
     const RunConfig& c = r.config;
-    return c.floor && c.contact_duration == 0.0 && r.max_overlap > sunk * c.radius;
+    return c.floor && c.contact_duration == 0.0 && r.max_overlap > max_rounding_overlap * c.radius;
 }
 
-std::string sunk_sentence(const RunResult& r) {
+std::string sinking_warning(const RunResult& r) {
     return fmt::format(
-        "Without a contact duration {}s that the floor drives along the wall hop on it ever lower, "
-        "and "
-        "sink into it by a rounding error with each hop: {:.1e} so far. A --contact-duration, "
-        "1e-3 for example, would be right.",
+        "without a contact duration, {}s that the floor drives along the wall bounce ever lower "
+        "and sink into it by a rounding error per bounce: {:.1e} so far.\nhint: use a "
+        "--contact-duration, such as 1e-3.",
         body_word(r.config), r.max_overlap);
 }
 
 std::string steady_text(const RunResult& r) {
-    const bool is_energy_alone =
-        r.steady_state() == SteadyState::Verdict::steady && gains_energy_for_ever(r.config);
-    const std::string found =
-        is_energy_alone ? "rotation and spins are, the energy is not" : verdict(r.steady_state());
+    const bool only_energy_grows =
+        r.steady_state() == SteadyState::Verdict::steady && energy_grows_without_bound(r.config);
+    const std::string text =
+        only_energy_grows ? "rotation and spins steady, energy growing" : verdict(r.steady_state());
     const MeanChange &rotation = r.steady.change, &spin = r.steady_spin.change;
-    if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return found;
+    if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return text;
     return fmt::format(
         "{}; largest change {:.1f} standard errors (limit {:.1f}), of the spins {:.1f} (limit "
-        "{:.1f}); {:.2g} % of steady runs pass a limit",
-        found, std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
+        "{:.1f}); {:.2g} % of steady runs exceed a limit",
+        text, std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
+}
+
+/// The events at which a particle changes its motion on the floor; empty if there are none.
+std::string floor_events_text(const RunResult& r) {
+    if (r.events.begins_to_roll == 0) return "";
+    const char* const transition = r.config.shape() == Shape::coin     ? "stops on the floor"
+                                   : r.config.rolling_resistance > 0.0 ? "starts of rolling and "
+                                                                         "stops on the floor"
+                                                                       : "starts of rolling";
+    return fmt::format(", {} {}", with_commas(r.events.begins_to_roll), transition);
 }
 
 }  // namespace
@@ -124,10 +134,10 @@ std::string with_commas(std::uint64_t number) {
 }
 
 std::string with_error(double mean, double error) {
-    if (std::isnan(mean)) return "not known";
+    if (std::isnan(mean)) return "n/a";
     if (std::isnan(error) || error <= 0.0) return with_minus(fmt::format("{:.3g}", mean));
     if (error < 1e-9) return with_minus(fmt::format("{:.2g} ± {:.1g}", mean, error));
-    // Two digits of an error that begins with 1, one of any other.
+    // Two digits for an error that begins with 1, one for any other.
     const double exponent = std::floor(std::log10(error));
     const double leading = error / std::pow(10.0, exponent);
     const int digits = static_cast<int>((leading < 1.95 ? 1.0 : 0.0) - exponent);
@@ -135,11 +145,11 @@ std::string with_error(double mean, double error) {
     return with_minus(fmt::format("{:.{}f} ± {:.{}f}", mean, decimals, error, decimals));
 }
 
-std::string sense_of_rotation(const Estimate& e) {
+std::string rotation_verb(const Estimate& e) {
     if (std::isnan(e.mean)) return "have no rotation about their own centre";
     constexpr double rounding = 1e-12;
-    const double uncertain = std::isnan(e.error) ? rounding : std::max(2.0 * e.error, rounding);
-    if (std::fabs(e.mean) <= uncertain) return "stall";
+    const double resolution = std::isnan(e.error) ? rounding : std::max(2.0 * e.error, rounding);
+    if (std::fabs(e.mean) <= resolution) return "stall";
     return e.mean > 0.0 ? "rotate" : "counterrotate";
 }
 
@@ -148,12 +158,12 @@ std::string headline(const RunResult& r) {
     const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
-    if (!r.has_whole_swirl())
-        return fmt::format("{} {}s made no whole swirl{}, so nothing is averaged.", r.config.discs,
-                           body, r.warmup > 0 ? " after the warm-up" : "");
-    const std::string who = fmt::format("{} {}s {}", r.config.discs, body, sense_of_rotation(e));
-    if (std::isnan(e.mean)) return who + ".";
-    return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", who, with_error(e),
+    if (!r.has_whole_period())
+        return fmt::format("{} {}s completed no whole period{}, so there are no averages.",
+                           r.config.discs, body, r.warmup > 0 ? " after the warm-up" : "");
+    const std::string motion = fmt::format("{} {}s {}", r.config.discs, body, rotation_verb(e));
+    if (std::isnan(e.mean)) return motion + ".";
+    return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", motion, with_error(e),
                        with_error(r.rotation.by_time));
 }
 
@@ -175,10 +185,10 @@ const char* verdict(SteadyState::Verdict verdict) {
 
 std::string steady_state_found(const RunResult& r) {
     std::string text;
-    if (const std::string found = found_in(r.steady); !found.empty())
-        text = "the rotation " + found;
-    if (const std::string found = found_in(r.steady_spin); !found.empty())
-        text += fmt::format("{}the mean spin {}", text.empty() ? "" : "; ", found);
+    if (const std::string rotation = finding(r.steady); !rotation.empty())
+        text = "the rotation " + rotation;
+    if (const std::string spin = finding(r.steady_spin); !spin.empty())
+        text += fmt::format("{}the mean spin {}", text.empty() ? "" : "; ", spin);
     return text;
 }
 
@@ -187,7 +197,7 @@ std::string report(const RunResult& r) {
     const auto line = [&](std::string_view name, const std::string& value) {
         text += fmt::format("  {:<12}{}\n", name, value);
     };
-    if (r.config.discs > 1 && r.has_whole_swirl()) {
+    if (r.config.discs > 1 && r.has_whole_period()) {
         line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
                                   with_error(r.rotation.rigid_by_time)));
         line("errors",
@@ -195,19 +205,12 @@ std::string report(const RunResult& r) {
                          r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
     const char* const body = body_word(r.config);
-    line("events",
-         fmt::format("{}: {} {}–{}, {} {}–wall, {} corners of the path{}",
-                     with_commas(r.events.total()), with_commas(r.events.disc_disc), body, body,
-                     with_commas(r.events.disc_wall), body, with_commas(r.events.path_vertex),
-                     r.events.begins_to_roll == 0
-                         ? ""
-                         : fmt::format(", {} times one {}", with_commas(r.events.begins_to_roll),
-                                       r.config.shape() == Shape::coin ? "stops on the floor"
-                                       : r.config.rolling_resistance > 0.0
-                                           ? "begins to roll or stops on the floor"
-                                           : "begins to roll")));
+    line("events", fmt::format("{}: {} {}–{}, {} {}–wall, {} vertices of the path{}",
+                               with_commas(r.events.total()), with_commas(r.events.disc_disc), body,
+                               body, with_commas(r.events.disc_wall), body,
+                               with_commas(r.events.path_vertex), floor_events_text(r)));
     line("periods",
-         fmt::format("{:.1f}; the first {} are warm-up{} and left out of the averages", r.periods,
+         fmt::format("{:.1f}; the first {} are warm-up{} and excluded from the averages", r.periods,
                      r.warmup, r.config.warmup_found ? " (found automatically)" : ""));
     line("steady", steady_text(r));
     line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
@@ -215,25 +218,29 @@ std::string report(const RunResult& r) {
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
     line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds,
                              r.events_per_second() / 1e6, r.simd));
-    for (const std::string& warning : warnings(r)) text += warning + "\n";
+    return text;
+}
+
+std::string warning_lines(const RunResult& r) {
+    std::string text;
+    for (const std::string& warning : warnings(r)) text += "warning: " + warning + "\n";
     return text;
 }
 
 std::vector<std::string> warnings(const RunResult& r) {
     std::vector<std::string> all;
     if (!r.complete)
-        all.push_back(
-            fmt::format("Incomplete: stopped after {:.1f} periods and {} events, before its end.",
-                        r.periods, with_commas(r.events.total())));
-    if (!r.has_whole_swirl() && r.config.amplitude > 0.0) all.push_back(no_swirl_sentence(r));
+        all.push_back(fmt::format("incomplete: stopped after {:.1f} periods and {} events.",
+                                  r.periods, with_commas(r.events.total())));
+    if (!r.has_whole_period() && r.config.amplitude > 0.0) all.push_back(no_period_warning(r));
     if (r.config.conserves_energy() && r.config.amplitude > 0.0)
-        all.push_back(energy_sentence(r));
+        all.push_back(energy_warning(r));
     else if (!steady_state_found(r).empty())
-        all.push_back(not_steady_sentence(r));
+        all.push_back(not_steady_warning(r));
     else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
-             r.has_whole_swirl())
-        all.push_back(too_short_sentence(r));
-    if (sinks(r)) all.push_back(sunk_sentence(r));
+             r.has_whole_period())
+        all.push_back(too_short_warning(r));
+    if (sinks_into_the_wall(r)) all.push_back(sinking_warning(r));
     return all;
 }
 

@@ -1,4 +1,4 @@
-// A run's result in words, for the terminal.
+// A run's result as text for the terminal.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace swirl {
 
-/// "−0.037 ± 0.001": as many digits as the error supports; without an error, three.
+/// "−0.037 ± 0.001": as many digits as the error supports; three without an error; "n/a" for NaN.
 std::string with_error(double mean, double error);
 
 /// "1,000,000"
 std::string with_commas(std::uint64_t number);
 
-/// "rotate", "counterrotate", or "stall" when the mean is within two standard errors of zero.
-std::string sense_of_rotation(const Estimate& rotation);
+/// "rotate", "counterrotate", or "stall" if the mean is within two standard errors of zero.
+std::string rotation_verb(const Estimate& rotation);
 
 /// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line.
 std::string headline(const RunResult& result);
@@ -23,15 +23,17 @@ std::string headline(const RunResult& result);
 /// "steady", "drifting", "jumping", "switching" or "too short to tell".
 const char* verdict(SteadyState::Verdict verdict);
 
-/// What the tests of the steady state found: "the rotation jumps at period 812 from 0.72 to 1.00";
-/// empty if they found nothing.
+/// The findings of the steady-state tests: "the rotation jumps at period 812 from 0.72 to 1.00".
+/// Empty if there are none.
 std::string steady_state_found(const RunResult& result);
 
-/// The headline and what else there is to say, a few lines.
+/// The headline and a few lines of details, without the warnings.
 std::string report(const RunResult& result);
 
-/// What a reader must know before believing the numbers: stopped early, not steady, energy growing
-/// without bound. Full sentences; empty for a sound run.
+/// Reasons to distrust the numbers: stopped early, not steady, energy growing without bound. A
+/// warning may have a second line "hint: …". Empty if there are none.
 std::vector<std::string> warnings(const RunResult& result);
+/// The same as lines "warning: …".
+std::string warning_lines(const RunResult& result);
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// What a run has found, as every way to it tells it: the terminal, JSON, Python, a page.
+// The result of a run, as reported in the terminal, in JSON, in Python and on the page.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,31 @@
 
 namespace swirl {
 
-/// Of a result as JSON, its key `format`. Results without it are in format 1.
+/// The key `format` of a result in JSON. Results without this key are in format 1.
 inline constexpr int result_format = 1;
 
 struct RunResult {
     RunConfig config;
-    bool complete = false;      // false: stopped before its end
-    EventCounts events;         // all of them, warm-up included
-    double periods = 0.0;       // swirls simulated, warm-up included
-    std::int64_t warmup = 0;    // whole swirls left out
-    EventCounts warmup_events;  // the events in them
-    /// In units of Ω, lab frame, over whole swirls; by_event is the paper's average. Without a
-    /// whole swirl after the warm-up nothing is averaged, and all is NaN.
+    bool complete = false;      // false: stopped early
+    EventCounts events;         // including the warm-up
+    double periods = 0.0;       // including the warm-up
+    std::int64_t warmup = 0;    // whole periods excluded from the averages
+    EventCounts warmup_events;  // events in the warm-up
+    /// In units of Ω, in the lab frame, over whole periods; by_event is the paper's average. All
+    /// values are NaN if there is no whole period after the warm-up.
     RotationEstimates rotation;
     SteadyState steady;        // of the rotation by event, after the warm-up
-    SteadyState steady_spin;   // of the mean spin of the discs, which may take much longer
-    double max_overlap = 0.0;  // largest overlap met at a contact: a rounding error
-    /// Kinetic energy in the lab frame, spins included: at the start, and at the end.
+    SteadyState steady_spin;   // of the mean spin, which may relax much more slowly
+    double max_overlap = 0.0;  // largest overlap at a contact: a rounding error
+    /// Kinetic energy in the lab frame, including spins, at the start and at the end.
     double energy_at_start = 0.0, energy = 0.0;
-    /// K − ΩL, L about the swirl centre, spins included: conserved on the exact circle when there
-    /// is no friction (docs/physics.md).
+    /// K − ΩL (run/budget.hpp).
     double invariant_at_start = 0.0, invariant = 0.0;
     std::uint64_t state_hash = 0;
-    const char* simd = "";  // the vector instructions of the event loop
+    const char* simd = "";  // vector instructions of the event loop
     double seconds = 0.0;
 
-    /// Steady if both are; otherwise the worse of the two.
+    /// Steady if rotation and spin are; otherwise the worse of the two verdicts.
     SteadyState::Verdict steady_state() const {
         using Verdict = SteadyState::Verdict;
         for (const Verdict v :
@@ -44,8 +43,8 @@ struct RunResult {
             if (steady.verdict == v || steady_spin.verdict == v) return v;
         return Verdict::steady;
     }
-    /// The numbers that every run has, as rows: visit(group, row). JSON, the page and the documents
-    /// have them from here; a group is an object there, and what belongs to none stands beside it.
+    /// Calls visit(group, row) for every number that each run has. JSON, the page and
+    /// docs/measurements.md use it; a group is an object in JSON, rows without group are plain keys.
     template <class Visitor>
     void report(Visitor&& visit) const {
         const auto number = [&](const char* group, const char* name, const char* unit,
@@ -54,12 +53,12 @@ struct RunResult {
         };
         rotation.report([&](const ReportRow& row) { visit("rotation", row); });
         number("", "events_per_rotation_sample", "1",
-               "of the averages over events: 1 up to 128 discs, beyond that their number over 64",
+               "of averages by event: 1 for up to 128 discs, otherwise their number divided by 64",
                static_cast<double>(
                    events_per_rotation_sample(static_cast<std::size_t>(config.discs))));
         number("steady_state", "change", "1",
                "most likely change of the rotation, in standard errors", steady.change.size);
-        number("steady_state", "change_limit", "1", "size that may be chance",
+        number("steady_state", "change_limit", "1", "limit of a change that may be random",
                steady.change.max_size);
         number("steady_state", "change_period", "1", "period at which the rotation changes",
                steady.period);
@@ -75,19 +74,19 @@ struct RunResult {
                static_cast<double>(states.changes));
         number("steady_state", "change_of_the_spin", "1",
                "most likely change of the mean spin, in standard errors", steady_spin.change.size);
-        number("steady_state", "change_limit_of_the_spin", "1", "size that may be chance",
-               steady_spin.change.max_size);
-        number("", "max_overlap", "r", "the largest overlap met at a contact: a rounding error",
+        number("steady_state", "change_limit_of_the_spin", "1",
+               "limit of a change that may be random", steady_spin.change.max_size);
+        number("", "max_overlap", "r", "largest overlap at a contact: a rounding error",
                max_overlap);
-        number("", "energy", "m v²", "kinetic energy in the lab frame at the end, spins included",
+        number("", "energy", "m v²", "kinetic energy in the lab frame at the end, including spins",
                energy);
-        number("", "energy_at_start", "m v²", "the same at the beginning", energy_at_start);
+        number("", "energy_at_start", "m v²", "kinetic energy at the start", energy_at_start);
         number("", "invariant", "m v²", "K − ΩL, conserved on the circle without friction",
                invariant);
-        number("", "invariant_at_start", "m v²", "the same at the beginning", invariant_at_start);
+        number("", "invariant_at_start", "m v²", "K − ΩL at the start", invariant_at_start);
     }
 
-    bool has_whole_swirl() const { return rotation.by_event.blocks > 0; }
+    bool has_whole_period() const { return rotation.by_event.blocks > 0; }
     double events_per_second() const {
         return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
     }

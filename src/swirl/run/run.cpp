@@ -18,16 +18,17 @@ namespace {
 
 constexpr std::chrono::milliseconds progress_interval(100);
 
-/// A trajectory between two events.
-struct Moment {
+/// The state of a trajectory between two events.
+struct SavedTrajectory {
     Progress progress;
     std::vector<Disc> discs;
 
-    static Moment of(const Simulation& simulation) {
-        Moment m{simulation.progress(), {}};
-        m.discs.reserve(simulation.size());
-        for (std::size_t i = 0; i < simulation.size(); ++i) m.discs.push_back(simulation.disc(i));
-        return m;
+    static SavedTrajectory of(const Simulation& simulation) {
+        SavedTrajectory saved{simulation.progress(), {}};
+        saved.discs.reserve(simulation.size());
+        for (std::size_t i = 0; i < simulation.size(); ++i)
+            saved.discs.push_back(simulation.disc(i));
+        return saved;
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
@@ -36,35 +37,35 @@ struct Moment {
     }
 };
 
-bool are_the_same_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
+bool have_equal_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Disc& x, const Disc& y) {
         return x.radius == y.radius && x.mass == y.mass && x.inertia == y.inertia;
     });
 }
 
-/// The run at its beginning, or where the text of a state says.
+/// The run in its initial state, or in the state to resume from.
 BareRun begin(const RunConfig& config, const RunControl& control) {
-    InitialState scene = make_initial_state(config, control.stop);
-    Moment moment;
+    InitialState initial = make_initial_state(config, control.stop);
+    SavedTrajectory saved;
     if (control.resume) {
         StateReader read(*control.resume);
-        read(moment);
-        if (!are_the_same_bodies(moment.discs, scene.discs))
-            throw FileError("The saved state is that of another run.");
-        scene.discs = moment.discs;
-        if (const char* const what = impossible_to_continue(scene, moment.progress))
-            throw FileError(
-                fmt::format("The saved state contradicts itself: it says that {}.", what));
+        read(saved);
+        if (!have_equal_bodies(saved.discs, initial.discs))
+            throw FileError("the saved state belongs to another run.");
+        initial.discs = saved.discs;
+        if (const char* const what = impossible_to_continue(initial, saved.progress))
+            throw FileError(fmt::format("the saved state is inconsistent: it says that {}.", what));
     }
-    BareRun run(config, scene, control.observation, moment.progress, asked_tuning(control.stop));
+    BareRun run(config, initial, control.observation, saved.progress,
+                selected_tuning(control.stop));
     if (control.stop && control.stop->load())
         throw Interrupted(control.resume
-                              ? "Stopped before the run went on; its checkpoint is as it was."
-                              : "Stopped before the first event.");
+                              ? "stopped before the run continued; its checkpoint is unchanged."
+                              : "stopped before the first event.");
     return run;
 }
 
-void reject(const std::optional<std::string>& problem) {
+void throw_if(const std::optional<std::string>& problem) {
     if (problem) throw Failure(*problem);
 }
 
@@ -74,14 +75,14 @@ Run::Run(const RunConfig& config, RunControl control)
     : config_(config), control_(std::move(control)), run_(begin(config, control_)) {
     if (control_.orientations) run_.follow_orientations();
     if (!control_.resume) return;
-    StateReader kept(*control_.resume);
-    Moment moment;
-    kept(moment);
-    fields(kept);
-    kept.expect_end();
+    StateReader state(*control_.resume);
+    SavedTrajectory saved;
+    state(saved);
+    fields(state);
+    state.expect_end();
 }
 
-/// What the run has gathered beside the moment it has reached.
+/// The accumulated data, without the state of the trajectory.
 template <class Visitor>
 void Run::fields(Visitor&& visit) {
     visit(seconds_before_);
@@ -90,8 +91,8 @@ void Run::fields(Visitor&& visit) {
 }
 
 void Run::write(StateWriter& state) {
-    Moment moment = Moment::of(run_.simulation());
-    state(moment);
+    SavedTrajectory saved = SavedTrajectory::of(run_.simulation());
+    state(saved);
     const double before = std::exchange(seconds_before_, seconds());
     fields(state);
     seconds_before_ = before;
@@ -110,17 +111,17 @@ std::optional<std::string> Run::problem_with_length(const RunConfig& shorter) co
                                          : events > static_cast<std::uint64_t>(config_.events);
     if (is_past)
         return fmt::format(
-            "it has made {:.1f} swirls and {} events, which is more than is asked for",
+            "it has already simulated {:.1f} periods and {} events, more than requested",
             run_.periods(), events);
-    // The end of the warm-up may have followed from the length.
+    // The end of the warm-up may depend on the length of the run.
     if (!is_warm() || config_.warmup) return {};
     const double share = shorter.periods
                              ? double(run_.warmup()) / double(*shorter.periods)
                              : double(run_.warmup_events().total()) / double(shorter.events);
     if (config_.warmup_found ? share < 0.5 : run_.warmup() >= default_warmup) return {};
     return fmt::format(
-        "it was so short that only {} swirls were left out as warm-up, and a longer run leaves out "
-        "more; begin anew, or give --warmup in both calls",
+        "its warm-up was only {} periods because it was short, and a longer run has a longer "
+        "warm-up; start again, or use --warmup in both calls",
         run_.warmup());
 }
 
@@ -129,19 +130,19 @@ double Run::seconds() const {
 }
 
 bool Run::next_event() {
-    if (run_.is_time_to_look() && !look_up()) return false;
+    if (run_.is_time_to_look() && !check_progress()) return false;
     run_.find_event();
     return true;
 }
 
-/// Between two events, now and then: false if the run is complete, or is to stop.
-bool Run::look_up() {
+/// Called occasionally between two events. Returns false if the run is complete or must stop.
+bool Run::check_progress() {
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
     if (complete() || stopped) {
-        reject(run_.problem_at_the_end());
+        throw_if(run_.problem_at_the_end());
         return false;
     }
-    reject(run_.problem());
+    throw_if(run_.problem());
     const auto time = Clock::now();
     if (!control_.progress || time - last_report_ < progress_interval) return true;
     last_report_ = time;
@@ -152,8 +153,8 @@ bool Run::look_up() {
 RunResult Run::result() {
     if (!is_warm() && config_.warmup && complete())
         throw Failure(fmt::format(
-            "The run ended after {:.1f} periods, inside its warm-up of --warmup {} periods; "
-            "more --events or a shorter --warmup would be right.",
+            "the run ended after {:.1f} periods, within the warm-up of --warmup {} periods.\nhint: "
+            "use more --events or a shorter --warmup.",
             run_.periods(), *config_.warmup));
     RunResult result = run_.result();
     result.seconds = seconds();

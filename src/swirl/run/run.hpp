@@ -1,5 +1,5 @@
-// One simulation from its seed to its averages. Everything larger (figures, sweeps, the search for
-// a crossing) is made of runs.
+// One simulation from its seed to its averages. Figures, sweeps and the search for a crossing consist
+// of runs.
 #pragma once
 
 #include <atomic>
@@ -26,88 +26,87 @@ struct RunProgress {
     double periods;        // so far
 };
 
-/// What a caller may want while the run goes on. Everything is optional, and nothing of it changes
-/// a bit of the trajectory.
+/// Optional services during a run. None of them changes the trajectory: it stays bitwise identical.
 struct RunControl {
-    /// Set from outside (a signal) to end the run early; the result then says it is incomplete.
+    /// Set by the caller (a signal handler) to end the run early. The result is then incomplete.
     const std::atomic<bool>* stop = nullptr;
 
-    /// Called a few times a second at most.
+    /// Called at most once per `progress_interval` (run.cpp).
     std::function<void(const RunProgress&)> progress;
 
-    /// What is measured besides the rotation, from the end of the warm-up on. Must outlive the run;
-    /// what it has gathered is part of the state that is kept.
+    /// Further measurements, from the end of the warm-up on. Must outlive the run. Its data are part
+    /// of the saved state.
     Observation* observation = nullptr;
 
-    /// Follow how each sphere is turned (Snapshot::turned).
+    /// Whether to integrate the orientation of each sphere (Snapshot::turned).
     bool orientations = false;
 
-    /// What state() said of a run with the same configuration and names of an observation that has
-    /// seen nothing yet: the run goes on from there, bit for bit.
+    /// The state() of a run with the same configuration and the same measurements. The run continues
+    /// from it, bitwise identical; `observation` must be empty at that point.
     std::optional<std::string> resume;
 };
 
-/// A run for who wants to see what happens in it, event by event:
+/// A run that the caller advances event by event:
 ///
 ///     Run run(config);
 ///     SampleTimes times = run.sample_times(30);
 ///     while (run.next_event()) {
-///         while (run.next_sample(times)) look(run.snapshot());   // before the event
+///         while (run.next_sample(times)) inspect(run.snapshot());   // before the event
 ///         run.pass_event();
-///         look(run.event(), run.snapshot());                     // after it
+///         inspect(run.event(), run.snapshot());                     // after the event
 ///     }
 ///     RunResult result = run.result();
 ///
-/// Looking never changes a bit. What RunControl asks for is seen to on the way.
+/// Inspection never changes the trajectory. The services of RunControl run in next_event().
 class Run {
   public:
-    /// The configuration must have no problem(). Throws FileError if what it is to resume from is
-    /// not the state of such a run.
+    /// The configuration must have no problem(). Throws FileError if RunControl::resume is not the
+    /// state of such a run.
     explicit Run(const RunConfig& config, RunControl control = {});
 
-    /// Finds the event that comes next; false at the end of the run, or when it is to stop. Throws
-    /// Failure when time all but stands still.
+    /// Finds the next event. Returns false at the end of the run, or if `stop` is set. Throws Failure
+    /// in a collapse (run/collapse.hpp).
     bool next_event();
-    /// Puts the snapshot to the next of these moments, if one is left up to the event.
+    /// Advances the snapshot to the next of these times; false if there is none before the event.
     bool next_sample(SampleTimes& times) { return run_.next_sample(times); }
-    /// Puts the snapshot behind the event; once for each.
+    /// Advances the snapshot to just after the event. Call it once per event.
     void pass_event() { run_.pass_event(); }
 
     const Event& event() const { return run_.event(); }
-    /// Spheres brought up to date: an observer may take it that nobody is accelerated.
+    /// Spheres on a floor are synchronised, so observers can treat all velocities as constant.
     const Snapshot& snapshot() { return run_.snapshot(); }
 
-    /// k T / per_period from the beginning on; or k · interval, if that is above 0.
+    /// The times k T / per_period from the start of the run; or k · interval if that is above 0.
     SampleTimes sample_times(int per_period, double interval = 0.0) const {
         return {per_period, config_.period, interval};
     }
 
     bool complete() const { return run_.complete(); }
-    /// Whether the warm-up is over, and what is seen counts.
+    /// Whether the warm-up is over and averages include the present state.
     bool is_warm() const { return run_.is_warm(); }
-    /// A run that goes on from the state of a shorter one has the bits of a run that was as long
-    /// from the beginning, but not always its averages: says what they would lack.
+    /// A run resumed from a shorter run has the trajectory of an uninterrupted run of the same
+    /// length, but its averages may start later. Returns the reason if they would differ.
     std::optional<std::string> problem_with_length(const RunConfig& shorter) const;
-    /// Of the run as far as it has come.
+    /// The result up to now.
     RunResult result();
 
     /// For RunControl::resume; between pass_event() and next_event().
     std::string state();
-    /// The same, in its place among what else is kept of the run.
+    /// Writes the same into a larger state.
     void write(StateWriter& state);
 
   private:
     using Clock = std::chrono::steady_clock;
 
     double seconds() const;
-    bool look_up();
+    bool check_progress();
     template <class Visitor>
     void fields(Visitor&& visit);
 
     const RunConfig config_;
     const RunControl control_;
     BareRun run_;
-    double seconds_before_ = 0.0;  // by the runs that this one resumes
+    double seconds_before_ = 0.0;  // spent by the runs that this one resumes
     Clock::time_point begin_ = Clock::now(), last_report_ = begin_;
 };
 

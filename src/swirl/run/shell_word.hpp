@@ -1,4 +1,4 @@
-// A word of a command as a POSIX shell reads it back, whatever is in it.
+// Quotes a word of a command for a POSIX shell.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace swirl {
 
-/// Itself where a shell changes nothing in it, else in single quotes; a quote within stands outside
-/// of them.
+/// Returns the word itself if a shell does not change it, otherwise in single quotes. A quote inside
+/// the word is escaped outside of them.
 inline std::string shell_word(std::string_view word) {
-    constexpr std::string_view unchanged =
+    constexpr std::string_view safe =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(unchanged) == word.npos) return std::string(word);
+    if (!word.empty() && word.find_first_not_of(safe) == word.npos) return std::string(word);
     std::string text = "'";
     for (const char c : word) {
         if (c == '\'') text += "'\\'";

@@ -1,6 +1,5 @@
-// Which vector instructions a user asks for, by name. Every width gives the same bits, so this is
-// no parameter of a run. The environment variable SWIRL_SIMD asks for one, in every command and in
-// Python.
+// The vector instructions that the user selects by the environment variable SWIRL_SIMD. All widths
+// give bitwise identical results, so this is not a parameter of a run.
 #pragma once
 
 #include <array>
@@ -16,14 +15,14 @@ namespace swirl {
 inline constexpr std::array<std::pair<const char*, Width>, 3> named_widths{
     {{baseline_name, Width::baseline}, {"avx2", Width::avx2}, {"avx512", Width::avx512}}};
 
-/// The names of the widths that this processor has, separated by commas.
-std::string names_of_widths_here();
+/// The names of the widths that this processor supports, separated by commas.
+std::string supported_widths();
 
-/// The width that SWIRL_SIMD names; `best` where it is not set, is empty or says "auto". Throws
-/// WrongCall for another word, and for a width that this processor lacks.
-Width asked_width();
+/// The width that SWIRL_SIMD names; `best` if it is not set, empty or "auto". Throws UsageError for
+/// an unknown name, and for a width that this processor does not support.
+Width selected_width();
 
-/// How a simulation runs that a user asks for: with that width, until it is stopped.
-Tuning asked_tuning(const std::atomic<bool>* stop);
+/// Settings of a simulation with the selected width that ends early when `stop` is set.
+Tuning selected_tuning(const std::atomic<bool>* stop);
 
 }  // namespace swirl

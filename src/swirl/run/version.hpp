@@ -1,4 +1,4 @@
-// Which program this is: it goes into every result.
+// Version and build of the program, stored in every result.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace swirl {
 
 /// "0.1.0 (0123456789ab)": version and commit.
 std::string version();
-/// Compiler, its version, and the flags that decide about the numbers.
+/// Compiler, its version, and the flags that affect the results.
 std::string build_description();
 
-/// The number of the law by which such bodies move. Raise it where a change of the physics changes
-/// their trajectories: a checkpoint of another law is rejected.
+/// Version of the equations of motion of a body. Increase it when a change of the physics changes
+/// trajectories: checkpoints with another version are rejected.
 constexpr int law_of(Shape shape) {
     switch (shape) {
         case Shape::disc:
@@ -26,7 +26,7 @@ constexpr int law_of(Shape shape) {
     return 0;
 }
 
-/// What makes random numbers out of a seed (math/random.hpp).
+/// The random number generator (math/random.hpp).
 inline constexpr const char* random_generator = "SplitMix64";
 
 }  // namespace swirl

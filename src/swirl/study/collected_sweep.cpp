@@ -1,6 +1,7 @@
 #include "swirl/study/collected_sweep.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing_search.hpp"
+#include "swirl/study/disagreement.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -24,54 +26,55 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* remove_and_repeat = "remove it and run `swirl sweep` again.";
+
 struct PointResult {
-    bool there = false, has_whole_swirl = true;
-    /// The four estimators of the rotation, then the numbers that were measured.
+    bool exists = false, has_whole_period = true;
+    /// The four rotation rates, then the measured numbers.
     std::vector<MeasuredNumber> quantities;
     double energy = 0.0, periods = 0.0;
-    std::string state_hash, steadiness, version;
+    std::string state_hash, verdict, version;
 
-    /// The quantity of this name; nearly always it is the one in this place.
-    Estimate quantity(std::size_t place, const std::string& name) const {
-        if (place < quantities.size() && quantities[place].name == name)
-            return quantities[place].estimate;
+    /// Looks at `expected_index` first, where the quantity nearly always is.
+    Estimate quantity(std::size_t expected_index, const std::string& name) const {
+        if (expected_index < quantities.size() && quantities[expected_index].name == name)
+            return quantities[expected_index].estimate;
         for (const MeasuredNumber& other : quantities)
             if (other.name == name) return other.estimate;
         return {.mean = not_available, .error = not_available};
     }
 };
 
-/// Keeps what a table needs of a result; building the rest would take most of the time.
-bool needed(int depth, Json::parse_event_t event, Json& parsed) {
+/// JSON parser callback: skips the parts of a result that the table does not use, because building
+/// them would take most of the time.
+bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
     if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
     static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
                                                  "config",   "state_hash", "periods",     "energy",
                                                  "rotation", "measured",   "steady_state"};
     const auto& key = parsed.get_ref<const std::string&>();
-    if (depth == 3) return key != "blocks";  // of a rotation
+    if (depth == 3) return key != "blocks";  // of a rotation rate
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
-/// A result that was copied to another point, or into another sweep, would be believed otherwise.
+/// Detects a result that was copied to another point or into another sweep.
 void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
                                     std::size_t point) {
-    const bool ours = json.at("point") == point && json.at("replica") == plan.replica(point) &&
-                      json.at("config").at("seed") == plan.config(point).seed;
-    if (!ours)
-        throw FileError(fmt::format(
-            "'{}' is the result of another run than point {} of this sweep; remove it and call "
-            "`swirl sweep` again.",
-            file.string(), point));
+    const bool belongs = json.at("point") == point && json.at("replica") == plan.replica(point) &&
+                         json.at("config").at("seed") == plan.config(point).seed;
+    if (!belongs)
+        throw FileError(fmt::format("'{}' is not the result of point {} of this sweep.\nhint: {}",
+                                    file.string(), point, remove_and_repeat));
 }
 
 PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
     const fs::path file = result_file(folder, plan, point);
-    const Json json = Json::parse(read_regular_file(file), needed, false);
+    const Json json = Json::parse(read_regular_file(file), is_needed, false);
     if (json.is_discarded() || !json.is_object())
         throw FileError(
-            fmt::format("'{}' is damaged; remove it and call `swirl sweep` again.", file.string()));
+            fmt::format("'{}' is damaged.\nhint: {}", file.string(), remove_and_repeat));
     PointResult result;
-    result.there = true;
+    result.exists = true;
     result.quantities.reserve(rotation_rates.size());
     const auto number = [](const Json& value) {
         return value.is_null() ? not_available : value.get<double>();  // throws for a text
@@ -79,40 +82,40 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
     try {
         if (json.value("format", 0) != result_format)
             throw FileError(fmt::format(
-                "'{}' is in format {} of swirl {}, but this program reads format {}; remove it and "
-                "call `swirl sweep` again, or collect with the program that wrote it.",
+                "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
+                "collect "
+                "with the program that wrote it, or remove it and run `swirl sweep` again.",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
                 result_format));
         reject_result_of_another_point(file, json, plan, point);
         for (const auto& [name, words] : rotation_rates) {
-            const Json& found = json.at("rotation").at(name);
+            const Json& rate = json.at("rotation").at(name);
             result.quantities.push_back(
-                {name, Estimate{.mean = number(found.at("mean")),
-                                .error = number(found.at("error")),
-                                .effective_samples = number(found.at("effective_samples"))}});
+                {name, Estimate{.mean = number(rate.at("mean")),
+                                .error = number(rate.at("error")),
+                                .effective_samples = number(rate.at("effective_samples"))}});
         }
         if (const auto measured = json.find("measured"); measured != json.end())
             for (auto& quantity : measured_numbers(*measured))
                 result.quantities.push_back(std::move(quantity));
-        // A single disc never has a rotation.
-        result.has_whole_swirl = json.at("config").at("discs") == 1 ||
-                                 !std::isnan(result.quantities.front().estimate.mean);
+        // A single disc has no rotation.
+        result.has_whole_period = json.at("config").at("discs") == 1 ||
+                                  !std::isnan(result.quantities.front().estimate.mean);
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
         result.state_hash = json.at("state_hash").get<std::string>();
         result.version = json.at("version").get<std::string>();
-        result.steadiness = json.at("steady_state").at("verdict").get<std::string>();
+        result.verdict = json.at("steady_state").at("verdict").get<std::string>();
     } catch (const nlohmann::json::exception&) {
-        throw FileError(
-            fmt::format("'{}' lacks a part of a result, or holds a text where a number belongs; "
-                        "remove it and call `swirl sweep` again.",
-                        file.string()));
+        throw FileError(fmt::format(
+            "'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
+            file.string(), remove_and_repeat));
     }
     return result;
 }
 
-/// The places in the order of a table: that of the values as they were given, and where a plan has
-/// grown and an axis is of numbers, theirs.
+/// Indices of the combinations of parameters in the order of the table: that of the values as given.
+/// If the plan has grown, axes of numbers are sorted.
 std::vector<std::size_t> rows_of(const SweepPlan& plan) {
     std::vector<std::size_t> rows{0};
     for (const SweepAxis& axis : plan.axes) {
@@ -139,15 +142,15 @@ Table::Cell cell_of(const std::string& text) {
     return text;
 }
 
-/// Of all replicas together: steady if all are, otherwise the worst of them.
-std::string steadiness_of(const std::vector<const PointResult*>& replicas) {
-    for (const char* verdict : {"drifting", "jumping", "switching", "too short to tell"})
+/// Steady if all replicas are, otherwise the worst verdict.
+std::string worst_verdict(const std::vector<const PointResult*>& replicas) {
+    for (const char* candidate : {"drifting", "jumping", "switching", "too short to tell"})
         for (const PointResult* r : replicas)
-            if (r->steadiness == verdict) return verdict;
-    return replicas.front()->steadiness;
+            if (r->verdict == candidate) return candidate;
+    return replicas.front()->verdict;
 }
 
-/// By their places in the product of the axes.
+/// In the order of the product of the axes.
 std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<bool> done =
         numbered_files(part_of_sweep(folder, "results", plan), ".json", plan.points());
@@ -155,7 +158,7 @@ std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& p
     constexpr std::size_t batch = 256;
     parallel_for((results.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
-            if (done[p]) results[plan.place(p)] = read_result(folder, plan, p);
+            if (done[p]) results[plan.product_index(p)] = read_result(folder, plan, p);
     });
     return results;
 }
@@ -165,21 +168,21 @@ struct Quantity {
     bool is_direction = false;
 };
 
-/// What every run found: that of the first that is there.
+/// The quantities of the sweep: those of the first result.
 std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
     std::vector<Quantity> quantities;
-    const auto some =
-        std::find_if(results.begin(), results.end(), [](const PointResult& r) { return r.there; });
-    if (some == results.end()) {
+    const auto first =
+        std::find_if(results.begin(), results.end(), [](const PointResult& r) { return r.exists; });
+    if (first == results.end()) {
         for (const auto& [name, words] : rotation_rates) quantities.push_back({name});
         return quantities;
     }
-    for (const MeasuredNumber& number : some->quantities)
+    for (const MeasuredNumber& number : first->quantities)
         quantities.push_back({number.name, number.direction});
     return quantities;
 }
 
-/// How long the runs are is known of runs that were given so many swirls.
+/// Whether the length in periods is a parameter, so that it needs no further column.
 bool gives_periods(const SweepPlan& plan) {
     return std::any_of(plan.axes.begin(), plan.axes.end(),
                        [](const SweepAxis& axis) { return axis.name == "periods"; });
@@ -200,8 +203,8 @@ std::vector<std::string> columns_of(const SweepPlan& plan,
     return columns;
 }
 
-/// Of one replica its own hash.
-std::string hash_of(const std::vector<const PointResult*>& replicas) {
+/// The state hash of a single replica, or a checksum of those of all replicas.
+std::string combined_hash(const std::vector<const PointResult*>& replicas) {
     std::string hashes;
     for (const PointResult* r : replicas) hashes += r->state_hash;
     return replicas.size() == 1 ? hashes : fmt::format("{:016x}", checksum(hashes));
@@ -218,28 +221,29 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
         periods += r->periods / n;
         energy += r->energy / n;
     }
-    const std::string steadiness = steadiness_of(replicas);
-    collected.not_steady += steadiness == "steady" ? 0 : 1;
+    const std::string verdict = worst_verdict(replicas);
+    collected.not_steady += verdict == "steady" ? 0 : 1;
     row.emplace_back(std::int64_t(replicas.size()));
     if (!gives_periods(plan)) row.emplace_back(periods);
     row.emplace_back(energy);
-    row.emplace_back(steadiness);
-    const std::size_t place_of_scatter = row.size();
+    row.emplace_back(verdict);
+    const std::size_t scatter_column = row.size();
     row.emplace_back(not_available);
     collected.rows.push_back({texts});
     for (std::size_t k = 0; k < quantities.size(); ++k) {
         const auto& [name, is_direction] = quantities[k];
-        std::vector<Estimate> found;
-        for (const PointResult* r : replicas) found.push_back(r->quantity(k, name));
-        const Ensemble together = is_direction ? several_directions(found) : ensemble(found);
+        std::vector<Estimate> estimates;
+        for (const PointResult* r : replicas) estimates.push_back(r->quantity(k, name));
+        const Ensemble together =
+            is_direction ? several_directions(estimates) : ensemble(estimates);
         row.emplace_back(together.estimate.mean);
         row.emplace_back(together.estimate.error);
         if (k < rotation_rates.size()) collected.rows.back().rotation[k] = together.estimate;
         if (name != rotation_rates[default_rate].name) continue;
-        row[place_of_scatter] = together.scatter;
+        row[scatter_column] = together.scatter;
         collected.disagreeing += together.disagree ? 1 : 0;
     }
-    row.emplace_back(hash_of(replicas));
+    row.emplace_back(combined_hash(replicas));
     collected.table.add(std::move(row));
 }
 
@@ -250,22 +254,45 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<Quantity> quantities = quantities_of(results);
     CollectedSweep collected{.table = Table(columns_of(plan, quantities))};
     for (const PointResult& result : results) {
-        if (!result.there) continue;
-        if (!result.has_whole_swirl) ++collected.without_swirl;
+        if (!result.exists) continue;
+        if (!result.has_whole_period) ++collected.without_period;
         collected.versions.insert(result.version);
     }
-    std::vector<std::size_t> points(results.size());  // by place
-    for (std::size_t p = 0; p < points.size(); ++p) points[plan.place(p)] = p;
-    const auto replicas = static_cast<std::size_t>(plan.replicas);
+    std::vector<std::size_t> points(results.size());  // by product index
+    for (std::size_t p = 0; p < points.size(); ++p) points[plan.product_index(p)] = p;
+    const auto replica_count = static_cast<std::size_t>(plan.replicas);
     for (const std::size_t row : rows_of(plan)) {
-        const std::size_t first = row * replicas;
-        std::vector<const PointResult*> there;
-        for (std::size_t r = first; r < first + replicas; ++r)
-            if (results[r].there) there.push_back(&results[r]);
-        if (!there.empty())
-            add_row(collected, plan, plan.parameters(points[first]), quantities, there);
+        const std::size_t first = row * replica_count;
+        std::vector<const PointResult*> replicas;
+        for (std::size_t r = first; r < first + replica_count; ++r)
+            if (results[r].exists) replicas.push_back(&results[r]);
+        if (!replicas.empty())
+            add_row(collected, plan, plan.parameters(points[first]), quantities, replicas);
     }
     return collected;
+}
+
+std::vector<std::string> warnings(const CollectedSweep& collected) {
+    std::vector<std::string> all;
+    if (collected.disagreeing > 0)
+        all.push_back(
+            disagreement_warning(std::int64_t(collected.disagreeing),
+                                 fmt::format("{} rows (column scatter)", collected.rows.size())));
+    if (collected.without_period > 0)
+        all.push_back(
+            fmt::format("{} of the runs completed no whole period after the warm-up and "
+                        "have no averages.\nhint: use more --events.",
+                        collected.without_period));
+    if (collected.not_steady > 0)
+        all.push_back(
+            fmt::format("steady state not verified in {} of {} rows (column steady_state).",
+                        collected.not_steady, collected.rows.size()));
+    if (collected.versions.size() > 1)
+        all.push_back(
+            fmt::format("the runs were made by different versions of swirl ({}), whose "
+                        "trajectories may differ.\nhint: see CHANGELOG.md.",
+                        fmt::join(collected.versions, ", ")));
+    return all;
 }
 
 Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
@@ -274,8 +301,9 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
         if (axis.name != "discs") others.push_back(axis.name);
     if (others.size() == plan.axes.size())
         throw UsageError(
-            "The rotation is to change its sign with the number of discs, but --discs is no "
-            "parameter of this sweep.");
+            "the crossings are sign changes with the number of discs, but --discs is not a "
+            "parameter "
+            "of this sweep.");
     std::vector<ParameterTexts> groups;  // in the order of the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {

@@ -1,4 +1,4 @@
-// The table of a sweep: what its runs found, over the replicas.
+// The table of a sweep: the results of its runs, averaged over the replicas.
 #pragma once
 
 #include <array>
@@ -21,23 +21,25 @@ struct CollectedRow {
 struct CollectedSweep {
     Table table;
     std::vector<CollectedRow> rows = {};
-    std::size_t disagreeing = 0;  // whose replicas scatter more than their own errors can explain
-    std::size_t not_steady = 0;   // with a replica that is not steady or too short to tell
-    /// Runs without a whole swirl after the warm-up: there is nothing to average of them.
-    std::size_t without_swirl = 0;
+    std::size_t disagreeing = 0;     // rows whose replicas scatter more than their errors explain
+    std::size_t not_steady = 0;      // rows with a replica that is not steady or too short to test
+    std::size_t without_period = 0;  // runs without a whole period after the warm-up
     std::set<std::string> versions = {};  // of the programs that made the runs
 };
 
-/// One row for each combination of parameters: mean over the replicas that are done, and its
-/// standard error within and between them (statistics/replicates.hpp), of the rotation and of every
-/// number that was measured; whether all are steady; and the scatter of the replicas' rotation by
-/// time in units of their own errors. The same bytes whoever did the work. Throws FileError for a
-/// result that is damaged or of another version.
+/// One row for each combination of parameters: the mean over the finished replicas and its standard
+/// error within and between them (statistics/replicates.hpp), for the rotation and every measured
+/// number. Further columns: whether all replicas are steady, and the scatter of their rotation by
+/// time in units of their errors. The table does not depend on which process made which run. Throws
+/// FileError for a damaged result and for one of another version.
 CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// Where the rotation of a collected sweep changes its sign (statistics/zero_crossing.hpp), by time
-/// and by the other rates: a row for each combination of the parameters but the number of discs.
-/// Throws WrongCall if that is none of them.
+/// Reasons to distrust the table, as warnings.
+std::vector<std::string> warnings(const CollectedSweep& collected);
+
+/// The sign changes of the rotation in a collected sweep (statistics/zero_crossing.hpp), by time and
+/// by the other rates: a row for each combination of the parameters other than the number of discs.
+/// Throws UsageError if the number of discs is not a parameter of the sweep.
 Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected);
 
 }  // namespace swirl

@@ -9,13 +9,14 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/study/crossing_search.hpp"
+#include "swirl/study/disagreement.hpp"
 
 namespace swirl {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "2 runs failed and are left out: 1 of 3 at N = 47, 1 of 3 at N = 48. Why: …", or nothing.
+/// "2 runs failed and are excluded: 1 of 3 at N = 47, 1 of 3 at N = 48. …", or nothing.
 std::string failures_report(const CrossingSearch& search) {
     if (search.failures.empty()) return {};
     const std::int64_t failed = search.failed();
@@ -23,9 +24,9 @@ std::string failures_report(const CrossingSearch& search) {
     for (const FailedRuns& f : search.failures)
         where += fmt::format("{}{} of {} at N = {}", where.empty() ? "" : ", ", f.failed, f.runs,
                              f.discs);
-    return fmt::format(" {} run{} failed and {} left out: {}. Why{}: {}", failed,
+    return fmt::format(" {} run{} failed and {} excluded: {}. {}: {}", failed,
                        failed == 1 ? "" : "s", failed == 1 ? "is" : "are", where,
-                       failed == 1 ? "" : ", of the first", search.first_failure);
+                       failed == 1 ? "The error" : "The first error", search.first_failure);
 }
 
 Json change_json(const SignChange& change) {
@@ -35,11 +36,11 @@ Json change_json(const SignChange& change) {
             {"N_upper", change.upper},
             {"from", change.before},
             {"to", change.after},
-            {"sense", change.to_counterrotation ? "to counterrotation" : "to rotation"},
+            {"direction", change.to_counterrotation ? "to counterrotation" : "to rotation"},
             {"undetermined", change.between}};
 }
 
-/// "discs" would be a number of a run's discs.
+/// The key for a number of discs is N, because "discs" is a parameter of a run.
 Json crossing_json(const Crossing& c) {
     Json changes = Json::array();
     for (const SignChange& change : c.changes) changes.push_back(change_json(change));
@@ -69,63 +70,68 @@ Json points_json(const CrossingSearch& s) {
     return points;
 }
 
-/// Why the error is still above the tolerance.
-std::string why_it_stopped(const CrossingSettings& settings, const CrossingSearch& search) {
-    const Crossing& c = search.crossing();
+/// Why the search stopped with an error above the tolerance.
+std::string stop_reason(const CrossingSettings& settings, const CrossingSearch& search) {
     if (search.within_tolerance) return {};
-    if (!c.last()->resolved())
+    if (!search.crossing().last()->resolved())
         return fmt::format(
-            " The search stopped there, since no run in between could be made, and --tolerance {} "
-            "was not reached.",
+            " The search stopped here because every run in between failed; --tolerance {} was not "
+            "reached.",
             settings.tolerance);
     return fmt::format(
-        " The search stopped before --tolerance {} was reached: {} times it made runs twice as "
-        "long as the ones before. A larger --events would be right.",
+        " The search stopped before --tolerance {} was reached, after {} rounds of runs twice as "
+        "long as the ones before. Use more --events.",
         settings.tolerance, settings.rounds);
 }
 
-/// Points beyond N_c at which the curve may come back.
-std::string what_may_follow(const Crossing& c) {
+/// Points beyond N_c at which the curve may change its sign again.
+std::string later_change_note(const Crossing& c) {
     const std::vector<double> beyond = c.undetermined_after();
     if (beyond.empty()) return {};
-    return fmt::format(
-        " The sign is undetermined at N = {}: a later change of sign is not excluded.",
-        listed(beyond));
+    return fmt::format(" The sign is undetermined at N = {}: a later change of sign is possible.",
+                       listed(beyond));
+}
+
+/// "between N = 8 and 20 the lowest is ϖ/Ω = 0.21 ± 0.01 at N = 20"
+std::string evidence(const CrossingSearch& search, const RotationPoint& lowest) {
+    return fmt::format("between N = {:.0f} and {:.0f} the lowest is ϖ/Ω = {} at N = {:.0f}",
+                       search.points().front().discs, search.points().back().discs,
+                       with_error(lowest.mean, lowest.error), lowest.discs);
+}
+
+std::string crossing_sentence(const CrossingSettings& settings, const CrossingSearch& search) {
+    const Crossing& c = search.crossing();
+    const std::string rate = rotation_rates[search.rate].description;
+    const std::string remarks = stop_reason(settings, search) + later_change_note(c);
+    if (!c.last()->resolved())
+        return fmt::format("N_c is {} ({}).{}", crossing_words(c), rate, remarks);
+    return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}; {}).{}", crossing_words(c), c.lower,
+                       c.upper, rate, remarks);
 }
 
 std::string verdict_report(const CrossingSettings& settings, const CrossingSearch& search) {
     if (search.points().empty())
-        return fmt::format("Undecided: no run between N = {} and {} could be made.", settings.from,
+        return fmt::format("Undecided: every run between N = {} and {} failed.", settings.from,
                            settings.to);
     const Crossing& c = search.crossing();
-    const auto lowest = std::min_element(
+    const RotationPoint& lowest = *std::min_element(
         search.points().begin(), search.points().end(),
         [](const RotationPoint& a, const RotationPoint& b) { return a.mean < b.mean; });
-    const std::string evidence =
-        fmt::format("between N = {:.0f} and {:.0f} the lowest is ϖ/Ω = {} at N = {:.0f}",
-                    search.points().front().discs, search.points().back().discs,
-                    with_error(lowest->mean, lowest->error), lowest->discs);
-    const char* const words = rotation_rates[search.rate].description;
+    const char* const body = body_word(settings.config);
     switch (c.verdict) {
         case Crossing::Verdict::crosses:
-            if (!c.last()->resolved())
-                return fmt::format("N_c is {} ({}).{}{}", crossing_words(c), words,
-                                   why_it_stopped(settings, search), what_may_follow(c));
-            return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}; {}).{}{}", crossing_words(c),
-                               c.lower, c.upper, words, why_it_stopped(settings, search),
-                               what_may_follow(c));
+            return crossing_sentence(settings, search);
         case Crossing::Verdict::always_rotates:
             return fmt::format("No crossing: the {}s always rotate; {}, {:.0f} errors above zero.",
-                               body_word(settings.config), evidence, lowest->mean / lowest->error);
+                               body, evidence(search, lowest), lowest.mean / lowest.error);
         case Crossing::Verdict::always_counterrotates:
-            return fmt::format("No crossing: the {}s always counterrotate; {}.",
-                               body_word(settings.config), evidence);
+            return fmt::format("No crossing: the {}s always counterrotate; {}.", body,
+                               evidence(search, lowest));
         case Crossing::Verdict::undecided:
             break;
     }
-    return fmt::format(
-        "Undecided: {}; the sign is undetermined at N = {}. More --events would be right.",
-        evidence, listed(c.undetermined));
+    return fmt::format("Undecided: {}; the sign is undetermined at N = {}. Use more --events.",
+                       evidence(search, lowest), listed(c.undetermined));
 }
 
 }  // namespace
@@ -169,7 +175,7 @@ std::string change_words(const SignChange& change) {
                              : fmt::format("between {:g} and {:g}", change.before, change.after);
 }
 
-std::string change_place(const SignChange& change) {
+std::string change_location(const SignChange& change) {
     return change.resolved()
                ? fmt::format("at N = {}", change_words(change))
                : fmt::format("between N = {:g} and {:g}", change.before, change.after);
@@ -180,12 +186,12 @@ std::string crossing_words(const Crossing& crossing) {
     return change ? change_words(*change) : verdict_word(crossing.verdict);
 }
 
-std::string other_rates_report(const Crossings& crossings, std::size_t without) {
-    const bool some = std::any_of(crossings.begin(), crossings.end(),
-                                  [](const Crossing& c) { return c.last() != nullptr; });
+std::string other_rates_report(const Crossings& crossings, std::size_t excluded) {
+    const bool any_crosses = std::any_of(crossings.begin(), crossings.end(),
+                                         [](const Crossing& c) { return c.last() != nullptr; });
     std::string text;
-    for (std::size_t r = 0; some && r < crossings.size(); ++r)
-        if (r != without && crossings[r].points > 0)
+    for (std::size_t r = 0; any_crosses && r < crossings.size(); ++r)
+        if (r != excluded && crossings[r].points > 0)
             text += fmt::format("{}{} ({})", text.empty() ? " By the other rates: " : ", ",
                                 crossing_words(crossings[r]), rotation_rates[r].description);
     return text.empty() ? text : text + ".";
@@ -228,8 +234,8 @@ std::string crossing_json(const CrossingSettings& settings, const CrossingSearch
                  {"points", points_json(s)},
                  {"runs", s.runs},
                  {"runs_not_steady", s.not_steady},
-                 {"runs_too_short_to_tell", s.too_short},
-                 {"numbers_whose_seeds_disagree", s.disagreeing},
+                 {"runs_too_short", s.too_short},
+                 {"numbers_with_disagreeing_seeds", s.disagreeing},
                  {"runs_failed", failures},
                  {"first_failure", s.first_failure.empty() ? Json() : Json(s.first_failure)},
                  {"events", s.events},
@@ -245,19 +251,36 @@ std::string other_crossings_report(const CrossingSearch& search) {
     std::string text;
     if (c.changes.size() > 1) {
         text = fmt::format(
-            "ϖ(N) is not monotonic: its sign changes {} times between the numbers that were looked "
-            "at (by more than three errors on either side); N_c is the last change to "
-            "counterrotation:\n",
+            "ϖ(N) is not monotonic: its sign changes {} times (by more than three errors on either "
+            "side). N_c is the last change to counterrotation:\n",
             c.changes.size());
         for (const SignChange& change : c.changes)
             text += fmt::format("  N = {:<14} to {}, between {:.0f} and {:.0f}\n",
-                                change.resolved() ? change_words(change) : "not known",
+                                change.resolved() ? change_words(change) : "n/a",
                                 change.to_counterrotation ? "counterrotation" : "rotation",
                                 change.before, change.after);
     }
     if (c.verdict == Crossing::Verdict::crosses && !c.undetermined.empty())
         text += fmt::format("The sign is undetermined at N = {}.\n", listed(c.undetermined));
     return text;
+}
+
+std::vector<std::string> warnings(const CrossingSearch& search) {
+    std::vector<std::string> all;
+    if (search.not_steady > 0)
+        all.push_back(
+            fmt::format("{} of the runs that N_c depends on were not steady after the warm-up."
+                        "\nhint: use a longer --warmup, or --warmup auto.",
+                        search.not_steady));
+    if (search.too_short > 0)
+        all.push_back(fmt::format(
+            "steady state not verified for {} of the runs that N_c depends on: they are too short.",
+            search.too_short));
+    if (search.disagreeing > 0)
+        all.push_back(disagreement_warning(
+            search.disagreeing,
+            fmt::format("{} numbers of discs that N_c depends on", search.decisive_numbers)));
+    return all;
 }
 
 std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {

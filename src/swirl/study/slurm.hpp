@@ -1,6 +1,6 @@
-// The same sweep on a cluster that runs Slurm: a job array whose tasks share the folder. Each task
-// does its part of the points, then whatever nobody works on; so a task that dies, or runs twice,
-// does no harm, and what a dead node leaves behind is done by the others.
+// A sweep on a cluster with Slurm: a job array whose tasks share the folder. Each task runs its part
+// of the points, then all points that no other task has locked. A task that dies or runs twice
+// therefore does no harm, and other tasks run the points of a failed node.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 namespace swirl {
 
 struct SlurmJob {
-    int nodes = 1;                // tasks of the array: one node each
+    int nodes = 1;                // tasks of the array, one node each
     int cpus = 0;                 // per task; 0: the whole node
-    std::string time, partition;  // as sbatch takes them; empty: the cluster's default
+    std::string time, partition;  // options of sbatch; empty: the cluster's default
 };
 
-/// The script that sbatch gets. Throws WrongCall if a text of the job, or the folder's name, cannot
-/// stand in a line of it.
+/// The job script. Throws UsageError if an option, or the name of the folder, contains characters
+/// that would break a line of the script.
 std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder);
 
-/// Writes the script to DIR/job.sh and submits it; the number of the job, also kept in
-/// DIR/slurm_job. Throws Failure if Slurm refuses, or is not there.
+/// Writes the script to DIR/job.sh and submits it. Returns the job ID, which is also saved in
+/// DIR/slurm_job. Throws Failure if Slurm rejects the job or is not installed.
 std::string submit(const std::string& script, const std::filesystem::path& folder);
 
-/// "3 running, 1 pending" of the job of this folder, from squeue; nothing if none was submitted.
+/// The states of this folder's job from squeue ("3 running, 1 pending"); nothing if none was
+/// submitted.
 std::optional<std::string> slurm_status(const std::filesystem::path& folder);
 
 }  // namespace swirl

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The call that does one point by itself.
+/// The command that runs one point on its own.
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
     std::string command = "swirl run";
     for (const auto& [name, value] : plan.parameters(point))
@@ -36,26 +36,26 @@ std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t s
     return command + fmt::format(" --seed {}", seed);
 }
 
-class SweepWork {
+class SweepWorker {
   public:
-    SweepWork(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
-              const SweepControl& control)
+    SweepWorker(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
+                const SweepControl& control)
         : folder_(folder),
           plan_(plan),
           share_(share),
           control_(control),
-          claims_(std::make_shared<SweepLocks>(folder)),
+          locks_(std::make_shared<SweepLocks>(folder)),
           writer_(part_of_sweep(folder, "results", plan)) {}
 
-    SweepOutcome operator()() {
-        std::vector<std::size_t> mine, others;
+    SweepOutcome run() {
+        std::vector<std::size_t> own, others;
         const std::vector<bool> done =
             numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
         for (std::size_t point = 0; point < plan_.points(); ++point)
             if (!done[point])
-                (point % share_.parts == share_.part - 1 ? mine : others).push_back(point);
-        all_ = double(mine.size() + (share_.rest ? others.size() : 0));
-        work_on(mine);
+                (point % share_.parts == share_.part - 1 ? own : others).push_back(point);
+        total_ = double(own.size() + (share_.rest ? others.size() : 0));
+        work_on(own);
         if (share_.rest) work_on(others);
         writer_.finish();
         outcome_.stopped = control_.stop && control_.stop->load();
@@ -70,81 +70,90 @@ class SweepWork {
 
     void try_point(std::size_t point) {
         if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
-        const std::shared_ptr<SweepLock> claim = SweepLock::on(claims_, point);
-        if (!claim) {
+        const std::shared_ptr<SweepLock> point_lock = SweepLock::try_lock(locks_, point);
+        if (!point_lock) {
             const std::lock_guard lock(mutex_);
             ++outcome_.elsewhere;
             return;
         }
-        // Done by somebody else in the meantime?
+        // Another process may have finished it in the meantime.
         if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) return count(0, 0);
         std::string failure;
         try {
-            if (!do_point(point, claim)) return;
+            if (!do_point(point, point_lock)) return;
         } catch (const FileError& error) {
-            throw;  // the folder is in trouble, not the point
+            throw;  // concerns the whole folder, not this point
         } catch (const Interrupted&) {
             return;
         } catch (const std::exception& error) {
             failure = error.what();
         }
-        const fs::path note = folder_ / "failures" / (number_of_point(point) + ".txt");
+        const fs::path failure_file = folder_ / "failures" / (number_of_point(point) + ".txt");
         if (failure.empty()) {
-            if (failed_before_[point]) ::unlink(note.c_str());
+            if (failed_before_[point]) ::unlink(failure_file.c_str());
             return;
         }
-        write_file_atomically(note, failure + "\n");
+        write_file_atomically(failure_file, failure + "\n");
         const std::lock_guard lock(mutex_);
         if (outcome_.failed++ == 0)
             outcome_.first_failure = fmt::format("point {}: {}", point, failure);
     }
 
-    /// False if it was stopped before its end.
-    bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& claim) {
+    /// False if the run was stopped early.
+    bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& point_lock) {
         const RunConfig config = plan_.config(point);
-        RunFiles files;
-        files.checkpoint =
-            part_of_sweep(folder_, "checkpoints", plan_) / (number_of_point(point) + ".checkpoint");
-        files.resume = true;
-        files.overwrite = true;  // all that lies in there is of this very point
-        if (plan_.frames > 0)
-            files.trajectory = folder_ / "trajectories" / (number_of_point(point) + ".h5");
-        files.frames.per_swirl = std::max(plan_.frames, 1);
+        const RunFiles files = files_of(point);
+        const std::string command = command_of(plan_, point, config.seed);
         Observation observation = observation_of(config, plan_.measure);
-        RunControl run_control;
-        run_control.stop = control_.stop;
+        const RunResult result = run_point(config, files, command, observation);
+        if (!result.complete) return false;
+        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
+        Json results = result_json(result);
+        for (auto& [name, value] : results.items()) json[name] = std::move(value);
+        json["command"] = command;
+        if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
+        writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
+                      [files, point_lock] { forget_checkpoint(files); });
+        const std::lock_guard lock(mutex_);
+        ++outcome_.done;
+        return true;
+    }
+
+    RunFiles files_of(std::size_t point) const {
+        const std::string number = number_of_point(point);
+        RunFiles files;
+        files.checkpoint = part_of_sweep(folder_, "checkpoints", plan_) / (number + ".checkpoint");
+        files.resume = true;
+        files.overwrite = true;  // existing files of this number belong to this point
+        if (plan_.frames > 0) files.trajectory = folder_ / "trajectories" / (number + ".h5");
+        files.frames.per_swirl = std::max(plan_.frames, 1);
+        return files;
+    }
+
+    RunResult run_point(const RunConfig& config, const RunFiles& files, const std::string& command,
+                        Observation& observation) {
+        RunControl control;
+        control.stop = control_.stop;
         double counted = 0.0;
         std::uint64_t counted_events = 0;
-        run_control.progress = [&](const RunProgress& p) {
+        control.progress = [&](const RunProgress& p) {
             count(p.fraction - counted, p.events - counted_events);
             counted = p.fraction;
             counted_events = p.events;
         };
-        if (!observation.empty()) run_control.observation = &observation;
-        const std::string command = command_of(plan_, point, config.seed);
+        if (!observation.empty()) control.observation = &observation;
         Provenance provenance;  // only recordings need it
         if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
-        const RunResult result = run_recorded(config, files, run_control, provenance);
-        if (!result.complete) return false;
-        count(1.0 - counted, result.events.total() - counted_events);
-
-        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
-        Json found = result_json(result);
-        for (auto& [name, value] : found.items()) json[name] = std::move(value);
-        json["command"] = command;
-        if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
-        writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
-                      [files, claim] { forget_checkpoint(files); });
-        const std::lock_guard lock(mutex_);
-        ++outcome_.done;
-        return true;
+        const RunResult result = run_recorded(config, files, control, provenance);
+        if (result.complete) count(1.0 - counted, result.events.total() - counted_events);
+        return result;
     }
 
     void count(double points, std::uint64_t events) {
         const std::lock_guard lock(mutex_);
         done_ += points;
         events_ += events;
-        if (control_.progress) control_.progress(done_, all_, events_);
+        if (control_.progress) control_.progress(done_, total_, events_);
     }
 
     const fs::path folder_;
@@ -152,13 +161,13 @@ class SweepWork {
     const std::string plan_text_ = plan_.text();
     const SweepShare share_;
     const SweepControl& control_;
-    const std::shared_ptr<SweepLocks> claims_;
+    const std::shared_ptr<SweepLocks> locks_;
     const std::vector<bool> failed_before_ =
         numbered_files(folder_ / "failures", ".txt", plan_.points());
     ResultWriter writer_;
     std::mutex mutex_;
     SweepOutcome outcome_;
-    double done_ = 0.0, all_ = 0.0;
+    double done_ = 0.0, total_ = 0.0;
     std::uint64_t events_ = 0;
 };
 
@@ -170,11 +179,11 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<bool> done =
         numbered_files(part_of_sweep(folder, "results", plan), ".json", status.points);
     const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", status.points);
-    const std::vector<bool> claimed = SweepLocks::taken(folder, status.points);
+    const std::vector<bool> locked = SweepLocks::locked(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
         if (done[point])
             ++status.done;
-        else if (claimed[point])
+        else if (locked[point])
             ++status.running;
         else if (failed[point])
             ++status.failed;
@@ -187,7 +196,7 @@ SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const Swee
     for (const fs::path& part : {folder, part_of_sweep(folder, "results", plan),
                                  folder / "failures", part_of_sweep(folder, "checkpoints", plan)})
         remove_leftovers(part);
-    return SweepWork(folder, plan, share, control)();
+    return SweepWorker(folder, plan, share, control).run();
 }
 
 }  // namespace swirl

@@ -20,20 +20,21 @@ fs::path result_file(const fs::path& folder, const SweepPlan& plan, std::size_t 
 }
 
 bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
-    static constexpr std::string_view parts[] = {"plan.json",    "claims",  "job.sh",
+    static constexpr std::string_view parts[] = {"plan.json",    "locks",   "job.sh",
                                                  "slurm_job",    "results", "checkpoints",
                                                  "trajectories", "log",     "failures"};
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
-        // results-2, of a sweep that has grown.
+        // results-2 after the sweep got further measurements
         const bool is_part = std::any_of(std::begin(parts), std::end(parts), [&](auto part) {
             return name == part || name.starts_with(std::string(part) + "-");
         });
         std::error_code ignored;
-        const fs::path whole = fs::weakly_canonical(it->path(), ignored);
-        if (is_part && std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first ==
-                           whole.end())
+        const fs::path canonical = fs::weakly_canonical(it->path(), ignored);
+        if (is_part &&
+            std::mismatch(canonical.begin(), canonical.end(), file.begin(), file.end()).first ==
+                canonical.end())
             return true;
     }
     return false;
@@ -41,17 +42,17 @@ bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
 
 std::vector<bool> numbered_files(const fs::path& folder, std::string_view ending,
                                  std::size_t points) {
-    std::vector<bool> there(points, false);
+    std::vector<bool> exists(points, false);
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
         std::size_t point = 0;
-        const auto [stop, wrong] = std::from_chars(name.data(), name.data() + name.size(), point);
-        if (wrong == std::errc() && point < points &&
+        const auto [stop, status] = std::from_chars(name.data(), name.data() + name.size(), point);
+        if (status == std::errc() && point < points &&
             std::string_view(stop, std::size_t(name.data() + name.size() - stop)) == ending)
-            there[point] = true;
+            exists[point] = true;
     }
-    return there;
+    return exists;
 }
 
 }  // namespace swirl

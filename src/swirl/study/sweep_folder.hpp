@@ -1,4 +1,4 @@
-// The parts of a sweep's folder (sweep.hpp).
+// The files in the folder of a sweep (sweep.hpp).
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,22 @@
 
 namespace swirl {
 
-/// Of plans and of results.
+/// Format of plans and results.
 constexpr int sweep_format = 1;
 
+/// "000012"
 std::string number_of_point(std::size_t point);
-/// Of the plan as it is now: what was measured less is another run.
+/// DIR/results and so on; DIR/results-2 after the plan got further measurements.
 std::filesystem::path part_of_sweep(const std::filesystem::path& folder, const char* part,
                                     const SweepPlan& plan);
 std::filesystem::path result_file(const std::filesystem::path& folder, const SweepPlan& plan,
                                   std::size_t point);
 
-/// Whether a file is one that the sweep keeps for itself, or lies in a folder of those: plan,
-/// claims, results, checkpoints and so on, but not a table that was made of them. `file`: its one
-/// name, whole and through links.
+/// Whether a file is part of the sweep (plan, locks, results, checkpoints, …) or lies in a folder of
+/// it. Tables made from the sweep are not part of it. `file`: its canonical name.
 bool belongs_to_sweep(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// The numbers of the files NUMBER.ending in a folder; one look at the folder, whatever its size.
+/// Which of the files NUMBER.ending exist in a folder, by a single scan of the folder.
 std::vector<bool> numbered_files(const std::filesystem::path& folder, std::string_view ending,
                                  std::size_t points);
 

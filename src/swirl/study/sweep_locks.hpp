@@ -1,6 +1,6 @@
-// Who works on what. As long as a process does a point, it has the point's byte of one file locked:
-// one file for all, because a file system may take its time for files that come and go. Only a
-// courtesy: work done twice does no harm.
+// Locks of sweep points. While a process works on a point, it holds a lock on the point's byte of the
+// file DIR/locks. All points share one file because some file systems create and remove files
+// slowly. The locks only save work: a point done twice does no harm.
 #pragma once
 
 #include <filesystem>
@@ -17,31 +17,31 @@ class SweepLocks {
     SweepLocks(const SweepLocks&) = delete;
     SweepLocks& operator=(const SweepLocks&) = delete;
 
-    /// False if another process works on the point.
-    bool take(std::size_t point);
-    void give_back(std::size_t point);
+    /// False if another process holds the lock of the point.
+    bool lock(std::size_t point);
+    void unlock(std::size_t point);
 
-    /// The points that somebody works on.
-    static std::vector<bool> taken(const std::filesystem::path& folder, std::size_t points);
+    /// The points whose locks some process holds.
+    static std::vector<bool> locked(const std::filesystem::path& folder, std::size_t points);
 
   private:
     int handle_;
 };
 
-/// One point's claim, given back in the end.
+/// The lock of one point, released by the destructor.
 class SweepLock {
   public:
-    /// Null if another process works on the point.
-    static std::shared_ptr<SweepLock> on(const std::shared_ptr<SweepLocks>& claims,
-                                         std::size_t point);
-    SweepLock(std::shared_ptr<SweepLocks> claims, std::size_t point)
-        : claims_(std::move(claims)), point_(point) {}
-    ~SweepLock() { claims_->give_back(point_); }
+    /// Null if another process holds the lock.
+    static std::shared_ptr<SweepLock> try_lock(const std::shared_ptr<SweepLocks>& locks,
+                                               std::size_t point);
+    SweepLock(std::shared_ptr<SweepLocks> locks, std::size_t point)
+        : locks_(std::move(locks)), point_(point) {}
+    ~SweepLock() { locks_->unlock(point_); }
     SweepLock(const SweepLock&) = delete;
     SweepLock& operator=(const SweepLock&) = delete;
 
   private:
-    std::shared_ptr<SweepLocks> claims_;
+    std::shared_ptr<SweepLocks> locks_;
     std::size_t point_;
 };
 

@@ -27,25 +27,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_points = 10'000'000;
 
-/// Calls visit(place) for the places in the whole plan of those points that a stage adds to the one
-/// before it, in order.
+/// Calls visit(index) in order for the product indices, in the whole plan, of the points that a stage
+/// adds to the stage before it.
 template <class Visit>
-void each_new_place(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
-                    const Visit& visit) {
-    std::vector<std::size_t> at(stage.values.size(), 0);
+void for_each_new_index(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
+                        const Visit& visit) {
+    std::vector<std::size_t> value(stage.values.size(), 0);  // index of the value on each axis
     for (;;) {
-        std::size_t place = 0;
-        bool was_there = before != nullptr;
-        for (std::size_t a = 0; a < at.size(); ++a) {
-            place = place * plan.axes[a].values.size() + at[a];
-            was_there = was_there && at[a] < before->values[a];
+        std::size_t combination = 0;
+        bool existed = before != nullptr;
+        for (std::size_t a = 0; a < value.size(); ++a) {
+            combination = combination * plan.axes[a].values.size() + value[a];
+            existed = existed && value[a] < before->values[a];
         }
         const auto replicas = static_cast<std::size_t>(plan.replicas);
-        for (std::size_t r = was_there ? std::size_t(before->replicas) : 0;
+        for (std::size_t r = existed ? std::size_t(before->replicas) : 0;
              r < std::size_t(stage.replicas); ++r)
-            visit(place * replicas + r);
-        std::size_t a = at.size();
-        while (a > 0 && ++at[a - 1] == stage.values[a - 1]) at[--a] = 0;
+            visit(combination * replicas + r);
+        std::size_t a = value.size();
+        while (a > 0 && ++value[a - 1] == stage.values[a - 1]) value[--a] = 0;
         if (a == 0) return;
     }
 }
@@ -56,18 +56,19 @@ SweepStage size_of(const SweepPlan& plan) {
     return stage;
 }
 
-std::vector<std::size_t> places_in(const SweepPlan& plan) {
-    std::vector<std::size_t> places;
-    if (plan.before.empty()) return places;
+std::vector<std::size_t> product_indices_of(const SweepPlan& plan) {
+    std::vector<std::size_t> indices;
+    if (plan.before.empty()) return indices;
     const SweepStage now = size_of(plan);
     const SweepStage* before = nullptr;
     const auto add = [&](const SweepStage& stage) {
-        each_new_place(plan, stage, before, [&](std::size_t place) { places.push_back(place); });
+        for_each_new_index(plan, stage, before,
+                           [&](std::size_t index) { indices.push_back(index); });
         before = &stage;
     };
     for (const SweepStage& stage : plan.before) add(stage);
     add(now);
-    return places;
+    return indices;
 }
 
 std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
@@ -75,7 +76,7 @@ std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
 std::vector<std::string> range(std::string_view name, std::string_view text) {
     const auto reject = [&](const char* why) {
         throw UsageError(fmt::format(
-            "{} is '{}', but {}; a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
+            "{} is '{}', but {}.\nhint: a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
             "0:0.25:1.",
             option_name(name), text, why));
     };
@@ -90,7 +91,7 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
     if (parts.size() > 3) reject("it has more than three parts");
     const double from = parts.front(), to = parts.back();
     const double step = parts.size() == 3 ? parts[1] : 1.0;
-    if (!(step > 0.0) || to < from) reject("it does not lead upwards");
+    if (!(step > 0.0) || to < from) reject("it is not ascending");
     const double count = std::floor((to - from) / step + 1e-9) + 1.0;
     if (count > 1e6) reject("it has more than a million values");
     std::vector<std::string> values;
@@ -98,23 +99,22 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
     return values;
 }
 
-/// How many runs it is, however many: a plan from a file may hold anything.
-double product(const SweepPlan& plan) {
+/// The number of runs, as a double: the counts in a damaged file may overflow an integer.
+double number_of_runs(const SweepPlan& plan) {
     double count = double(plan.replicas);
     for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
     return count;
 }
 
-/// What a run with these parameters is. Without restitution and floor nobody asks for the contact
-/// duration.
-std::uint64_t run_of(const ParameterTexts& texts) {
+/// Equal for equal runs. A contact duration has no effect without dissipation and floor.
+std::uint64_t identity_of(const ParameterTexts& texts) {
     RunConfig config = resolve(texts);
     if (!config.uses_contact_duration())
         config.contact_duration = RunConfig{}.contact_duration;
     return checksum(config_text(config));
 }
 
-/// Whether two values of an axis make a difference where another axis has one of its other values.
+/// Whether two values of an axis give different runs for some value of another axis.
 bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::string& one,
                       const std::string& two) {
     for (const SweepAxis& other : plan.axes) {
@@ -125,52 +125,54 @@ bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::s
             a[axis.name] = one;
             b[axis.name] = two;
             try {
-                if (run_of(a) != run_of(b)) return true;
-            } catch (const UsageError&) {  // shows when its turn comes
+                if (identity_of(a) != identity_of(b)) return true;
+            } catch (const UsageError&) {  // reported when the point runs
             }
         }
     }
     return false;
 }
 
-/// Every value of an axis must make another run; a run that is wanted again is a replica.
-void reject_useless(const SweepPlan& plan, const SweepAxis& axis) {
+/// Each value of an axis must give a different run; repetitions are replicas.
+void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
     ParameterTexts texts = plan.parameters(0);
     std::map<std::uint64_t, std::string> seen;
     for (const std::string& value : axis.values) {
         texts[axis.name] = value;
-        const auto [before, is_new] = seen.emplace(run_of(texts), value);
+        const auto [before, is_new] = seen.emplace(identity_of(texts), value);
         if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
-            throw UsageError(fmt::format(
-                "{0} {1} and {0} {2} are the same run here; leave one of them away, or the "
-                "parameter that takes its place (for several runs of each there is --seeds).",
-                option_name(axis.name), before->second, value));
+            throw UsageError(
+                fmt::format("{0} {1} and {0} {2} are the same run here.\nhint: omit one of them, "
+                            "or the parameter "
+                            "that overrides it. For several runs of each, use --seeds.",
+                            option_name(axis.name), before->second, value));
     }
 }
 
-/// A mistake in one value shows before anything is run; combinations show when their turn comes.
-void reject_useless(const SweepPlan& plan) {
-    if (const double count = product(plan); count > double(max_points))
-        throw UsageError(fmt::format("The sweep would have {:.3g} runs; at most {} are possible.",
-                                     count, max_points));
-    for (const SweepAxis& axis : plan.axes) reject_useless(plan, axis);
+/// Finds errors of single values before anything is run. Errors of combinations appear when the
+/// point runs.
+void validate(const SweepPlan& plan) {
+    if (const double count = number_of_runs(plan); count > double(max_points))
+        throw UsageError(fmt::format(
+            "the sweep would have {:.3g} runs, but at most {} are possible.", count, max_points));
+    for (const SweepAxis& axis : plan.axes) reject_repeated_runs(plan, axis);
 }
 
-/// What a stage counts must be there in the next.
+/// Each stage must contain the one before it.
 void reject_shrinking(const fs::path& file, const SweepPlan& plan) {
     std::vector<SweepStage> stages = plan.before;
     stages.push_back(size_of(plan));
     for (std::size_t k = 0; k + 1 < stages.size(); ++k) {
         const SweepStage &stage = stages[k], &next = stages[k + 1];
-        bool good = stage.values.size() == plan.axes.size() && stage.replicas >= 1 &&
-                    stage.replicas <= next.replicas;
-        for (std::size_t a = 0; good && a < stage.values.size(); ++a)
-            good =
+        bool valid = stage.values.size() == plan.axes.size() && stage.replicas >= 1 &&
+                     stage.replicas <= next.replicas;
+        for (std::size_t a = 0; valid && a < stage.values.size(); ++a)
+            valid =
                 stage.values[a] >= 1 && a < next.values.size() && stage.values[a] <= next.values[a];
-        if (!good)
-            throw FileError(
-                fmt::format("'{}' is damaged: what it was before it grew is no part of what it is.",
-                            file.string()));
+        if (!valid)
+            throw FileError(fmt::format(
+                "'{}' is damaged: the plan before it grew is not a part of the present plan.",
+                file.string()));
     }
 }
 
@@ -195,15 +197,15 @@ std::size_t SweepPlan::points() const {
 }
 
 std::int64_t SweepPlan::replica(std::size_t point) const {
-    return static_cast<std::int64_t>(place(point) % static_cast<std::size_t>(replicas));
+    return static_cast<std::int64_t>(product_index(point) % static_cast<std::size_t>(replicas));
 }
 
 ParameterTexts SweepPlan::parameters(std::size_t point) const {
     ParameterTexts texts;
-    std::size_t rest = place(point) / static_cast<std::size_t>(replicas);
+    std::size_t index = product_index(point) / static_cast<std::size_t>(replicas);
     for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
-        texts[axis->name] = axis->values[rest % axis->values.size()];
-        rest /= axis->values.size();
+        texts[axis->name] = axis->values[index % axis->values.size()];
+        index /= axis->values.size();
     }
     return texts;
 }
@@ -242,12 +244,12 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     ParameterTexts texts;
     for (const auto& [name, text] : given) texts[plain_name(name)] = text;
     for (const Parameter& p : run_parameters)
-        if (const auto found = texts.find(p.name); found != texts.end() && p.can_be_given()) {
+        if (const auto found = texts.find(p.name); found != texts.end() && p.is_settable()) {
             plan.axes.push_back({p.name, list_of_values(p.name, found->second)});
             texts.erase(found);
         }
-    if (!texts.empty()) resolve(texts);  // says which is not known
-    reject_useless(plan);
+    if (!texts.empty()) resolve(texts);  // throws for the unknown name
+    validate(plan);
     return plan;
 }
 
@@ -259,11 +261,10 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
         const auto axis = std::find_if(larger.axes.begin(), larger.axes.end(),
                                        [&](const SweepAxis& a) { return a.name == name; });
         if (axis == larger.axes.end()) {
-            resolve({{name, list_of_values(name, text).front()}});  // if it is none at all
+            resolve({{name, list_of_values(name, text).front()}});  // throws for an unknown name
             throw UsageError(
-                fmt::format("{} is no parameter of this sweep, whose points have its default; "
-                            "another folder is "
-                            "right for a sweep over it.",
+                fmt::format("{} is not a parameter of this sweep, whose points use its default."
+                            "\nhint: use another folder for a sweep over it.",
                             option_name(name)));
         }
         for (const std::string& value : list_of_values(name, text))
@@ -272,16 +273,16 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
     }
     if (replicas > 0 && replicas < plan.replicas)
         throw UsageError(
-            fmt::format("--seeds is {}, but the sweep has {} already; it can only grow.", replicas,
+            fmt::format("--seeds is {}, but the sweep already has {} and can only grow.", replicas,
                         plan.replicas));
     larger.replicas = std::max(replicas, plan.replicas);
     for (const std::string& name : measure)
         if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
             larger.measure.push_back(name);
     if (larger.measure != plan.measure) ++larger.generation;
-    reject_useless(larger);
+    validate(larger);
     if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
-    larger.places = places_in(larger);
+    larger.product_indices = product_indices_of(larger);
     return larger;
 }
 
@@ -307,19 +308,20 @@ SweepPlan read_plan(const fs::path& folder) {
             plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
                                    stage.at("replicas").get<std::int64_t>()});
     } catch (const nlohmann::json::exception&) {
-        throw FileError(fmt::format("'{}' is damaged: it is no plan of a sweep.", file.string()));
+        throw FileError(
+            fmt::format("'{}' is damaged: it is not the plan of a sweep.", file.string()));
     }
     for (const SweepAxis& axis : plan.axes)
         if (axis.values.empty())
             throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
                                         file.string(), axis.name));
-    if (const double count = product(plan); !(count >= 1.0 && count <= double(max_points)))
+    if (const double count = number_of_runs(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
             fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);
-    plan.places = places_in(plan);
+    plan.product_indices = product_indices_of(plan);
     return plan;
 }
 
@@ -327,7 +329,7 @@ namespace {
 
 std::string plan_file_text(const SweepPlan& plan) { return plan_json(plan).dump(1) + "\n"; }
 
-/// Held by who replaces a plan; a kill gives it back.
+/// Held while a plan is replaced. The system releases it if the process is killed.
 class PlanLock {
   public:
     explicit PlanLock(const fs::path& folder)
@@ -345,16 +347,14 @@ class PlanLock {
     int handle_;
 };
 
-/// Two calls may let a sweep grow at the same instant, and their points would have the same
-/// numbers.
+/// Without the lock, two calls at the same time could give new points the same numbers.
 void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan& grown_from) {
     const PlanLock lock(folder);
     if (read_plan(folder) != grown_from)
-        throw Failure(
-            fmt::format("Another call has let the sweep in '{}' grow meanwhile; the same call once "
-                        "more adds to "
-                        "what it is now.",
-                        folder.string()));
+        throw Failure(fmt::format(
+            "another process has extended the sweep in '{}' in the meantime.\nhint: repeat "
+            "the command to add to the extended sweep.",
+            folder.string()));
     write_file_atomically(folder / "plan.json", plan_file_text(plan));
 }
 
@@ -368,17 +368,16 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     for (const fs::path& part : parts)
         if (fs::create_directories(part, error); error)
             throw Failure(
-                fmt::format("The folder '{}' cannot be made: {}.", part.string(), error.message()));
+                fmt::format("folder '{}' cannot be created: {}.", part.string(), error.message()));
     if (grown_from != nullptr) return replace_plan(folder, plan, *grown_from);
-    // Another sweep may begin in this folder at the same instant: the first to come has it.
+    // If two sweeps start in this folder at the same time, the first one gets it.
     const fs::path file = folder / "plan.json";
     if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
     if (read_plan(folder) != plan)
-        throw Failure(
-            fmt::format("'{}' holds another sweep (its plan.json says which); choose another "
-                        "folder, go on with "
-                        "that one by giving nothing but --out, or add to it with --grow.",
-                        folder.string()));
+        throw Failure(fmt::format(
+            "'{}' holds another sweep (see its plan.json).\nhint: choose another folder, "
+            "continue that sweep by giving only --out, or extend it with --grow.",
+            folder.string()));
 }
 
 }  // namespace swirl
