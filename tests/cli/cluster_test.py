@@ -1,4 +1,4 @@
-"""A sweep on a real Slurm with three nodes, one of which dies in the middle."""
+"""A sweep on a real Slurm with three nodes, one of which fails during the sweep."""
 
 import os
 import time
@@ -12,7 +12,7 @@ POINTS = 60
 
 
 class Cluster(InFolder):
-    def test_a_dead_node_does_not_show_in_the_table(self):
+    def test_a_failed_node_does_not_change_the_table(self):
         reason = private_slurm.why_not()
         if reason:
             self.skipTest(reason)
@@ -20,12 +20,12 @@ class Cluster(InFolder):
         self.addCleanup(slurm.stop)
         slurm.start()
         environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
-        out = self.path("a cluster, 100 % ours")  # a name that the script must quote
+        out = self.path("a cluster, 100 % ours")  # the script must quote this name
         submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
         self.assertEqual(submitted.returncode, 0, submitted.stderr)
         self.assertIn("Submitted as job", submitted.stdout)
 
-        # One log for each task, in the folder as it is named.
+        # The log folder exists under the unquoted name.
         self.assertTrue(os.path.isdir(out + "/log"))
 
         def status():
@@ -39,13 +39,13 @@ class Cluster(InFolder):
         killed = False
         running_seen = False
         for _ in range(1200):
-            said = status()
-            running_seen = running_seen or ("running" in said and "job " in said)
+            text = status()
+            running_seen = running_seen or ("running" in text and "job " in text)
             if not killed and results() >= 5 and slurm.steps_on("n2"):
                 slurm.kill_node("n2")
                 killed = True
-                self.assertLess(results(), POINTS, "the node outlived the sweep")
-            if f"{POINTS} of {POINTS} runs done" in said:
+                self.assertLess(results(), POINTS, "the sweep ended before the node failed")
+            if f"{POINTS} of {POINTS} runs done" in text:
                 break
             time.sleep(0.1)
         logs = ""

@@ -88,7 +88,8 @@ class Crossing(InFolder):
         self.assertEqual(rigid["N_c"], rigid["by_rate"]["rigid_by_time"]["N_c"])
 
     def test_invalid_options_are_rejected(self):
-        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"), (["--step", -1], "1 or more"), (["--rate", "rigid"], "rigid_by_time"),
+        for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"),
+                            (["--step", -1], "1 or more"), (["--rate", "rigid"], "rigid_by_time"),
                             (["--threads", -1], "whole number"), (["--to", 10**9], "--to"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
             done = swirl("crossing", *wrong, *SHORT)

@@ -1,5 +1,5 @@
-"""The front door ./swirl, on a small house of one file: it builds when something changed, never
-runs a stale program, adds next to nothing when all is ready, and becomes the program."""
+"""The launcher ./swirl on a small project of one file: it builds after changes, never runs a stale
+program, starts no other program if the build is up to date, and becomes the program."""
 
 import os
 import shutil
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
 """
 
 
-class FrontDoor(InFolder):
+class Launcher(InFolder):
     def setUp(self):
         super().setUp()
         os.makedirs(self.path("src"))
@@ -61,22 +61,22 @@ class FrontDoor(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout.split()[0]
 
-    def test_builds_once_and_then_adds_next_to_nothing(self):
+    def test_builds_once_and_then_starts_only_the_program(self):
         done = self.call()
         self.assertEqual(done.stdout.split()[0], "first")
         self.assertIn("building", done.stderr)
-        # Then it starts nothing that builds, installs, or asks for packages.
+        # The second call starts no program that builds, installs or queries packages.
         for name in ("cmake", "ninja", "make", "c++", "g++", "cc", "gcc", "ld", "ccache", "dpkg-query",
                      "apt-get", "git", "python3"):
             self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
         done = self.call_with_stand_ins()
         self.assertEqual((done.stdout.split()[:1], done.stderr), (["first"], ""))
         self.assertFalse(os.path.exists(self.path("started")))
-        self.write_program("second")  # the stand-ins are in the way of a build
+        self.write_program("second")  # the stand-ins make a build fail
         self.assertNotEqual(self.call_with_stand_ins().returncode, 0)
         self.assertTrue(os.path.exists(self.path("started")))
 
-    def test_variables_of_the_environment_change_nothing(self):
+    def test_environment_variables_do_not_leak_into_the_build(self):
         names = ("settings", "me", "long", "home", "stamp", "section", "sections", "camera", "door",
                  "folder", "changed", "log", "missing", "wanted", "installed", "git_folder", "built")
         leaks = dict(os.environ, **{name: "-DLEAKED=ON" for name in names})
@@ -112,7 +112,7 @@ class FrontDoor(InFolder):
                                  [self.path("build/release/python"), *others], done.stderr)
                 self.assertNotIn("/tmp", path)
 
-    def test_a_stale_build_that_belongs_to_somebody_else_is_an_error_with_a_hint(self):
+    def test_a_stale_build_of_another_user_is_an_error_with_a_hint(self):
         self.assertEqual(self.word(), "first")
         as_other = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
         os.chmod(self.folder, 0o755)
@@ -123,7 +123,7 @@ class FrontDoor(InFolder):
             return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
                                   cwd="/", **as_other)
         done = call()
-        self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)  # it is up to date
+        self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)  # the build is up to date
         self.write_program("second")
         done = call()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
@@ -136,17 +136,17 @@ class FrontDoor(InFolder):
         self.assertEqual(self.word(), "first")
         self.write_program("second")
         self.assertEqual(self.word(), "second")
-        # A file with an old date, put in place of the new one, as by `mv` or `tar`.
+        # A file with an old date replaces the new one, as with `mv` or `tar`.
         self.write_program("third")
         os.utime(self.path("src/main.cpp"), (1e9, 1e9))
         self.assertEqual(self.word(), "third")
-        # A new file, and then one less.
+        # Adding and removing a file.
         self.write("src/more.cpp", "int more() { return 1; }\n")
         self.assertEqual(self.word(), "third")
         os.remove(self.path("src/more.cpp"))
         self.assertEqual(self.word(), "third")
 
-    def test_what_cannot_be_built_is_said_and_not_run(self):
+    def test_a_failed_build_is_reported_and_nothing_is_run(self):
         self.assertEqual(self.word(), "first")
         self.write("src/main.cpp", "int main() { return missing_name; }\n")
         done = self.call()
@@ -154,10 +154,10 @@ class FrontDoor(InFolder):
         self.assertEqual(done.stdout, "")
         self.assertIn("missing_name", done.stderr)
         self.assertIn("the build failed", done.stderr)
-        self.write_program("mended")
-        self.assertEqual(self.word(), "mended")
+        self.write_program("fixed")
+        self.assertEqual(self.word(), "fixed")
 
-    def test_a_tree_that_moved_is_built_anew(self):
+    def test_a_moved_tree_is_built_from_scratch(self):
         self.assertEqual(self.word(), "first")
         new = self.path("moved")
         os.makedirs(new)
@@ -180,11 +180,11 @@ class FrontDoor(InFolder):
         process.communicate(timeout=20)
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
-    def test_the_camera_is_built_when_first_asked_for_and_stays(self):
+    def test_camera_support_is_built_on_first_use_and_stays(self):
         def camera(subcommand):
             done = self.call(subcommand, "camera")
             return done.stdout.split()[0], "building" in done.stderr
-        # (What the small program makes of the words "run" and "track" is an exit code of 0.)
+        # The small program ends with exit code 0 for the words "run" and "track".
         self.assertEqual(camera("run"), ("OFF", True))
         self.assertEqual(camera("run"), ("OFF", False))
         self.assertEqual(camera("track"), ("ON", True))
@@ -194,17 +194,17 @@ class FrontDoor(InFolder):
         self.assertEqual(camera("run")[0], "ON")
         self.assertEqual(self.word(), "second")
 
-    def test_through_a_link(self):
+    def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
         done = subprocess.run([self.path("link")], capture_output=True, text=True, timeout=100)
         self.assertEqual(done.stdout.split()[0], "first")
 
-    def test_two_at_once_build_once(self):
+    def test_simultaneous_calls_build_once(self):
         both = [subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE,
                                  stderr=subprocess.PIPE, text=True) for _ in range(2)]
-        said = [process.communicate(timeout=100) for process in both]
-        self.assertEqual([out.split()[0] for out, _ in said], ["first", "first"])
-        self.assertEqual(sum("building" in complaint for _, complaint in said), 1)
+        outputs = [process.communicate(timeout=100) for process in both]
+        self.assertEqual([out.split()[0] for out, _ in outputs], ["first", "first"])
+        self.assertEqual(sum("building" in errors for _, errors in outputs), 1)
 
     def stand_in(self, name, script):
         """A program of that name, first on the PATH of call_with_stand_ins()."""
@@ -217,7 +217,7 @@ class FrontDoor(InFolder):
                               timeout=100,
                               env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
 
-    def test_without_root_a_missing_package_is_named_with_the_command(self):
+    def test_without_root_the_install_command_is_printed(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
         self.stand_in("id", "echo 1000\n")
         done = self.call_with_stand_ins()
@@ -225,7 +225,7 @@ class FrontDoor(InFolder):
         self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
                       done.stderr)
 
-    def test_a_subcommand_gets_its_packages_once(self):
+    def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
                                "[pictures]\ng++\n")
         self.stand_in("id", "echo 0\n")
@@ -246,14 +246,14 @@ class FrontDoor(InFolder):
                 self.assertEqual([line.split("--no-install-recommends ")[1] for line in asked],
                                  [wanted] if wanted else [])
 
-    def test_a_subcommand_without_its_packages_says_so_and_does_what_it_can(self):
+    def test_a_subcommand_runs_without_its_packages(self):
         self.write("packages", "[build]\ng++\n[movies]\nno-camera\n")
         self.stand_in("id", "echo 1000\n")
         done = self.call_with_stand_ins("movie")
         self.assertIn("sudo apt-get install --no-install-recommends no-camera\n", done.stderr)
         self.assertEqual(done.stdout.split()[:1], ["first"])
 
-    def test_python_has_the_module_on_its_path(self):
+    def test_python_finds_the_module(self):
         os.makedirs(self.path("bindings/python"))
         shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
                     self.path("bindings/python"))
@@ -267,11 +267,11 @@ class FrontDoor(InFolder):
                                  "import swirl, sys; print(swirl.word, sys.executable, sys.argv[1:])",
                                  "a b")
                 self.assertEqual(done.stdout, f"{word} /usr/bin/python3 ['a b']\n", done.stderr)
-        # The module's build is not the program's.
+        # The module has its own build.
         self.assertFalse(os.path.exists(self.path("build/release/swirl")))
         self.assertEqual(self.word(), "first")
 
-    def test_a_long_build_says_how_far_it_is(self):
+    def test_a_long_build_prints_its_progress(self):
         self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
   COMMAND sleep 1 COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
 add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM

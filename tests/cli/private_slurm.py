@@ -1,7 +1,7 @@
-"""A Slurm of our own: a controller and several nodes on this machine, for the time of a test.
+"""A private Slurm: a controller and several nodes on this machine, for the duration of a test.
 
-Needs root and Debian's packages slurm-wlm and munge. Everything it starts lives in one folder and is
-ended by process number.
+Needs root and Debian's packages slurm-wlm and munge. All of its files are in one folder, and its
+processes are ended by their process IDs.
 """
 
 import os
@@ -15,7 +15,7 @@ PROGRAMS = ("slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "mung
 
 
 def why_not():
-    """Why it cannot be started here; None if it can."""
+    """The reason why Slurm cannot be started here; None if it can."""
     if os.geteuid() != 0:
         return "starting a private Slurm needs root"
     missing = [program for program in PROGRAMS if not shutil.which(program)]
@@ -37,7 +37,7 @@ def alive(pid):
 
 
 def processes():
-    """(number, parent, command line) of all."""
+    """(process ID, parent, command line) of all processes."""
     found = []
     for name in os.listdir("/proc"):
         if not name.isdigit():
@@ -55,7 +55,7 @@ class Slurm:
     def __init__(self, folder, nodes, cpus):
         self.folder = folder
         self.nodes = [f"n{k}" for k in range(1, nodes + 1)]
-        with socket.socket() as probe:  # a port that is free, and hopefully those above it
+        with socket.socket() as probe:  # a free port; the next ones are assumed to be free
             probe.bind(("127.0.0.1", 0))
             port = min(probe.getsockname()[1], 60000)
         for part in ("state", "spool", "log", "munge"):

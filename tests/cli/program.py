@@ -1,4 +1,4 @@
-"""Calling the program under test, for the tests in this folder."""
+"""Helpers that call the program under test."""
 
 import json
 import os
@@ -17,52 +17,52 @@ ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 
 
 def swirl(*arguments, timeout=100, **more):
-    """Runs the program to its end; .returncode, .stdout and .stderr (text)."""
+    """Runs the program to its end. Returns an object with returncode, stdout and stderr (text)."""
     environment = dict(os.environ, NO_COLOR="1", **more.pop("environment", {}))
     return subprocess.run([SWIRL, *map(str, arguments)], capture_output=True, text=True,
                           timeout=timeout, env=environment, stdin=subprocess.DEVNULL, **more)
 
 
 def result_of(*arguments):
-    """The JSON of a run that must succeed."""
+    """The JSON of a run. Fails if the run fails."""
     done = swirl("run", *arguments, "--json", "-", "--quiet")
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
 
 def without_time(file):
-    """The result of a run, but for what is of the call that made it."""
+    """The result of a run without the keys that differ between equal runs."""
     with open(file) as opened:
         result = json.load(opened)
-    for of_the_call in ("seconds", "events_per_second", "command"):
-        del result[of_the_call]
+    for key in ("seconds", "events_per_second", "command"):
+        del result[key]
     return result
 
 
 def made_of_the_web(test_class, script, name, **more):
-    """What a script of web/ writes for all tests of a class: its place, gone when they have ended. Without
-    the tools that takes, the test says so and is skipped."""
+    """Runs a script of web/ for all tests of a class and returns the folder of its output, which is removed
+    after the tests. Skips the tests if clang or Node.js is missing."""
     if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
         print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
         sys.exit(77)
     folder = tempfile.TemporaryDirectory()
     test_class.addClassCleanup(folder.cleanup)
-    place = os.path.join(folder.name, name)
-    done = subprocess.run([script, "--out", place], capture_output=True, text=True, **more)
+    output = os.path.join(folder.name, name)
+    done = subprocess.run([script, "--out", output], capture_output=True, text=True, **more)
     if done.returncode:
         raise RuntimeError(done.stderr[-4000:])
-    return place
+    return output
 
 
 class InFolder(unittest.TestCase):
-    """A test with an empty folder of its own, self.folder; with in_memory on no disk, where that is
-    possible: a kill leaves the same behind, and nobody waits for what brings it onto the disk."""
+    """A test with an empty temporary folder, self.folder. With in_memory it is in /dev/shm if possible: the
+    files after a kill are the same, and no call waits for the disk."""
 
     in_memory = False
 
     def setUp(self):
-        place = "/dev/shm" if self.in_memory and os.access("/dev/shm", os.W_OK) else None
-        self._folder = tempfile.TemporaryDirectory(prefix="swirl-test-", dir=place)
+        parent = "/dev/shm" if self.in_memory and os.access("/dev/shm", os.W_OK) else None
+        self._folder = tempfile.TemporaryDirectory(prefix="swirl-test-", dir=parent)
         self.folder = self._folder.name
         self.addCleanup(self._folder.cleanup)
 

@@ -1,7 +1,7 @@
-"""Whatever parameters are accepted, a thousand events are run within seconds, or the call is refused in
-one sentence: parameters drawn at random, each from all over its range, with fixed seeds.
+"""For every random choice of parameters from their whole range, with fixed seeds, a run of a thousand
+events either ends or is rejected with one error message.
 
-With --all thousands of them, discs by the hundred thousand and spheres by the ten thousand."""
+With --all: thousands of choices, up to hundreds of thousands of discs and ten thousand spheres."""
 
 import json
 import math
@@ -15,7 +15,7 @@ import unittest
 
 from program import ONE_ERROR, SWIRL, InFolder
 
-PROCESSOR_SECONDS = 10
+HANG = 100  # seconds of processor time; a run takes a few at most
 ADDRESS_SPACE = 3 << 30
 
 
@@ -24,22 +24,23 @@ def log_uniform(draw, low, high):
 
 
 def usual_or(draw, usual, low, high, share=0.4):
-    """The usual value, an extreme, or anything between."""
-    fate = draw.random()
-    if fate < share:
+    """The usual value, an extreme, or a random value in between."""
+    choice = draw.random()
+    if choice < share:
         return usual
-    return low if fate < share + 0.05 else high if fate < share + 0.1 else log_uniform(draw, low,
-                                                                                       high)
+    if choice < share + 0.05:
+        return low
+    return high if choice < share + 0.1 else log_uniform(draw, low, high)
 
 
-def drawn(draw, most_discs):
+def drawn(draw, max_discs):
     radius = usual_or(draw, 1, 1e-6, 1e6, 0.7)
-    # Mostly a dish that the discs fit into, from the full one to the all but empty one.
-    discs = int(usual_or(draw, 48, 1, most_discs, 0.2))
+    # Mostly a container into which the discs fit, from dense to extremely dilute.
+    discs = int(usual_or(draw, 48, 1, max_discs, 0.2))
     packing = log_uniform(draw, 1e-9, 0.85) if draw.random() < 0.4 else draw.uniform(0.1, 0.75)
-    dish = min(max(radius * math.sqrt(discs / packing), 1.02 * radius), 1e6)
+    container = min(max(radius * math.sqrt(discs / packing), 1.02 * radius), 1e6)
     options = {"discs": discs, "radius": radius,
-               "container-radius": float(f"{dish:.4g}") if draw.random() < 0.9
+               "container-radius": float(f"{container:.4g}") if draw.random() < 0.9
                else usual_or(draw, 8.6, 1e-6, 1e6),
                "seed": draw.randrange(1 << 32), "events": 1000, "warmup": 0}
     if draw.random() < 0.3:
@@ -70,7 +71,7 @@ def drawn(draw, most_discs):
 
 
 def on_a_floor(draw, options):
-    """Spheres or coins; the first are as heavy to move as any inertia makes them."""
+    """Options of spheres or coins; spheres get the inertia of a sphere or a shell instead of `paper`."""
     more = {"body": draw.choice(["sphere", "sphere", "disc"]),
             "floor": draw.choice(["none", "sliding", "sliding"])}
     if more["body"] == "sphere":
@@ -88,13 +89,13 @@ def on_a_floor(draw, options):
 
 
 def limit():
-    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 5))
+    resource.setrlimit(resource.RLIMIT_CPU, (HANG, HANG + 5))
     resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
 
 
 class RandomScenes(InFolder):
-    def run_or_refused(self, options):
-        """True if it was run."""
+    def run_or_rejected(self, options):
+        """True if the run ended, False if it was rejected."""
         done = subprocess.run([SWIRL, "run", *options, "--json", "-", "--quiet"],
                               capture_output=True, text=True, stdin=subprocess.DEVNULL,
                               cwd=self.folder, preexec_fn=limit, env=dict(os.environ, NO_COLOR="1"))
@@ -108,21 +109,21 @@ class RandomScenes(InFolder):
         self.assertGreaterEqual(result["events"]["total"], 1000, call)
         return True
 
-    def test_a_dish_so_fast_that_rounding_errors_are_no_longer_small_is_refused(self):
-        # A is 10^11 radii, and a double knows 10^16 of anything.
+    def test_a_container_with_too_large_rounding_errors_is_rejected(self):
+        # A is 10^11 radii, and a double has a relative precision of 10^-16.
         scene = ["--radius", "1e-5", "--container-radius", "8.6e-5", "--discs", "5"]
-        self.assertTrue(self.run_or_refused([*scene, "--amplitude", "1e-4", "--events", "10000"]))
-        self.assertFalse(self.run_or_refused([*scene, "--amplitude", "1e6", "--events", "10000"]))
+        self.assertTrue(self.run_or_rejected([*scene, "--amplitude", "1e-4", "--events", "10000"]))
+        self.assertFalse(self.run_or_rejected([*scene, "--amplitude", "1e6", "--events", "10000"]))
 
-    def test_are_run_or_refused_in_a_sentence(self):
-        cases, most_discs = (3000, 3e5) if "--all" in sys.argv else (80, 3000)
+    def test_random_parameters_run_or_are_rejected(self):
+        cases, max_discs = (3000, 3e5) if "--all" in sys.argv else (80, 3000)
         run = 0
         for case in range(cases):
-            options = drawn(random.Random(f"scene {case}"), most_discs)
+            options = drawn(random.Random(f"scene {case}"), max_discs)
             with self.subTest(case=case, options=" ".join(options)):
-                run += self.run_or_refused(options)
+                run += self.run_or_rejected(options)
         self.assertGreater(run, cases / 3)
-        print(f"{run} of {cases} were run, the others refused")
+        print(f"{run} of {cases} were run, the others rejected")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
-"""What the README says is so: its commands run, its output is what is printed, its links lead
-somewhere."""
+"""The README is correct: its commands run, its output is printed, its links have targets."""
 
 import os
 import re
@@ -11,7 +10,7 @@ from program import SOURCE, InFolder, swirl
 with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
     README = file.read()
 
-# Printed, but different on every machine and at every call.
+# Lines that differ between machines and calls.
 TIMING = re.compile(r"^  time |^\d+ runs|^wrote ")
 
 
@@ -21,7 +20,7 @@ def blocks(kind):
 
 class Readme(InFolder):
     def run_shortened(self, line):
-        """Runs the program as the line says, with less work where the line leaves that open."""
+        """Runs the command of the line, with fewer events if the line does not give the length."""
         words = shlex.split(line, comments=True)[1:]
         if words[0] == "run" and "--events" not in words and "--periods" not in words \
                 and "--help" not in words and not any(w.endswith(".toml") for w in words):
@@ -41,7 +40,7 @@ class Readme(InFolder):
                 done = self.run_shortened(line)
                 self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_the_output_of_a_run_is_what_is_printed(self):
+    def test_the_shown_output_of_a_run_is_printed(self):
         shown = {}
         for block in blocks("console"):
             for part in block.split("$ ")[1:]:
@@ -59,7 +58,7 @@ class Readme(InFolder):
                     compared += 1
         self.assertGreater(compared, 3)
 
-    def test_links_lead_somewhere(self):
+    def test_links_have_targets(self):
         for name in ("README.md", "CONTRIBUTING.md", "docs/physics.md", "docs/explanation/architecture.md"):
             with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
                 text = file.read()

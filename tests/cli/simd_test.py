@@ -1,4 +1,4 @@
-"""Every width of the processor's vectors gives the same bits: SWIRL_SIMD chooses one."""
+"""All vector widths, selected by SWIRL_SIMD, give bitwise identical results."""
 
 import json
 import os
@@ -10,7 +10,7 @@ FLAGS = {"sse2": "sse2", "avx2": "avx2", "avx512": "avx512f"}
 
 
 def widths():
-    """Those that this processor has."""
+    """The widths that this processor supports."""
     with open("/proc/cpuinfo", encoding="ascii") as file:
         flags = next(line for line in file if line.startswith("flags")).split()
     return [name for name, flag in FLAGS.items() if flag in flags]
@@ -22,13 +22,13 @@ class Simd(InFolder):
         done = swirl("run", *arguments, "--json", "-", "--quiet", environment={"SWIRL_SIMD": width})
         self.assertEqual(done.returncode, 0, done.stderr)
         result = json.loads(done.stdout)
-        for of_the_call in ("seconds", "events_per_second", "command"):
-            del result[of_the_call]
+        for key in ("seconds", "events_per_second", "command"):
+            del result[key]
         return result
 
     def test_every_width_gives_the_same_result(self):
-        # Five discs: one by one. 48: all pairs. 300: lists, and averages over groups of eight with a
-        # rest. Spheres on a floor, which are accelerated.
+        # Five discs use scalar code, 48 all pairs, 300 lists and averages over groups of eight with a
+        # remainder. Spheres on a floor are accelerated.
         scenes = (("--discs", 5), ("--discs", 48, "--measure", "slip,energy"),
                   ("--discs", 300, "--container-radius", 21.3), ("--discs", 20, "--path", "circle"),
                   ("--preset", "experiment", "--discs", 21),
@@ -83,7 +83,7 @@ class Simd(InFolder):
                 tables.append(file.read())
         self.assertEqual(len(set(tables)), 1)
 
-    def test_an_unknown_width_and_one_that_the_processor_lacks_end_every_command(self):
+    def test_unknown_and_unsupported_widths_are_rejected_by_every_command(self):
         for command in (("run", "--discs", 5, "--events", 1000), ("sweep", "--out", self.path("s")),
                         ("verify", self.path("none.json"))):
             done = swirl(*command, environment={"SWIRL_SIMD": "mmx"})

@@ -1,7 +1,7 @@
-"""Spheres on a floor once more: an event-driven program of its own, from the physics in three dimensions,
-with numpy's roots of polynomials, in Python. From the same beginning it must come to the events that the
-program logs, one after the other: kind, partners, time, impulses. Neighbouring trajectories part
-exponentially, and the two round differently, so the comparison is strict at first and ends in time."""
+"""An independent event-driven simulation of spheres on a floor in Python, from the three-dimensional
+physics and numpy's roots of polynomials. From the same initial state it must give the logged events of
+the program: kind, partners, time and impulses. Trajectories diverge exponentially and the two programs
+round differently, so the tolerance is strict at first and the comparison is short."""
 
 import math
 import os
@@ -20,103 +20,103 @@ except ImportError:
     sys.exit(77)
 
 # The paper's experiment in units of r and AΩ, as docs/spheres.md derives it.
-DISH, AMPLITUDE, SIDES = 25.5 / 3, 5.75 / 3, 30
+CONTAINER_RADIUS, AMPLITUDE, SIDES = 25.5 / 3, 5.75 / 3, 30
 GRAVITY, RESTITUTION, CONTACT_DURATION = 6.382, 0.9, 1e-3
 PERIOD = 2 * math.pi * AMPLITUDE
 UP = np.array([0.0, 0.0, 1.0])
-KINDS = ("pair", "wall", "corner", "rolls")
+KINDS = ("pair", "wall", "vertex", "rolls")
 EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "vertical_impulses.py")
-AT_ONCE = 1e-9  # all that roll undisturbed begin to roll at one instant: in whatever order
+SIMULTANEOUS = 1e-9  # undisturbed spheres start to roll at the same time, in any order
 
 
 def first_contact(apart, velocity, acceleration, reach, inside):
-    """When |s + v t + a t²/2| comes to `reach`, from above, or for what is inside of it from below."""
-    room = [acceleration @ acceleration / 4, velocity @ acceleration,
+    """The time at which |s + v t + a t²/2| reaches `reach`, from above, or from below if `inside`."""
+    gap = [acceleration @ acceleration / 4, velocity @ acceleration,
             velocity @ velocity + apart @ acceleration, 2 * apart @ velocity, apart @ apart - reach ** 2]
     falls = -1 if inside else 1
-    while room and room[0] == 0:
-        room.pop(0)
-    slope = np.polyder(room) if len(room) > 1 else []
-    # What has just collided is at a root, and parts.
-    times = [t.real for t in np.roots(room)
+    while gap and gap[0] == 0:
+        gap.pop(0)
+    slope = np.polyder(gap) if len(gap) > 1 else []
+    # A pair that has just collided is at a root with an increasing distance.
+    times = [t.real for t in np.roots(gap)
              if abs(t.imag) < 1e-9 * max(1, abs(t)) and t.real > 1e-9 and falls * np.polyval(slope, t.real) < 0]
     return min(times, default=math.inf)
 
 
-class Dish:
+class Simulation:
     def __init__(self, start, friction, floor_friction, coins, resistance=0.0):
         self.count = len(start["mass"])
         self.inertia, self.coins = start["moment_of_inertia"][0], coins
         flat = np.zeros((self.count, 1))
-        self.place = np.hstack([start["position"][:], flat])
+        self.position = np.hstack([start["position"][:], flat])
         self.velocity = np.hstack([start["velocity"][:], flat])
         rolling = np.zeros((self.count, 2)) if coins else start["rolling_spin"][:]
         self.spin = np.hstack([rolling, start["spin"][:].reshape(-1, 1)])
         self.friction, self.deceleration = friction, floor_friction * GRAVITY
         self.torque = resistance * GRAVITY
-        self.corners = [AMPLITUDE * np.array([math.cos(2 * math.pi * k / SIDES),
+        self.vertices = [AMPLITUDE * np.array([math.cos(2 * math.pi * k / SIDES),
                                               math.sin(2 * math.pi * k / SIDES), 0]) for k in range(SIDES)]
         self.time, self.last = 0.0, [-math.inf] * self.count
-        self.begin_leg(0)
+        self.begin_segment(0)
 
-    def begin_leg(self, leg):
-        self.leg = leg % SIDES
-        self.centre = self.corners[self.leg].copy()
-        self.dish_velocity = (self.corners[(self.leg + 1) % SIDES] - self.centre) / (PERIOD / SIDES)
+    def begin_segment(self, segment):
+        self.segment = segment % SIDES
+        self.centre = self.vertices[self.segment].copy()
+        self.container_velocity = (self.vertices[(self.segment + 1) % SIDES] - self.centre) / (PERIOD / SIDES)
         self.rolls, self.rests = [False] * self.count, [False] * self.count
-        if self.leg == 0:  # the clock begins anew
+        if self.segment == 0:  # the clock restarts
             self.last = [t - self.time for t in self.last]
             self.time = 0.0
 
     def on_floor(self, i):
-        """Acceleration, its torque's, and how long it slides, or slows down."""
-        over_floor = self.velocity[i] - self.dish_velocity
+        """Acceleration, angular acceleration, and the duration of sliding or slowing down."""
+        over_floor = self.velocity[i] - self.container_velocity
         if self.rests[i] or self.rolls[i] and self.torque == 0:
             return np.zeros(3), np.zeros(3), math.inf
         if self.rolls[i] and np.linalg.norm(over_floor) < 1e-13:
             return np.zeros(3), np.zeros(3), 0.0
         if self.rolls[i]:
-            # The torque against ω, and the friction on the floor that keeps v = R ω × ẑ.
+            # The torque against ω, and the floor friction that maintains v = R ω × ẑ.
             slows = -self.torque / (1 + self.inertia) * over_floor / np.linalg.norm(over_floor)
             return slows, np.cross(UP, slows), np.linalg.norm(over_floor) / np.linalg.norm(slows)
-        slip = self.velocity[i] - self.dish_velocity
+        slip = self.velocity[i] - self.container_velocity
         if not self.coins:
             slip = slip - np.cross(self.spin[i], UP)
         speed = np.linalg.norm(slip)
         if speed < 1e-13:
             return np.zeros(3), np.zeros(3), 0.0
-        force = -self.deceleration * slip / speed  # at −ẑ, where the floor is
+        force = -self.deceleration * slip / speed  # acts at the floor, −ẑ
         if self.coins:
             return force, np.zeros(3), speed / self.deceleration
         return (force, np.cross(-UP, force) / self.inertia,
                 speed / (self.deceleration * (1 + 1 / self.inertia)))
 
     def pending(self, motions):
-        yield (self.leg + 1) * PERIOD / SIDES - self.time, "corner", 0, 0
+        yield (self.segment + 1) * PERIOD / SIDES - self.time, "vertex", 0, 0
         for i, (acceleration, _, slides) in enumerate(motions):
             yield slides, "rolls", i, i
-            yield first_contact(self.place[i] - self.centre, self.velocity[i] - self.dish_velocity,
-                                acceleration, DISH - 1, True), "wall", i, i
+            yield first_contact(self.position[i] - self.centre, self.velocity[i] - self.container_velocity,
+                                acceleration, CONTAINER_RADIUS - 1, True), "wall", i, i
             for j in range(i + 1, self.count):
-                yield first_contact(self.place[j] - self.place[i], self.velocity[j] - self.velocity[i],
+                yield first_contact(self.position[j] - self.position[i], self.velocity[j] - self.velocity[i],
                                     motions[j][0] - acceleration, 2.0, False), "pair", i, j
 
     def step(self, kind_of_log, i_of_log):
-        """(time, kind, i, impulses) of the next event; of those at one instant, the log's."""
+        """(time, kind, i, impulses) of the next event; of simultaneous events, the one in the log."""
         motions = [self.on_floor(i) for i in range(self.count)]
         events = sorted(self.pending(motions))
-        event = next((e for e in events if e[0] < events[0][0] + AT_ONCE and e[1] == kind_of_log and
-                      (kind_of_log == "corner" or e[2] == i_of_log)), events[0])
+        event = next((e for e in events if e[0] < events[0][0] + SIMULTANEOUS and e[1] == kind_of_log and
+                      (kind_of_log == "vertex" or e[2] == i_of_log)), events[0])
         wait, kind, i, j = event
-        for k, (acceleration, turning, _) in enumerate(motions):
-            self.place[k] += wait * self.velocity[k] + wait ** 2 / 2 * acceleration
+        for k, (acceleration, angular_acceleration, _) in enumerate(motions):
+            self.position[k] += wait * self.velocity[k] + wait ** 2 / 2 * acceleration
             self.velocity[k] += wait * acceleration
-            self.spin[k] += wait * turning
-        self.centre = self.centre + wait * self.dish_velocity
+            self.spin[k] += wait * angular_acceleration
+        self.centre = self.centre + wait * self.container_velocity
         self.time += wait
         now, impulses = self.time, np.zeros(3)
-        if kind == "corner":
-            self.begin_leg(self.leg + 1)
+        if kind == "vertex":
+            self.begin_segment(self.segment + 1)
         elif kind == "rolls":
             self.rests[i] = self.rolls[i]
             self.rolls[i] = True
@@ -125,10 +125,10 @@ class Dish:
         return now, kind, i, impulses
 
     def collide(self, i, j):
-        """Normal, tangential and vertical impulse. The floor holds who is pushed down, not who is lifted."""
-        normal = self.place[i] - self.centre if j is None else self.place[j] - self.place[i]
+        """Normal, tangential and vertical impulse. The floor supports a sphere that is pushed down."""
+        normal = self.position[i] - self.centre if j is None else self.position[j] - self.position[i]
         normal = normal / np.linalg.norm(normal)
-        other = (self.dish_velocity if j is None
+        other = (self.container_velocity if j is None
                  else self.velocity[j] + np.cross(self.spin[j], -normal))
         relative = other - self.velocity[i] - np.cross(self.spin[i], normal)
         approach, bodies = -relative @ normal, 1 if j is None else 2
@@ -146,19 +146,19 @@ class Dish:
         upright_mass = 1 / (lifted + bodies / self.inertia)
         whole = level_mass * (along - vertical) + upright_mass * vertical
         allowed, stick = self.friction * pressed, np.linalg.norm(whole)
-        rubbing = -whole
+        friction = -whole
         if stick > allowed:
             slip = np.linalg.norm(along)
             horizontal = np.linalg.norm(along - vertical)
             stops = slip ** 3 / (horizontal ** 2 / level_mass + (vertical @ vertical) / upright_mass)
             turned = (allowed / stick) ** 2
-            rubbing = -((1 - turned) * min(allowed, stops) * along / slip + turned * allowed * whole / stick)
-        level = rubbing - rubbing @ UP * UP
+            friction = -((1 - turned) * min(allowed, stops) * along / slip + turned * allowed * whole / stick)
+        level = friction - friction @ UP * UP
         for k, sign in zip(partners, (-1, 1)):
             self.velocity[k] += sign * (pressed * normal + level)
-            self.spin[k] += np.cross(-sign * normal, sign * rubbing) / self.inertia
+            self.spin[k] += np.cross(-sign * normal, sign * friction) / self.inertia
             self.rolls[k], self.rests[k], self.last[k] = False, False, self.time
-        return np.array([pressed, level @ np.array([normal[1], -normal[0], 0]), rubbing[2]])
+        return np.array([pressed, level @ np.array([normal[1], -normal[0], 0]), friction[2]])
 
 
 class Spheres(InFolder):
@@ -172,17 +172,17 @@ class Spheres(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         collisions = 0
         with h5py.File(log) as file:
-            dish = Dish(file["initial"], friction, floor_friction, coins, resistance)
+            simulation = Simulation(file["initial"], friction, floor_friction, coins, resistance)
             rows = {name: column[:] for name, column in file["events"].items()}
         for k in range(events):
-            said = KINDS[rows["kind"][k]]
-            time, kind, i, impulses = dish.step(said, rows["i"][k])
+            logged_kind = KINDS[rows["kind"][k]]
+            time, kind, i, impulses = simulation.step(logged_kind, rows["i"][k])
             off = abs(time - rows["clock"][k])
-            self.assertEqual(kind, said, f"event {k}")
-            # Roundings of 10⁻¹⁵, a few times larger with every collision of a body with another.
+            self.assertEqual(kind, logged_kind, f"event {k}")
+            # Rounding errors of 10⁻¹⁵ grow by a factor of a few with every collision of two bodies.
             bound = 1e-10 if k < strict else 1e-5
             self.assertLess(min(off, abs(off - PERIOD)), bound, f"event {k}, {kind}")
-            if kind != "corner":
+            if kind != "vertex":
                 self.assertEqual(i, rows["i"][k], f"event {k}")
             if kind in ("pair", "wall"):
                 collisions += 1
@@ -197,13 +197,13 @@ class Spheres(InFolder):
     def test_fifteen_spheres(self):
         self.assertGreater(self.compare(700, 400, "--discs", 15), 50)
 
-    def test_hollow_ones_that_stick_more(self):
+    def test_shells_with_high_friction(self):
         self.assertGreater(self.compare(400, 250, "--discs", 12, "--inertia", "shell", friction=0.5), 20)
 
     def test_rolling_resistance(self):
         self.assertGreater(self.compare(800, 400, "--discs", 12, resistance=0.02), 40)
 
-    def test_rolling_resistance_that_stops_them(self):
+    def test_rolling_resistance_that_stops_spheres(self):
         self.assertGreater(self.compare(800, 400, "--discs", 15, resistance=0.05), 20)
 
     def test_coins(self):
@@ -215,25 +215,25 @@ class Spheres(InFolder):
         done = swirl("run", "--preset", "experiment", "--discs", 20, "--events", 20000, "--warmup", 0, "--log-events",
                      log, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        said = subprocess.run([sys.executable, EXAMPLE, log], capture_output=True, text=True, check=True).stdout
-        shares = {line[:56].strip(): float(line[56:]) for line in said.splitlines()}
+        output = subprocess.run([sys.executable, EXAMPLE, log], capture_output=True, text=True, check=True).stdout
+        shares = {line[:56].strip(): float(line[56:]) for line in output.splitlines()}
         with h5py.File(log) as file:
             J, kind = file["events/vertical_impulse"][:], file["events/kind"][:]
             clock, swirls = file["events/clock"][:], file["events/swirls"][:]
         time = swirls * PERIOD + clock
         weight = 20 * GRAVITY * (time[-1] - time[0])
-        # Of two spheres one is lifted and one pushed down; the wall (kind 1) gets J_z itself.
+        # In a pair one sphere is lifted and one pushed down; at the wall (kind 1), J_z acts on the wall.
         pairs = np.abs(J[kind == 0]).sum()
         for name, wall in (("push down", J[(kind == 1) & (J > 0)].sum()), ("lift", -J[(kind == 1) & (J < 0)].sum())):
             # Printed with four digits.
             self.assertAlmostEqual(shares[f"impulses that {name} / weight x time"] * weight / (pairs + wall), 1,
                                    delta=1e-3)
         in_air = shares["share of the time in the air, if lifted spheres hopped"]
-        # Hops of 2 J/m g; fewer where one begins before another has ended.
+        # Flights last 2 J/m g; overlapping flights count once.
         self.assertLessEqual(in_air, 2.001 * shares["impulses that lift / weight x time"])
         self.assertGreater(in_air, shares["impulses that lift / weight x time"])
 
-    def test_hops_that_overlap_count_once(self):
+    def test_overlapping_flights_count_once(self):
         sys.path.insert(0, os.path.dirname(EXAMPLE))
         from vertical_impulses import union
         self.assertEqual(union(np.array([0.0, 1.0, 5.0]), np.array([2.0, 3.0, 6.0])), 4)

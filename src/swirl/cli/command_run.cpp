@@ -31,7 +31,7 @@ struct RunCall {
     std::string json, measure, tables;
     bool quiet = false, dry_run = false;
 
-    /// The options that may also stand in the configuration file and in a checkpoint.
+    /// The options that may also be in the configuration file and in a checkpoint.
     OptionTexts output_options() {
         return {{"json", &json}, {"measure", &measure}, {"tables", &tables}};
     }

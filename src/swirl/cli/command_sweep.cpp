@@ -1,5 +1,4 @@
-// swirl sweep: many runs, on all cores or on a cluster. swirl collect: the table of what they
-// found.
+// swirl sweep: many runs, on all cores or on a cluster. swirl collect: the table of a sweep.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
