@@ -121,7 +121,7 @@ SlurmdParameters=config_overrides
         assert started.returncode == 0, started.stderr
         for node in self.nodes:
             os.makedirs(f"{self.folder}/spool/{node}", exist_ok=True)
-        # Daemons keep the pipes of who started them: they get none.
+        # Without this, the daemons would keep the pipes of the test open.
         quiet = dict(env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         subprocess.run(["slurmctld"], check=True, **quiet)
         for node in self.nodes:
@@ -141,7 +141,7 @@ SlurmdParameters=config_overrides
             return None
 
     def steps_on(self, node):
-        """The numbers of slurmstepd's that write to this node's log."""
+        """The process IDs of slurmstepd processes that write to this node's log."""
         log = f"{self.folder}/log/slurmd.{node}.log"
         found = []
         for pid, _, line in processes():
@@ -156,7 +156,7 @@ SlurmdParameters=config_overrides
         return found
 
     def kill_node(self, node):
-        """As if it lost power: its daemon and everything under it are gone."""
+        """Simulates a power failure: kills the daemon and all of its child processes."""
         os.kill(self.pid_of(f"slurmd.{node}.pid"), signal.SIGKILL)
         self.kill_trees(self.steps_on(node))
 
@@ -164,10 +164,10 @@ SlurmdParameters=config_overrides
         children = {}
         for pid, parent, _ in processes():
             children.setdefault(parent, []).append(pid)
-        doomed = list(roots)
-        for pid in doomed:
-            doomed.extend(children.get(pid, []))
-        for pid in reversed(doomed):
+        pids = list(roots)
+        for pid in pids:
+            pids.extend(children.get(pid, []))
+        for pid in reversed(pids):
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:

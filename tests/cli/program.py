@@ -12,7 +12,7 @@ SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
 
-# What the program prints when it fails: one sentence, and what to do about it if there is a remedy.
+# The output of a failed call: one error message, and a hint if there is a remedy.
 ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 
 

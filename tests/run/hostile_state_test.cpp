@@ -1,6 +1,6 @@
-// A saved state in which one number was replaced, and whose checksum would be right: it is
-// rejected, or the run continues from it for 300 events in which every disc stays inside the
-// container. Each is tried in a process of its own, so that a crash and a hang are seen.
+// A saved state with one replaced number and a correct checksum is rejected, or the run continues
+// from it for 300 events with all discs inside the container. Each state is tested in a child
+// process, which detects crashes and hangs.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,7 +36,7 @@ struct Saved {
     std::vector<SavedField> fields;
 };
 
-/// Of a run that measures everything, in its fifth period or later.
+/// The state of a run with all measurements, in its fifth period or later.
 Saved saved(const RunConfig& config) {
     Observation observation = observation_of(config, read_measurement_list("all"));
     RunControl control;
@@ -53,7 +53,7 @@ Saved saved(const RunConfig& config) {
 
 constexpr int ran = 0, rejected = 1, impossible = 2;
 
-/// What becomes of a run that is resumed from this.
+/// The outcome of a run that is resumed from this state.
 int outcome(const RunConfig& config, const std::string& state) {
     try {
         Observation observation = observation_of(config, read_measurement_list("all"));
@@ -68,7 +68,7 @@ int outcome(const RunConfig& config, const std::string& state) {
         const Snapshot now = run.snapshot();
         for (std::size_t i = 0; i < now.size(); ++i) {
             const Vec2 from_centre = now.position(i) - now.container_centre;
-            // A hundredth of a radius: what a forged state may have (continuation.cpp), ten times.
+            // A hundredth of a radius: ten times the allowed overlap of a state (continuation.cpp).
             if (!(std::hypot(from_centre.x, from_centre.y) + now.radius[i] <=
                   now.container_radius + 0.01 * now.radius[i]))
                 return impossible;
@@ -81,7 +81,7 @@ int outcome(const RunConfig& config, const std::string& state) {
     return rejected;
 }
 
-/// The same in a child. A minute is long after every right end.
+/// The same in a child process. The alarm ends a hang.
 int outcome_in_child(const RunConfig& config, const std::string& state) {
     const pid_t child = fork();
     if (child == 0) {
@@ -93,8 +93,7 @@ int outcome_in_child(const RunConfig& config, const std::string& state) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-/// What a number may be that should be none: indices, sizes and values of every kind, and the
-/// neighbours of what it was.
+/// Replacements of a number: indices, sizes and extreme values, and the neighbours of the number.
 std::uint64_t wrong_word(std::uint64_t was, std::uint64_t which) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     constexpr std::uint64_t whole[] = {0,          1,          2,          13,
@@ -118,7 +117,7 @@ std::uint64_t wrong_word(std::uint64_t was, std::uint64_t which) {
     return which == std::size(real) ? was + 1 : was - 1;
 }
 
-/// One number of one field, chosen by the seed, is another.
+/// The state with one number replaced; the seed determines which one.
 std::string mutated(const Saved& good, std::uint64_t seed) {
     Random random(seed);
     const SavedField& field = good.fields[random.bits() % good.fields.size()];
@@ -132,7 +131,7 @@ std::string mutated(const Saved& good, std::uint64_t seed) {
     return bytes;
 }
 
-void expect_that_no_mutation_does_harm(Shape body, std::uint64_t first, std::uint64_t count) {
+void expect_mutations_are_harmless(Shape body, std::uint64_t first, std::uint64_t count) {
     const RunConfig config = run_of(body);
     const Saved good = saved(config);
     ASSERT_EQ(outcome_in_child(config, good.bytes), ran);
@@ -142,27 +141,25 @@ void expect_that_no_mutation_does_harm(Shape body, std::uint64_t first, std::uin
         ASSERT_TRUE(found == ran || found == rejected) << "seed " << seed << ": " << found;
         ++outcomes[found];
     }
-    // Both happen: the mutations reach what is checked, and not all break at once.
+    // Both outcomes must occur: mutations reach the checks, and not all are rejected.
     EXPECT_GT(outcomes[ran], count / 20);
     EXPECT_GT(outcomes[rejected], count / 20);
     ::testing::Test::RecordProperty("ran", int(outcomes[ran]));
     ::testing::Test::RecordProperty("rejected", int(outcomes[rejected]));
 }
 
-TEST(HostileState, OfDiscsIsRejectedOrRuns) {
-    expect_that_no_mutation_does_harm(Shape::disc, 1, 300);
-}
+TEST(HostileState, OfDiscsIsRejectedOrRuns) { expect_mutations_are_harmless(Shape::disc, 1, 300); }
 TEST(HostileState, OfSpheresIsRejectedOrRuns) {
-    expect_that_no_mutation_does_harm(Shape::sphere, 1, 150);
+    expect_mutations_are_harmless(Shape::sphere, 1, 150);
 }
 TEST(HostileState, SlowOfDiscsIsRejectedOrRuns) {
-    expect_that_no_mutation_does_harm(Shape::disc, 1'000, 8'000);
+    expect_mutations_are_harmless(Shape::disc, 1'000, 8'000);
 }
 TEST(HostileState, SlowOfSpheresIsRejectedOrRuns) {
-    expect_that_no_mutation_does_harm(Shape::sphere, 1'000, 8'000);
+    expect_mutations_are_harmless(Shape::sphere, 1'000, 8'000);
 }
 
-// The current run of a block series was beyond its runs, and a vector was written beyond its end.
+// The index of the current run of a block series must be inside its runs.
 TEST(HostileState, AnIndexBeyondItsColumnIsRejected) {
     BlockSeries series;
     series.add(1.0, 1.0);
@@ -183,7 +180,7 @@ TEST(HostileState, ColumnsOfAnotherLengthAreRejected) {
     EXPECT_THROW(read(few), FileError);
 }
 
-TEST(HostileState, NegativeCountsAndOtherTruthValuesAreRejected) {
+TEST(HostileState, NegativeCountsAndInvalidBoolsAreRejected) {
     std::int64_t count = -1;
     StateWriter write;
     write(count);

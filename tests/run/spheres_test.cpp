@@ -136,10 +136,10 @@ void expect_floor_loss_equals_sliding_work(const RunConfig& config) {
             for (std::size_t i = 0; i < s.size(); ++i) {
                 if (s.ax[i] == 0.0 && s.ay[i] == 0.0) continue;
                 if (s.rolls(i)) {
-                    const Vec2 way = to.position(i) - from.position(i) -
-                                     (to.clock - from.clock) * from.container_velocity;
+                    const Vec2 distance = to.position(i) - from.position(i) -
+                                          (to.clock - from.clock) * from.container_velocity;
                     heat += config.rolling_resistance * config.gravity * config.mass *
-                            std::sqrt(dot(way, way));
+                            std::sqrt(dot(distance, distance));
                     continue;
                 }
                 const Vec2 a = slip_on_floor(from.disc(i), from.container_velocity),
@@ -164,25 +164,24 @@ TEST(RunOfSpheres, TheFloorDissipatesTheWorkOfSliding) {
     expect_floor_loss_equals_sliding_work(resisting);
 }
 
-// In a steady state what comes in goes out.
 TEST(RunOfSpheres, EnergyInputEqualsDissipation) {
     const RunConfig config =
         resolve({{"preset", "experiment"}, {"discs", "20"}, {"periods", "60"}, {"warmup", "20"}});
     const MeasuredRun measured = measured_run(config, {"energy"}, {});
-    const auto of = [&](const char* name) {
+    const auto power = [&](const char* name) {
         for (const MeasuredNumber& number : measured_numbers(measured.measured))
             if (number.name == std::string("energy.") + name) return number.estimate.mean;
         return not_available;
     };
-    const double in = of("wall_power") + of("floor_power");
-    const double out = of("disc_friction_power") + of("wall_friction_power") +
-                       of("inelastic_power") + of("floor_friction_power");
-    // The energy at the end of 40 swirls is that at their beginning up to what there is of it.
-    EXPECT_NEAR(in, out, 20.0 / (40.0 * config.period));
-    EXPECT_GT(of("floor_friction_power"), 0.0);
+    const double input = power("wall_power") + power("floor_power");
+    const double output = power("disc_friction_power") + power("wall_friction_power") +
+                          power("inelastic_power") + power("floor_friction_power");
+    // Over 40 periods, the energy changes by at most its value, about 20.
+    EXPECT_NEAR(input, output, 20.0 / (40.0 * config.period));
+    EXPECT_GT(power("floor_friction_power"), 0.0);
 }
 
-/// What is recorded is what was there, to the last bit: three spins and how they are turned.
+/// Recorded frames are bitwise identical to the states of the run, including spins and orientations.
 void expect_bitwise_identical_recording(const RunConfig& config) {
     const Scratch scratch;
     RunFiles files;
@@ -192,26 +191,26 @@ void expect_bitwise_identical_recording(const RunConfig& config) {
     TrajectoryReader reader(files.trajectory);
     RunControl control;
     control.orientations = true;
-    swirl::Run again(config, control);
-    SampleTimes times = again.sample_times(20);
+    swirl::Run repeated(config, control);
+    SampleTimes times = repeated.sample_times(20);
     std::uint64_t k = 0;
-    while (again.next_event()) {
-        while (again.next_sample(times)) {
-            const Snapshot &seen = again.snapshot(), read = reader.frame(k++);
+    while (repeated.next_event()) {
+        while (repeated.next_sample(times)) {
+            const Snapshot &expected = repeated.snapshot(), read = reader.frame(k++);
             EXPECT_TRUE(read.on_floor);
             EXPECT_EQ(read.lie_flat, config.body == Shape::disc);
-            EXPECT_EQ(read.x, seen.x);
-            EXPECT_EQ(read.vy, seen.vy);
-            EXPECT_EQ(read.spin, seen.spin);
-            EXPECT_EQ(read.spin_x, seen.spin_x);
-            EXPECT_EQ(read.spin_y, seen.spin_y);
-            ASSERT_EQ(read.turned.size(), seen.turned.size());
-            for (std::size_t i = 0; i < seen.size(); ++i) {
-                EXPECT_EQ(read.turned[i].w, seen.turned[i].w);
-                EXPECT_EQ(read.turned[i].z, seen.turned[i].z);
+            EXPECT_EQ(read.x, expected.x);
+            EXPECT_EQ(read.vy, expected.vy);
+            EXPECT_EQ(read.spin, expected.spin);
+            EXPECT_EQ(read.spin_x, expected.spin_x);
+            EXPECT_EQ(read.spin_y, expected.spin_y);
+            ASSERT_EQ(read.turned.size(), expected.turned.size());
+            for (std::size_t i = 0; i < expected.size(); ++i) {
+                EXPECT_EQ(read.turned[i].w, expected.turned[i].w);
+                EXPECT_EQ(read.turned[i].z, expected.turned[i].z);
             }
         }
-        again.pass_event();
+        repeated.pass_event();
     }
     EXPECT_EQ(reader.frames(), k);
     EXPECT_GT(k, 55u);

@@ -1,6 +1,6 @@
-// How often the tests of the steady state (statistics/steady_state.hpp) are wrong, on recorded
-// series: false alarms of runs that are steady, and the share of jumps, drifts and mixtures that
-// they find when these are planted in such series. The test prints the tables of docs/physics.md.
+// Error rates of the steady-state tests (statistics/steady_state.hpp) on recorded series: false alarms
+// in steady runs, and the fraction of planted jumps, drifts and mixtures that they find. The test
+// prints the tables of docs/physics.md.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ std::vector<Series> recorded(const Setting& setting, std::size_t seeds) {
     return all;
 }
 
-/// Something that is added to a series: `share` of it has passed; 1 is the largest value.
+/// A shape that is added to a series, as a function of the elapsed fraction, with maximum 1.
 struct Planted {
     const char* name;
     std::function<double(double share)> shape;
@@ -64,8 +64,8 @@ const std::vector<Planted> plants{
     {"mixture, 5 visits", [](double share) { return int(5.0 * share) % 2 == 0 ? 1.0 : 0.0; }},
     {"mixture, 16 visits", [](double share) { return int(16.0 * share) % 2 == 0 ? 1.0 : 0.0; }}};
 
-/// How many of the series, with `size` errors of their mean planted, are not called steady.
-int found(const std::vector<Series>& all, const Planted& plant, double size) {
+/// The number of series that are not called steady with `size` standard errors of the mean planted.
+int count_found(const std::vector<Series>& all, const Planted& plant, double size) {
     int count = 0;
     for (Series series : all) {
         const double error = estimate_of(series).error, n = double(series.size());
@@ -76,13 +76,13 @@ int found(const std::vector<Series>& all, const Planted& plant, double size) {
     return count;
 }
 
-// The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks that remember a
-// share of 0 to 0.95 of the block before.
+// The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks with a memory of 0
+// to 0.95 of the previous block.
 TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
     struct Bin {
         double minimum;
         int series = 0, alarms = 0;
-        double said = 0.0;
+        double stated = 0.0;
     };
     std::vector<Bin> bins{{0.0}, {20.0}, {50.0}, {100.0}, {500.0}};
     for (const double memory : {0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95})
@@ -98,14 +98,14 @@ TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
                     if (state.change.effective_samples >= b.minimum) bin = &b;
                 ++bin->series;
                 bin->alarms += state.verdict != Verdict::steady ? 1 : 0;
-                bin->said = std::max(bin->said, false_alarm_rate(state.change));
+                bin->stated = std::max(bin->stated, false_alarm_rate(state.change));
             }
         }
     for (const Bin& bin : bins) {
         fmt::print("| {} or more | {} | {:.2f} |\n", bin.minimum, bin.series,
                    100.0 * bin.alarms / bin.series);
         // Three standard deviations of a Poisson count.
-        const double expected = bin.said * bin.series;
+        const double expected = bin.stated * bin.series;
         EXPECT_LE(bin.alarms, expected + 3.0 * std::sqrt(expected)) << bin.minimum;
     }
 }
@@ -122,22 +122,22 @@ TEST(SlowSteadyStateCalibration, SteadyRecordedRunsAreRecognised) {
                                    {40, 1.0},
                                    {44, 0.1},
                                    {48, 1.0}}) {
-        int here = 0;
+        int alarms_here = 0;
         for (const Series& series : recorded(setting, 48)) {
             const SteadyState state = find_steady_state(series);
-            here += state.verdict != Verdict::steady ? 1 : 0;
+            alarms_here += state.verdict != Verdict::steady ? 1 : 0;
             largest = std::max(largest, std::fabs(state.change.size) / state.change.max_size);
             ++runs;
         }
-        fmt::print("| {} | {} | {} of 48 |\n", setting.discs, setting.mu, here);
-        alarms += here;
+        fmt::print("| {} | {} | {} of 48 |\n", setting.discs, setting.mu, alarms_here);
+        alarms += alarms_here;
     }
     fmt::print(
         "{} of {} steady runs are called not steady; the largest change is {:.2f} of its "
         "limit\n",
         alarms, runs, largest);
-    // Expected: 0.05 to 0.4 % of 432, which is one at most. Five are more than chance would make of
-    // 0.2 % (Poisson with a mean of 0.9: one in 500 cases).
+    // Expected are 0.05 to 0.4 % of 432, about one. Five or more occur by chance in one of 500 cases
+    // (Poisson with a mean of 0.9, 0.2 %).
     EXPECT_LT(alarms, 5);
 }
 
@@ -149,14 +149,13 @@ TEST(SlowSteadyStateCalibration, PlantedChangesInRecordedRunsAreFound) {
     for (const Planted& plant : plants) {
         std::string row = fmt::format("| {} |", plant.name);
         std::vector<int> shares;
-        for (const double size : sizes) shares.push_back(found(all, plant, size));
+        for (const double size : sizes) shares.push_back(count_found(all, plant, size));
         for (const int share : shares) row += fmt::format(" {} |", share);
         fmt::print("{}\n", row);
-        // More is found the larger it is; of 100 series a few may be exceptions.
+        // Larger changes are found more often, with a few exceptions among 100 series.
         for (std::size_t k = 1; k < shares.size(); ++k)
             EXPECT_GE(shares[k], shares[k - 1] - 5) << plant.name;
-        // The table of docs/physics.md: at the largest size everything is found, whatever its
-        // shape.
+        // At the largest size, nearly all changes are found for every shape (docs/physics.md).
         EXPECT_GE(shares.back(), 95) << plant.name;
     }
 }

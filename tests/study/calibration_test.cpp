@@ -1,8 +1,8 @@
-// Are the errors what they say? Many independent repetitions of the same call, each with its
-// interval of 95 %, mean ± 1.96 errors, against a truth that is known far better. Of 40 intervals
-// 34 to 40 must hold it: fewer than 34 happen to a right estimator in one of 600 cases (binomial,
-// p = 0.95), and more than 40 there are not. Wide intervals are no way out: the error that is given
-// must not be more than twice the scatter of the repetitions.
+// Calibration of the standard errors: independent repetitions of the same call, each with its 95 %
+// interval, mean ± 1.96 errors, are compared with a reference value of far smaller error. At least
+// 34 of 40 intervals must contain it: fewer occur for a correct estimator in one of 600 cases
+// (binomial, p = 0.95). Too wide intervals are rejected, too: the given error must not exceed twice
+// the scatter of the repetitions.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ struct Point {
 
 class SlowCalibration : public testing::TestWithParam<Point> {
   protected:
-    /// ϖ by time of `count` runs over so many swirls after a warm-up of 100.
+    /// ϖ by time of `count` runs over this number of periods after a warm-up of 100.
     static std::vector<Estimate> rotations(std::size_t count, std::int64_t periods,
                                            std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
@@ -48,40 +48,39 @@ class SlowCalibration : public testing::TestWithParam<Point> {
         return all;
     }
 
-    /// From ten times as much as all forty that are judged: uncertain by a twentieth of one's
-    /// error.
-    static Estimate truth() { return ensemble(rotations(40, 2000, 100'000)).estimate; }
+    /// From 400 times the periods of a run, so its error is a twentieth of that of a run.
+    static Estimate reference() { return ensemble(rotations(40, 2000, 100'000)).estimate; }
 };
 
-struct Judgement {
-    int held = 0;
-    double scatter_to_error = 0.0;  // rms deviation from the truth over the rms error given
+struct Calibration {
+    int contained = 0;              // intervals that contain the reference value
+    double scatter_to_error = 0.0;  // rms deviation from the reference, relative to the rms error
 };
 
-Judgement judge(const std::vector<Estimate>& given, double truth) {
-    Judgement all;
+Calibration calibration_of(const std::vector<Estimate>& given, double reference) {
+    Calibration all;
     double off = 0.0, error = 0.0;
     for (const Estimate& e : given) {
-        all.held += std::fabs(e.mean - truth) <= ninety_five * e.error ? 1 : 0;
-        off += std::pow(e.mean - truth, 2);
+        all.contained += std::fabs(e.mean - reference) <= ninety_five * e.error ? 1 : 0;
+        off += std::pow(e.mean - reference, 2);
         error += e.error * e.error;
     }
     all.scatter_to_error = std::sqrt(off / error);
     return all;
 }
 
-void expect_calibrated(const char* what, const std::vector<Estimate>& given, double truth) {
+void expect_calibrated(const char* what, const std::vector<Estimate>& given, double reference) {
     ASSERT_EQ(given.size(), repetitions);
-    const Judgement found = judge(given, truth);
-    testing::Test::RecordProperty(what, found.held);
-    std::printf("%s: %d of %zu intervals of 95 %% hold the truth; scatter / error = %.2f\n", what,
-                found.held, repetitions, found.scatter_to_error);
-    EXPECT_GE(found.held, 34) << what;
+    const Calibration found = calibration_of(given, reference);
+    testing::Test::RecordProperty(what, found.contained);
+    std::printf("%s: %d of %zu intervals of 95 %% contain the reference; scatter / error = %.2f\n",
+                what, found.contained, repetitions, found.scatter_to_error);
+    EXPECT_GE(found.contained, 34) << what;
     EXPECT_GT(found.scatter_to_error, 0.5) << what << ": the errors are far too large";
 }
 
 TEST_P(SlowCalibration, TheErrorOfARunIsThatOfItsMean) {
-    expect_calibrated("run", rotations(repetitions, 200, 1), truth().mean);
+    expect_calibrated("run", rotations(repetitions, 200, 1), reference().mean);
 }
 
 TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
@@ -89,10 +88,10 @@ TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
     std::vector<Estimate> collected;
     for (std::size_t k = 0; k < repetitions; ++k)
         collected.push_back(ensemble(std::span(runs).subspan(4 * k, 4)).estimate);
-    expect_calibrated("four runs", collected, truth().mean);
+    expect_calibrated("four runs", collected, reference().mean);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
+INSTANTIATE_TEST_SUITE_P(Containers, SlowCalibration,
                          testing::Values(Point{8, 1.0}, Point{28, 1.0}, Point{36, 0.2},
                                          Point{47, 1.0}, Point{48, 1.0}),
                          [](const auto& point) {
@@ -100,9 +99,9 @@ INSTANTIATE_TEST_SUITE_P(Dishes, SlowCalibration,
                                     (point.param.mu == 1.0 ? "Rough" : "Smooth");
                          });
 
-// Dense dishes have states that outlive such a run, which no run can know of by itself: with 52
-// discs its interval holds the truth far too seldom. Eight seeds, as every point of the paper's
-// figures has, know.
+// Dense containers have states that outlive such a run, so with 52 discs the interval of a single run
+// contains the reference value far too rarely. Eight seeds, the number at every point of the
+// paper's figures, reveal these states.
 TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
     const auto rotations = [](std::size_t count, std::int64_t periods, std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
@@ -116,13 +115,14 @@ TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
         return all;
     };
     const std::vector<Estimate> runs = rotations(8 * repetitions, 100, 1);
-    const double truth = ensemble(runs).estimate.mean;
+    const double reference = ensemble(runs).estimate.mean;
     std::vector<Estimate> collected;
     for (std::size_t k = 0; k < repetitions; ++k)
         collected.push_back(ensemble(std::span(runs).subspan(8 * k, 8)).estimate);
-    std::printf("single runs: %d of %zu hold the truth\n", judge(runs, truth).held, runs.size());
-    // The truth is that of all runs together: uncertain by a sixth of one's error, and shared.
-    expect_calibrated("eight runs", collected, truth);
+    std::printf("single runs: %d of %zu contain the reference\n",
+                calibration_of(runs, reference).contained, runs.size());
+    // The reference is the mean of all runs: its error is a sixth of that of eight runs.
+    expect_calibrated("eight runs", collected, reference);
 }
 
 struct Setting {
@@ -132,8 +132,8 @@ struct Setting {
     std::int64_t from, to, other_from, other_to;  // two ranges
 };
 
-/// Makes every run once: two ranges ask for the same runs near the crossing.
-class OnceEach {
+/// Caches runs: two ranges need the same runs near the crossing.
+class CachedRuns {
   public:
     RunResult operator()(const RunConfig& config, const RunControl& control) {
         const auto key = std::tuple(config.discs, config.seed, config.periods, config.events);
@@ -168,24 +168,24 @@ class SlowCalibrationOfTheCrossing : public testing::TestWithParam<Setting> {
 
 // Short runs and wide intervals calibrate the method as well as long ones: at least 50 periods, one
 // round of longer runs.
-TEST_P(SlowCalibrationOfTheCrossing, ItsIntervalHoldsTheCrossingForTwoRanges) {
+TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges) {
     CrossingSettings precise = settings_of(1'000'000);
     precise.config.events = 500'000;
-    precise.tolerance = 0.08;  // a quarter of the errors that are judged, or less
+    precise.tolerance = 0.08;  // at most a quarter of the tested errors
     precise.seeds = 8;
     const CrossingSearch best = search_crossing(precise);
     ASSERT_EQ(best.crossing().verdict, Crossing::Verdict::crosses);
-    const double truth = best.crossing().discs;
+    const double reference = best.crossing().discs;
     std::vector<Estimate> found;
-    int held = 0, same = 0, undecided = 0;
+    int contained = 0, same = 0, undecided = 0;
     for (std::size_t k = 0; k < repetitions; ++k) {
         CrossingSettings one = settings_of(1 + 1000 * k);
         one.config.events = 20'000;
         one.min_periods = 50;
         one.rounds = 1;
         CrossingControl control;
-        control.make_run = [runs = std::make_shared<OnceEach>()](const RunConfig& config,
-                                                                 const RunControl& inner) {
+        control.make_run = [runs = std::make_shared<CachedRuns>()](const RunConfig& config,
+                                                                   const RunControl& inner) {
             return (*runs)(config, inner);
         };
         const CrossingSearch a = search_crossing(one, control);
@@ -198,24 +198,24 @@ TEST_P(SlowCalibrationOfTheCrossing, ItsIntervalHoldsTheCrossingForTwoRanges) {
         }
         const Crossing& crossing = a.crossing();
         same += crossing.discs == b.crossing().discs && crossing.error == b.crossing().error;
-        held += crossing.lower <= truth && truth <= crossing.upper;
+        contained += crossing.lower <= reference && reference <= crossing.upper;
         Estimate e;
         e.mean = crossing.discs;
         e.error = crossing.error;
         found.push_back(e);
     }
-    const Judgement judgement = judge(found, truth);
+    const Calibration calibration = calibration_of(found, reference);
     const auto searches = static_cast<int>(found.size());
     std::printf(
-        "%s: N_c = %.3f +- %.3f; %d of %d intervals of 95 %% hold it (%d undecided); "
+        "%s: N_c = %.3f +- %.3f; %d of %d intervals of 95 %% contain it (%d undecided); "
         "scatter / error = %.2f; N = %ld to %ld and %ld to %ld find the same: %d\n",
-        GetParam().name, truth, best.crossing().error, held, searches, undecided,
-        judgement.scatter_to_error, GetParam().from, GetParam().to, GetParam().other_from,
+        GetParam().name, reference, best.crossing().error, contained, searches, undecided,
+        calibration.scatter_to_error, GetParam().from, GetParam().to, GetParam().other_from,
         GetParam().other_to, same);
-    // 34 of 40, as above; of fewer as many less.
-    EXPECT_GE(held, searches - 6);
-    EXPECT_GT(judgement.scatter_to_error, 0.5) << "the errors are far too large";
-    // Chance gives one of some ten points a wrong sign its three errors in 1 of 30 searches.
+    // At most six misses, as for 40 intervals above.
+    EXPECT_GE(contained, searches - 6);
+    EXPECT_GT(calibration.scatter_to_error, 0.5) << "the errors are far too large";
+    // In 1 of 30 searches, chance gives one of about ten points a wrong sign by three errors.
     EXPECT_GE(same, searches - 4);
 }
 
