@@ -163,7 +163,7 @@ py::list parameter_table() {
     for (const Parameter& p : run_parameters)
         if (p.is_settable())
             table.append(py::make_tuple(p.name, p.symbol, p.unit, plain_sentence(p.description),
-                                        default_of(p), p.lowest, p.highest, p.group));
+                                        default_of(p), p.range.lowest, p.range.highest, p.group));
     return table;
 }
 

@@ -169,7 +169,7 @@ std::string parameter_json(const Parameter& p) {
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
         R"("lowest":{},"highest":{},"usual":{},"given":{}}})",
         quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
-        quoted(p.group), quoted(default_of(p)), number(p.lowest), number(p.highest),
+        quoted(p.group), quoted(default_of(p)), number(p.range.lowest), number(p.range.highest),
         slider_json(p.slider), p.is_settable());
 }
 
@@ -418,7 +418,7 @@ EXPORTED(result) std::uint32_t result() {
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, r.config);
-        if (p.omitted_if_unset && std::holds_alternative<std::monostate>(value)) continue;
+        if (p.is_omitted(value)) continue;
         given.add(p.name, std::visit(ValueJson(), value));
     }
     events.add("total", double(r.events.total()))

@@ -26,7 +26,7 @@ std::string escaped(std::string text) {
 }
 
 std::string range_of(const Parameter& p) {
-    return p.highest > 0.0 ? fmt::format("{:g} … {:g}", p.lowest, p.highest) : "";
+    return p.range.highest > 0.0 ? fmt::format("{:g} … {:g}", p.range.lowest, p.range.highest) : "";
 }
 
 std::string documentation_of(const Parameter& p) {
@@ -86,8 +86,8 @@ TEST(ParameterTable, EveryNumberHasASliderInsideItsRange) {
         ASSERT_EQ(step > 0.0, is_number) << p.name;
         if (!is_number) continue;
         EXPECT_LT(first, last) << p.name;
-        EXPECT_GE(first, p.lowest) << p.name;
-        EXPECT_LE(last, p.highest > 0.0 ? p.highest : last) << p.name;
+        EXPECT_GE(first, p.range.lowest) << p.name;
+        EXPECT_LE(last, p.range.highest > 0.0 ? p.range.highest : last) << p.name;
         const double steps = (last - first) / step;
         EXPECT_NEAR(steps, std::round(steps), 1e-9) << p.name;  // rounding of a few divisions
         char* end_of_number = nullptr;

@@ -88,9 +88,9 @@ std::string another(const Parameter& p) {
                                                              {"rolling_resistance", "0.01"}};
     if (const auto found = words.find(p.name); found != words.end()) return found->second;
     const ParameterValue value =
-        p.omitted_if_unset ? ParameterValue(std::stod(default_of(p))) : value_of(p, {});
+        p.written != WrittenIf::always ? ParameterValue(std::stod(default_of(p))) : value_of(p, {});
     if (const auto* number = std::get_if<double>(&value))
-        return fmt::format("{}", *number == p.lowest ? 0.5 * p.highest : 0.9 * *number);
+        return fmt::format("{}", *number == p.range.lowest ? 0.5 * p.range.highest : 0.9 * *number);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole - 1);
     return "7";
 }
@@ -100,7 +100,8 @@ std::string another(const Parameter& p) {
 TEST(RunParameters, EveryParameterSurvivesTheJson) {
     const std::string paper = config_json({}).dump();
     for (const Parameter& p : run_parameters) {
-        EXPECT_EQ(config_json({}).contains(p.name), p.is_written() && !p.omitted_if_unset)
+        EXPECT_EQ(config_json({}).contains(p.name),
+                  p.is_written() && p.written == WrittenIf::always)
             << p.name;
         if (!p.is_settable()) continue;
         ParameterTexts texts{{p.name, another(p)}};
@@ -154,10 +155,11 @@ TEST(RunParameters, DefaultTextsResolveToTheDefaults) {
 
 TEST(RunParameters, ValuesOutsideTheRangeAreRejected) {
     for (const Parameter& p : run_parameters) {
-        if (!p.is_settable() || p.highest <= 0.0 || p.name == std::string("mixture")) continue;
-        EXPECT_THAT(error_of({{p.name, fmt::format("{}", p.lowest - 1.0)}}),
+        if (!p.is_settable() || p.range.highest <= 0.0 || p.name == std::string("mixture"))
+            continue;
+        EXPECT_THAT(error_of({{p.name, fmt::format("{}", p.range.lowest - 1.0)}}),
                     testing::HasSubstr(option_name(p.name)));
-        EXPECT_THAT(error_of({{p.name, fmt::format("{}", 2.0 * p.highest)}}),
+        EXPECT_THAT(error_of({{p.name, fmt::format("{}", 2.0 * p.range.highest)}}),
                     testing::HasSubstr("to "))
             << p.name;
     }

@@ -55,7 +55,7 @@ void expect_interruptions_do_not_change(const RunConfig& config) {
     std::vector<Sample> samples;
     RunControl control;
     SampleTimes times = whole.sample_times(7);
-    for (int part = 0; part < 17; ++piece) {
+    for (int part = 0; part < 17; ++part) {
         swirl::Run run(config, control);
         advance(run, 1'700, times, samples);
         ASSERT_FALSE(run.complete());
@@ -95,7 +95,7 @@ TEST(Resume, EveryMeasurementContinues) {
     const MeasuredRun whole = measured_run(config, names);
 
     std::optional<std::string> state;
-    for (int part = 0; part < 15; ++piece) {
+    for (int part = 0; part < 15; ++part) {
         Observation observation = observation_of(config, names);
         RunControl control;
         control.observation = &observation;

@@ -290,8 +290,8 @@ std::vector<ParameterTexts> extremes_of_every_parameter() {
     for (const Parameter& p : run_parameters) {
         const std::string name = p.name, form = p.form;
         if (p.group == parameter_group::run || name == "discs" || !p.is_settable()) continue;
-        if (p.lowest < p.highest && name != "mixture")
-            for (const double end : {p.lowest, p.highest})
+        if (p.range.lowest < p.range.highest && name != "mixture")
+            for (const double end : {p.range.lowest, p.range.highest})
                 all.push_back({{name, fmt::format("{}", end)}});
         std::istringstream words(form);
         for (std::string word; std::getline(words, word, '|');)

@@ -189,41 +189,26 @@ void run_searches(const CrossingCall& call) {
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
-    const char* const search_group = "Search";
-    subcommand
-        .add_option("config", call->config_file, "TOML file with options; options override it")
-        ->type_name("FILE.toml");
+    const char *const search = "Search", *const output = "Output";
+    subcommand.add_option("config", call->config_file,
+                          "TOML file with options; the command line overrides it", "FILE.toml");
     call->parameters = add_run_options(subcommand, {"discs", "periods"}, defaults);
-    subcommand
-        .add_option("--tolerance", call->settings.tolerance, "Target standard error of N_c [0.3]")
-        ->type_name("NUMBER")
-        ->group(search_group);
-    subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]")
-        ->type_name("N")
-        ->group(search_group);
-    subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]")
-        ->type_name("N")
-        ->group(search_group);
-    subcommand
-        .add_option("--step", call->settings.step,
-                    "Step of the coarse scan in discs [about eight numbers]")
-        ->type_name("N")
-        ->group(search_group);
-    subcommand.add_option("--rate", call->rate, "Rotation rate that controls the search [by_time]")
-        ->type_name("NAME")
-        ->group(search_group);
-    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]")
-        ->type_name("N")
-        ->group(search_group);
-    subcommand.add_option("--json", call->json, "File for all results, or - for stdout")
-        ->type_name("FILE|-")
-        ->group("Output");
-    subcommand
-        .add_option("--csv", call->table, "File for a table of the searches, or - for stdout")
-        ->type_name("FILE|-")
-        ->group("Output");
-    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress")
-        ->group("Output");
+    subcommand.add_option("--tolerance", call->settings.tolerance,
+                          "Target standard error of N_c [0.3]", "NUMBER", search);
+    subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]", "N",
+                          search);
+    subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]", "N", search);
+    subcommand.add_option("--step", call->settings.step,
+                          "Step of the coarse scan in discs [about eight numbers]", "N", search);
+    subcommand.add_option("--rate", call->rate, "Rotation rate that controls the search [by_time]",
+                          "NAME", search);
+    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
+                          "N", search);
+    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
+                          output);
+    subcommand.add_option("--csv", call->table, "File for a table of the searches, or - for stdout",
+                          "FILE|-", output);
+    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its\n"
         "own. A run has at least --events events and a hundred periods after the warm-up. Near\n"

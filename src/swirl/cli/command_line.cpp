@@ -18,7 +18,7 @@ std::string& stored_line() {
 }
 
 /// The printable ASCII characters of the word, and \xNN for all other bytes.
-std::string escaped(std::string_view word) {
+std::string ascii_text(std::string_view word) {
     std::string text;
     for (const char c : word)
         text += c >= 0x20 && c < 0x7f ? std::string(1, c)
@@ -35,7 +35,7 @@ void reject_invalid_utf8(int argc, char** argv) {
         throw UsageError(
             fmt::format("'{}' is not UTF-8 text, but results and recordings can store "
                         "only UTF-8.\nhint: use another name.",
-                        escaped(word)));
+                        ascii_text(word)));
     }
 }
 

@@ -153,7 +153,8 @@ void measure_file(const MeasureCall& call) {
     const MeasuredSeries measured = measure_with_progress(call, series, names, skip);
     const Json values = measured_json(measured.reports);
     const std::string rolling = remark_on_rolling(values);
-    const Json json = json_of(call, opened, measured, values, opened.remarks + (rolling.empty() ? "" : rolling + "\n"));
+    const Json json = json_of(call, opened, measured, values,
+                              opened.remarks + (rolling.empty() ? "" : rolling + "\n"));
     if (!call.tables.empty()) {
         make_folder(call.tables);
         write_measured_tables(measured.reports, call.tables);
@@ -169,27 +170,27 @@ void measure_file(const MeasureCall& call) {
 
 void add_measure_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MeasureCall>();
-    const auto text = [&](const char* name, std::string& into, const char* type,
-                          const char* description, const char* group) {
-        return subcommand.add_option(name, into, description)->type_name(type)->group(group);
-    };
-    subcommand.add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump")
-        ->type_name("FILE")
+    const char *const output = "Output", *const camera = "Tracks of other programs";
+    subcommand
+        .add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump", "FILE")
         ->required();
-    text("--measure", call->list, "LIST", "Measurements, separated by commas, or all (or help)",
-         "Output");
-    text("--tables", call->tables, "DIR", "Folder for the measurements as CSV tables", "Output");
-    text("--json", call->json, "FILE|-", "File for all results, or - for stdout", "Output");
-    text("--skip", call->skip, "PERIODS", "Periods at the start to exclude [0]", "Output");
-    subcommand.add_flag("--quiet", call->quiet, "No progress and no report")->group("Output");
-    const char* const camera = "Tracks of other programs";
+    subcommand.add_option("--measure", call->list,
+                          "Measurements, separated by commas, or all (or help)", "LIST", output);
+    subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
+                          "DIR", output);
+    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
+                          output);
+    subcommand.add_option("--skip", call->skip, "Periods at the start to exclude [0]", "PERIODS",
+                          output);
+    subcommand.add_flag("--quiet", call->quiet, "No progress and no report", output);
     add_track_options(subcommand, call->camera, camera);
-    text("--amplitude", call->camera.amplitude, "NUMBER",
-         "Amplitude of the swirling motion, in disc radii [0]", camera);
-    text("--container-radius", call->camera.container_radius, "NUMBER",
-         "Radius of the container, in disc radii", camera);
-    text("--misfit", call->misfit, "SHARE",
-         "Allowed fraction of frames with overlapping discs [0.05]", camera);
+    subcommand.add_option("--amplitude", call->camera.amplitude,
+                          "Amplitude of the swirling motion, in disc radii [0]", "NUMBER", camera);
+    subcommand.add_option("--container-radius", call->camera.container_radius,
+                          "Radius of the container, in disc radii", "NUMBER", camera);
+    subcommand.add_option("--misfit", call->misfit,
+                          "Allowed fraction of frames with overlapping discs [0.05]", "SHARE",
+                          camera);
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
         "dump.\n"

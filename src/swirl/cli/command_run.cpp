@@ -134,13 +134,10 @@ void print_checkpoint_notes(const RunFiles& files) {
 RunResult run_with_progress(PreparedRun& prepared, bool quiet) {
     const RunConfig& config = prepared.config;
     ProgressLine line(fmt::format("{} {}s", config.discs, body_word(config)), quiet);
-    const auto begin = std::chrono::steady_clock::now();
     RunControl control;
     control.stop = &stop_signal();
     control.progress = [&](const RunProgress& progress) {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        const double rate = static_cast<double>(progress.events) / elapsed.count();
-        line.show(progress.fraction, short_number(rate) + " events/s");
+        line.show_events(progress.fraction, progress.events);
     };
     if (!prepared.observation.empty()) control.observation = &prepared.observation;
     return run_recorded(config, prepared.files, control,
@@ -211,8 +208,7 @@ void run_and_report(RunCall& call) {
     if (call.measure == "markdown") return print_all(measurement_markdown());
     PreparedRun prepared = prepare(call);
     if (call.dry_run)
-        return print_all(
-            config_file_text(prepared.config, *call.recording, call.output_options()));
+        return print_all(config_file_text(prepared.config, *call.recording, call.output_options()));
     if (!call.tables.empty()) make_folder(call.tables);
     if (is_done_already(prepared.files, call.json, prepared.config, prepared.observation.names(),
                         prepared.tables)) {
@@ -230,29 +226,25 @@ void add_run_command(Subcommand& subcommand) {
     const auto call = std::make_shared<RunCall>();
     call->parameters = add_run_options(subcommand);
     call->recording = add_recording_options(subcommand);
-    subcommand.add_option("--json", call->json, "File for all results, or - for stdout")
-        ->type_name("FILE|-")
-        ->group("Output");
-    subcommand
-        .add_option("--measure", call->measure,
-                    "Measurements, separated by commas, or all (see below)")
-        ->type_name("LIST")
-        ->group("Output");
-    subcommand
-        .add_option("--tables", call->tables, "Folder for the measurements as CSV tables")
-        ->type_name("DIR")
-        ->group("Output");
-    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress")
-        ->group("Output");
-    subcommand
-        .add_flag("--dry-run", call->dry_run, "Print the configuration file and do not run")
-        ->group("Output");
+    const char* const output = "Output";
+    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
+                          output);
+    subcommand.add_option("--measure", call->measure,
+                          "Measurements, separated by commas, or all (see below)", "LIST", output);
+    subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
+                          "DIR", output);
+    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
+    subcommand.add_flag("--dry-run", call->dry_run, "Print the configuration file and do not run",
+                        output);
     subcommand.set_examples({"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
                              "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
                              "swirl run --discs 48 --measure density,flow --tables maps",
                              "swirl run study.toml --discs 40 --trajectory frames.h5",
                              "swirl run --discs 48 --events 1e9 --json out.json --resume"});
-    subcommand.explain("Measurements (details: --measure help):\n" + measurement_list_text());
+    subcommand.explain(
+        "Details of the parameters: docs/parameters.md\n\nMeasurements (details: --measure "
+        "help):\n" +
+        measurement_list_text());
     subcommand.callback([call] { run_and_report(*call); });
 }
 

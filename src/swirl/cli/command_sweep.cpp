@@ -160,13 +160,10 @@ std::string plan_text(const SweepPlan& plan) {
 SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
                                const SweepShare& share) {
     ProgressLine line(fmt::format("{} runs", plan.points()), call.quiet);
-    const auto begin = std::chrono::steady_clock::now();
     SweepControl control;
     control.stop = &stop_signal();
     control.progress = [&](double done, double total, std::uint64_t events) {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        line.show(total > 0.0 ? done / total : 1.0,
-                  short_number(double(events) / elapsed.count()) + " events/s");
+        line.show_events(total > 0.0 ? done / total : 1.0, events);
     };
     return run_sweep(call.out, plan, share, control);
 }
@@ -191,37 +188,40 @@ void sweep(SweepCall& call) {
 
 void add_sweep_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SweepCall>();
-    subcommand.add_option("plan", call->config_file, "TOML file with parameters and lists of them")
-        ->type_name("PLAN.toml");
+    const char *const group = "Sweep", *const cluster = "Cluster";
+    subcommand.add_option("plan", call->config_file, "TOML file with parameters and lists of them",
+                          "PLAN.toml");
     call->parameters = add_run_options(subcommand);
-    const auto text = [&](const char* name, std::string& into, const char* type,
-                          const char* description, const char* group) {
-        return subcommand.add_option(name, into, description)->type_name(type)->group(group);
-    };
-    const char* const group = "Sweep";
-    text("--out", call->out, "DIR", "Folder of the sweep; a repeated call completes it", group)
+    subcommand
+        .add_option("--out", call->out, "Folder of the sweep; a repeated call completes it", "DIR",
+                    group)
         ->required();
-    text("--seeds", call->seeds, "N", "Number of replicas of each point [1]", group);
-    text("--measure", call->measure, "LIST", "Measurements, as for swirl run", group);
-    text("--frames", call->frames, "N", "Recorded frames per period of each run [none]", group);
-    text("--threads", call->threads, "N", "Number of simultaneous runs [one per core]", group);
-    subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept")
-        ->group(group);
-    subcommand.add_flag("--status", call->status, "Print the numbers of runs done and failed")
-        ->group(group);
-    subcommand.add_flag("--dry-run", call->dry_run, "Print the plan and do not run")->group(group);
-    subcommand.add_flag("--quiet", call->quiet, "No progress and no report")->group(group);
-    const char* const cluster = "Cluster";
-    text("--part", call->part, "PART/PARTS", "Part of the points to run, such as 2/10", cluster);
-    subcommand.add_flag("--rest", call->rest, "Then run points that no other process works on")
-        ->group(cluster);
-    subcommand.add_flag("--slurm", call->slurm, "Submit a Slurm job array instead of running here")
-        ->group(cluster);
-    text("--nodes", call->nodes, "N", "Number of tasks of the array, one node each [1]", cluster);
-    text("--cpus", call->cpus, "N", "Cores per task [the whole node]", cluster);
-    text("--time", call->job.time, "TIME", "Time limit of a task, in the format of sbatch",
-         cluster);
-    text("--partition", call->job.partition, "NAME", "Slurm partition", cluster);
+    subcommand.add_option("--seeds", call->seeds, "Number of replicas of each point [1]", "N",
+                          group);
+    subcommand.add_option("--measure", call->measure, "Measurements, as for swirl run", "LIST",
+                          group);
+    subcommand.add_option("--frames", call->frames, "Recorded frames per period of each run [none]",
+                          "N", group);
+    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
+                          "N", group);
+    subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept",
+                        group);
+    subcommand.add_flag("--status", call->status, "Print the numbers of runs done and failed",
+                        group);
+    subcommand.add_flag("--dry-run", call->dry_run, "Print the plan and do not run", group);
+    subcommand.add_flag("--quiet", call->quiet, "No progress and no report", group);
+    subcommand.add_option("--part", call->part, "Part of the points to run, such as 2/10",
+                          "PART/PARTS", cluster);
+    subcommand.add_flag("--rest", call->rest, "Then run points that no other process works on",
+                        cluster);
+    subcommand.add_flag("--slurm", call->slurm, "Submit a Slurm job array instead of running here",
+                        cluster);
+    subcommand.add_option("--nodes", call->nodes, "Number of tasks of the array, one node each [1]",
+                          "N", cluster);
+    subcommand.add_option("--cpus", call->cpus, "Cores per task [the whole node]", "N", cluster);
+    subcommand.add_option("--time", call->job.time, "Time limit of a task, in the format of sbatch",
+                          "TIME", cluster);
+    subcommand.add_option("--partition", call->job.partition, "Slurm partition", "NAME", cluster);
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With\n"
         "--grow, the given values, replicas (--seeds is their new total) and measurements are\n"
@@ -278,15 +278,11 @@ void collect(const CollectCall& call) {
 
 void add_collect_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CollectCall>();
-    subcommand.add_option("folder", call->folder, "Folder of a sweep")
-        ->type_name("DIR")
-        ->required();
-    subcommand
-        .add_option("--csv", call->table, "File for the table, or - for stdout [DIR/table.csv]")
-        ->type_name("FILE|-");
-    subcommand
-        .add_option("--crossings", call->crossings, "File for a table of N_c, or - for stdout")
-        ->type_name("FILE|-");
+    subcommand.add_option("folder", call->folder, "Folder of a sweep", "DIR")->required();
+    subcommand.add_option("--csv", call->table,
+                          "File for the table, or - for stdout [DIR/table.csv]", "FILE|-");
+    subcommand.add_option("--crossings", call->crossings,
+                          "File for a table of N_c, or - for stdout", "FILE|-");
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each\n"
         "combination of the other parameters.\n");

@@ -45,15 +45,18 @@ class Subcommand {
   public:
     /// The returned pointer stays valid. With a vector as target, the option may be repeated.
     template <class Target>
-    Option* add_option(std::string name, Target& target, std::string description) {
-        return add(std::move(name), &target, std::move(description));
+    Option* add_option(std::string name, Target& target, std::string description,
+                       std::string form = "", std::string group = "") {
+        Option* const option = add(std::move(name), &target, std::move(description));
+        return option->type_name(std::move(form))->group(std::move(group));
     }
     Option* add_option_function(std::string name, std::function<void(const std::string&)> take,
                                 std::string description) {
         return add(std::move(name), std::move(take), std::move(description));
     }
-    Option* add_flag(std::string name, bool& target, std::string description) {
-        return add(std::move(name), &target, std::move(description));
+    Option* add_flag(std::string name, bool& target, std::string description,
+                     std::string group = "") {
+        return add(std::move(name), &target, std::move(description))->group(std::move(group));
     }
 
     /// Complete commands, shown at the end of the help.

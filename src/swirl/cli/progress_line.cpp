@@ -38,7 +38,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
       quiet_(quiet),
       terminal_(is_capable_terminal()),
       color_(terminal_ && !is_set("NO_COLOR")),
-      begin_(Clock::now()),
+      begin_(created_),
       next_(begin_ + (terminal_ ? std::chrono::seconds(0) : first_line_after)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
@@ -68,6 +68,11 @@ void ProgressLine::show(double fraction, const std::string& rate) {
     next_ = now + line_interval;
     fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", label_, 100.0 * done, rate,
                done > 0.0 ? short_duration(left) : "unknown time");
+}
+
+void ProgressLine::show_events(double fraction, std::uint64_t events) {
+    const std::chrono::duration<double> elapsed = Clock::now() - created_;
+    show(fraction, short_number(double(events) / elapsed.count()) + " events/s");
 }
 
 void ProgressLine::draw_bar(double fraction, const std::string& rate, double left) {

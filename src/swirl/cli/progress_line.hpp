@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <string>
 
@@ -19,6 +20,9 @@ class ProgressLine {
     /// from any thread.
     void show(double fraction, const std::string& rate);
 
+    /// The same, with the rate of `events` since the line was created.
+    void show_events(double fraction, std::uint64_t events);
+
     /// Removes the bar before other output.
     void clear();
 
@@ -28,6 +32,7 @@ class ProgressLine {
 
     const std::string label_;
     const bool quiet_, terminal_, color_;
+    const Clock::time_point created_ = Clock::now();
     Clock::time_point begin_;  // of the present stage
     double last_ = 0.0;        // fraction shown last
     Clock::time_point next_;

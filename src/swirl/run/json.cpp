@@ -45,7 +45,7 @@ Json config_json(const RunConfig& config) {
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, config);
-        if (p.omitted_if_unset && std::holds_alternative<std::monostate>(value)) continue;
+        if (p.is_omitted(value)) continue;
         json[p.name] = std::visit(ToJson(), value);
     }
     return json;

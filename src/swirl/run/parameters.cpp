@@ -150,14 +150,14 @@ void keep_path_or_sides(ParameterTexts& texts, const ParameterTexts& command_lin
 }
 
 std::optional<std::string> outside(const Parameter& p, double value) {
-    if (value >= p.lowest && value <= p.highest) return {};
+    if (value >= p.range.lowest && value <= p.range.highest) return {};
     return fmt::format("{} is {}, but it must be a number from {} to {}.", option_name(p.name),
-                       value, p.lowest, p.highest);
+                       value, p.range.lowest, p.range.highest);
 }
 
 std::optional<std::string> outside(const Parameter& p, std::int64_t value) {
-    const auto lowest = static_cast<std::int64_t>(p.lowest);
-    const auto highest = static_cast<std::int64_t>(p.highest);
+    const auto lowest = static_cast<std::int64_t>(p.range.lowest);
+    const auto highest = static_cast<std::int64_t>(p.range.highest);
     if (value >= lowest && value <= highest) return {};
     return fmt::format("{} is {}, but it must be a whole number from {} to {}.",
                        option_name(p.name), value, lowest, highest);
@@ -195,7 +195,7 @@ void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) 
     if (text != "disc" && text != "sphere") reject_text("body", text, "disc or sphere");
     config.body = text == "sphere" ? Shape::sphere : Shape::disc;
 }
-/// Results of discs omit the type, and the parameters below that they do not use.
+/// Results of discs omit the type.
 ParameterValue write_body(const RunConfig& config) {
     return config.body == Shape::sphere ? ParameterValue("sphere") : ParameterValue();
 }
@@ -204,27 +204,11 @@ void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config)
     if (text != "none" && text != "sliding")
         reject_text("floor", text,
                     "none or sliding: on a perfectly rough floor spheres would collide without "
-                    "end.\nhint: a large --floor-friction, such as 100, has the same effect");
+                    "end.\nhint: a large --floor-friction, 100 for example, has the same effect");
     config.floor = text == "sliding";
 }
 ParameterValue write_floor(const RunConfig& config) {
     return config.floor ? ParameterValue("sliding") : ParameterValue();
-}
-ParameterValue write_floor_friction(const RunConfig& config) {
-    return config.floor ? ParameterValue(config.floor_friction) : ParameterValue();
-}
-ParameterValue write_rolling_resistance(const RunConfig& config) {
-    return config.rolling_resistance == 0.0 ? ParameterValue()
-                                            : ParameterValue(config.rolling_resistance);
-}
-ParameterValue write_vertical_disc(const RunConfig& config) {
-    return config.vertical_disc == 1.0 ? ParameterValue() : ParameterValue(config.vertical_disc);
-}
-ParameterValue write_vertical_wall(const RunConfig& config) {
-    return config.vertical_wall == 1.0 ? ParameterValue() : ParameterValue(config.vertical_wall);
-}
-ParameterValue write_gravity(const RunConfig& config) {
-    return config.floor ? ParameterValue(config.gravity) : ParameterValue();
 }
 
 /// Names are multiples of m r²; a number is the moment of inertia itself. The default is the
@@ -374,7 +358,11 @@ std::vector<std::string> parameter_names() {
 }
 
 ParameterValue value_of(const Parameter& p, const RunConfig& config) {
-    return p.write ? p.write(config) : member_value(p, config);
+    if (p.write) return p.write(config);
+    const ParameterValue value = member_value(p, config);
+    if (p.written == WrittenIf::floor && !config.floor) return {};
+    if (p.written == WrittenIf::not_default && value == member_value(p, {})) return {};
+    return value;
 }
 
 std::string default_of(const Parameter& p) {

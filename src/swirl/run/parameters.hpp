@@ -44,6 +44,7 @@ inline constexpr double experiment_friction = 0.2, experiment_restitution = 0.9;
 struct Mixture {
     std::int64_t count;
     double radius, mass;
+    bool operator==(const Mixture&) const = default;
 };
 
 struct RunConfig {
@@ -113,13 +114,27 @@ using ParameterFormatter = std::string(const RunConfig& config);
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
 ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_speed,
     read_path, read_sides, read_periods, read_warmup;
-ParameterWriter write_body, write_floor, write_floor_friction, write_gravity,
-    write_rolling_resistance, write_vertical_disc, write_vertical_wall, write_mixture, write_speed,
-    write_omega, write_path, write_sides, write_events, write_warmup;
+ParameterWriter write_body, write_floor, write_mixture, write_speed, write_omega, write_path,
+    write_sides, write_events, write_warmup;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
 enum class ReadingOrder { first, second, last };
+
+/// Whether a parameter is part of a written configuration.
+enum class WrittenIf {
+    always,       // null if it is not set
+    set,          // omitted if it is not set
+    not_default,  // omitted if it is the default
+    floor         // omitted without a floor
+};
+
+struct ParameterRange {
+    double lowest = 0.0, highest = 0.0;
+};
+inline constexpr ParameterRange positive{smallest_value, largest_value};
+inline constexpr ParameterRange nonnegative{0, largest_value};
+inline constexpr ParameterRange fraction{0, 1};
 
 /// The range and the step of a slider on the page.
 struct SliderRange {
@@ -138,7 +153,7 @@ struct Parameter {
     std::variant<std::monostate, double RunConfig::*, std::int64_t RunConfig::*, int RunConfig::*,
                  std::uint64_t RunConfig::*, std::optional<std::int64_t> RunConfig::*>
         member = {};
-    double lowest = 0.0, highest = 0.0;
+    ParameterRange range = {};
     /// Step 0: no slider. Values outside the slider's range are allowed.
     SliderRange slider = {};
     /// Needed only if the parameter is not simply the member as a number.
@@ -147,13 +162,17 @@ struct Parameter {
     ParameterFormatter* format = nullptr;  // text that `read` accepts, if the value's text is not
     const char* default_text = nullptr;    // needed if the default is not the member's value
     ReadingOrder order = ReadingOrder::first;
-    bool is_derived = false;        // written, but not read back: it follows from others
-    bool omitted_if_unset = false;  // not in results of runs that do not use it
+    WrittenIf written = WrittenIf::always;
+    bool is_derived = false;  // written, but not read back: it follows from others
     /// If this parameter is given on the command line, the file's values of these are ignored.
     std::array<const char*, 2> overrides = {};
 
     /// False for parameters that are only written.
     bool is_settable() const { return read != nullptr || member.index() != 0; }
+    /// Whether a configuration with this value does not contain the parameter.
+    bool is_omitted(const ParameterValue& value) const {
+        return written != WrittenIf::always && std::holds_alternative<std::monostate>(value);
+    }
     /// False for parameters that only set others.
     bool is_written() const { return write != nullptr || member.index() != 0; }
 };
@@ -178,16 +197,14 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Number of discs or spheres",
      .group = parameter_group::particles,
      .member = &RunConfig::discs,
-     .lowest = 1,
-     .highest = max_discs,
+     .range = {1, max_discs},
      .slider = {1, 55, 1}},
     {.name = "mu",
      .symbol = "μ",
      .form = "NUMBER",
      .description = "Friction coefficient between particles and at the wall",
      .group = parameter_group::particles,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 2, 0.05},
      .read = read_mu,
      .default_text = "1",
@@ -198,8 +215,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Friction coefficient between particles [value of --mu]",
      .group = parameter_group::particles,
      .member = &RunConfig::mu_disc,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 2, 0.05},
      .default_text = ""},
     {.name = "mu_wall",
@@ -208,8 +224,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Friction coefficient at the wall [value of --mu]",
      .group = parameter_group::particles,
      .member = &RunConfig::mu_wall,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 2, 0.05},
      .default_text = ""},
     {.name = "body",
@@ -220,7 +235,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .read = read_body,
      .write = write_body,
      .default_text = "disc",
-     .omitted_if_unset = true},
+     .written = WrittenIf::set},
     {.name = "inertia",
      .symbol = "I",
      .unit = "mass · length²",
@@ -230,8 +245,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "(the default for spheres), shell = 2/3 m r^2.",
      .group = parameter_group::particles,
      .member = &RunConfig::inertia,
-     .lowest = 1e-12,
-     .highest = 1e18,
+     .range = {1e-12, 1e18},
      .slider = {0.25, 20, 0.25},
      .read = read_inertia,
      .format = format_inertia,
@@ -244,8 +258,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Mass of one particle",
      .group = parameter_group::particles,
      .member = &RunConfig::mass,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {0.1, 10, 0.1}},
     {.name = "radius",
      .symbol = "r",
@@ -254,8 +267,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Radius of one particle",
      .group = parameter_group::particles,
      .member = &RunConfig::radius,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {0.1, 2, 0.05}},
     {.name = "mixture",
      .form = "COUNT:RADIUS[:MASS]",
@@ -263,8 +275,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "They are part of --discs. The default mass is that of the same material: m ~ r^2 "
                 "for discs, r^3 for spheres.",
      .group = parameter_group::particles,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .read = read_mixture,
      .write = write_mixture,
      .format = format_mixture,
@@ -275,8 +286,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Normal coefficient of restitution; 1 is elastic",
      .group = parameter_group::particles,
      .member = &RunConfig::restitution,
-     .lowest = 0,
-     .highest = 1,
+     .range = fraction,
      .slider = {0.5, 1, 0.01}},
     {.name = "tangential_restitution",
      .symbol = "β",
@@ -285,8 +295,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "The fraction of the slip that the contact returns.",
      .group = parameter_group::particles,
      .member = &RunConfig::tangential_restitution,
-     .lowest = 0,
-     .highest = 1,
+     .range = fraction,
      .slider = {0, 1, 0.05}},
     {.name = "contact_duration",
      .symbol = "t_c",
@@ -297,8 +306,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "nothing. It matters with --restitution below 1 or on a floor.",
      .group = parameter_group::particles,
      .member = &RunConfig::contact_duration,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 0.1, 0.001}},
     {.name = "floor",
      .form = "none|sliding",
@@ -308,18 +316,16 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .read = read_floor,
      .write = write_floor,
      .default_text = "none",
-     .omitted_if_unset = true},
+     .written = WrittenIf::set},
     {.name = "floor_friction",
      .symbol = "μ_f",
      .form = "NUMBER",
      .description = "Friction coefficient of the floor",
      .group = parameter_group::particles,
      .member = &RunConfig::floor_friction,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {0.05, 1, 0.05},
-     .write = write_floor_friction,
-     .omitted_if_unset = true},
+     .written = WrittenIf::floor},
     {.name = "gravity",
      .symbol = "g",
      .unit = "length / time²",
@@ -327,11 +333,9 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Gravitational acceleration; acts only with a floor",
      .group = parameter_group::particles,
      .member = &RunConfig::gravity,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {0.5, 20, 0.5},
-     .write = write_gravity,
-     .omitted_if_unset = true},
+     .written = WrittenIf::floor},
     {.name = "rolling_resistance",
      .symbol = "μ_r",
      .form = "NUMBER",
@@ -339,11 +343,9 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "At most --floor-friction.",
      .group = parameter_group::particles,
      .member = &RunConfig::rolling_resistance,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 0.05, 0.001},
-     .write = write_rolling_resistance,
-     .omitted_if_unset = true},
+     .written = WrittenIf::not_default},
     {.name = "vertical_disc",
      .symbol = "κ_d",
      .form = "0..1",
@@ -351,11 +353,9 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "For contacts between two spheres; 0: friction acts as between discs.",
      .group = parameter_group::particles,
      .member = &RunConfig::vertical_disc,
-     .lowest = 0,
-     .highest = 1,
+     .range = fraction,
      .slider = {0, 1, 0.05},
-     .write = write_vertical_disc,
-     .omitted_if_unset = true},
+     .written = WrittenIf::not_default},
     {.name = "vertical_wall",
      .symbol = "κ_w",
      .form = "0..1",
@@ -363,11 +363,9 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "For contacts of a sphere with the wall; 0: friction acts as for discs.",
      .group = parameter_group::particles,
      .member = &RunConfig::vertical_wall,
-     .lowest = 0,
-     .highest = 1,
+     .range = fraction,
      .slider = {0, 1, 0.05},
-     .write = write_vertical_wall,
-     .omitted_if_unset = true},
+     .written = WrittenIf::not_default},
     {.name = "container_radius",
      .symbol = "R",
      .unit = "length",
@@ -375,8 +373,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Radius of the container",
      .group = parameter_group::container,
      .member = &RunConfig::container_radius,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {4, 20, 0.1}},
     {.name = "amplitude",
      .symbol = "A",
@@ -386,8 +383,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "Of a polygon, the radius of its circumscribed circle.",
      .group = parameter_group::container,
      .member = &RunConfig::amplitude,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0, 5, 0.05}},
     {.name = "period",
      .symbol = "T",
@@ -396,8 +392,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Duration of one turn of the container along its path",
      .group = parameter_group::container,
      .member = &RunConfig::period,
-     .lowest = smallest_value,
-     .highest = largest_value,
+     .range = positive,
      .slider = {2, 40, 0.1}},
     {.name = "speed",
      .symbol = "v",
@@ -405,8 +400,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "NUMBER",
      .description = "Speed of the container; replaces --period or --amplitude",
      .group = parameter_group::container,
-     .lowest = 0,
-     .highest = largest_value,
+     .range = nonnegative,
      .slider = {0.1, 5, 0.1},
      .read = read_speed,
      .write = write_speed,
@@ -433,8 +427,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Number of sides of the polygon",
      .group = parameter_group::container,
      .member = &RunConfig::sides,
-     .lowest = 3,
-     .highest = max_sides,
+     .range = {3, max_sides},
      .slider = {3, 60, 1},
      .read = read_sides,
      .write = write_sides},
@@ -444,8 +437,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Length of the run in events of all kinds",
      .group = parameter_group::run,
      .member = &RunConfig::events,
-     .lowest = 1,
-     .highest = max_events,
+     .range = {1, max_events},
      .slider = {20'000, 2'000'000, 20'000},
      .write = write_events,
      .overrides = {"periods"}},
@@ -455,8 +447,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Length of the run in periods; replaces --events",
      .group = parameter_group::run,
      .member = &RunConfig::periods,
-     .lowest = 1,
-     .highest = max_periods,
+     .range = {1, max_periods},
      .slider = {20, 2000, 20},
      .read = read_periods,
      .overrides = {"events"}},
@@ -468,12 +459,11 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "half of the run.",
      .group = parameter_group::run,
      .member = &RunConfig::warmup,
-     .lowest = 0,
-     .highest = max_periods,
+     .range = {0, max_periods},
      .slider = {0, 200, 1},
      .read = read_warmup,
      .write = write_warmup,
-     .default_text = "20, or a fifth of the run if that is shorter"},
+     .default_text = "20, at most a fifth of the run"},
     {.name = "seed",
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",
