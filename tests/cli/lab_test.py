@@ -379,10 +379,10 @@ class Laboratory(unittest.TestCase):
                 self.assertEqual(here.returncode, 2)
                 if "disks" in wrong:  # of options CLI11 says it
                     self.assertEqual(there["refused"],
-                                     "There is no parameter 'disks'; did you mean 'discs'?")
+                                     "there is no parameter 'disks'.\nhint: did you mean 'discs'?")
                     continue
                 self.assertIn(there["refused"], here.stderr)
-                self.assertRegex(there["refused"], r"^(--)?\w.*\.$")
+                self.assertRegex(there["refused"], r"(?s)^(--)?\w.*\.$")
 
     def test_the_page_in_a_browser(self):
         if not CHROMIUM:
