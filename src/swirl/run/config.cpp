@@ -249,7 +249,8 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
     const Segment& segment = state.path.segments.front();
     // A separate stream: the velocities must not repeat the numbers that placed the discs.
-    Random random(Random(c.seed ^ 0x76656c6f63697479u).bits());
+    constexpr std::uint64_t stream = 0x76656c6f63697479;  // "velocity" in ASCII
+    Random random(Random(c.seed ^ stream).bits());
     state.discs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         if (stop && stop->load()) throw_interrupted("stopped before the first event.");
