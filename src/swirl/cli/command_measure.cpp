@@ -70,10 +70,10 @@ std::string remark_on_rolling(const Json& measured) {
     for (const MeasuredNumber& number : measured_numbers(measured))
         if (number.name == "rolling.rolling_share" && number.estimate.mean == 0.0)
             return fmt::format(
-                "no sphere rolls in any of the frames, because all spheres slide at a vertex of "
-                "the "
-                "path; a recording with 30 frames per period on 30 sides has no other frames."
-                "\nhint: record {} frames per period.",
+                "no sphere rolls in any of the frames: all spheres slide at a vertex of the path, "
+                "and "
+                "a recording with 30 frames per period on 30 sides has no other frames.\nhint: "
+                "record {} frames per period.",
                 samples_per_period);
     return "";
 }
